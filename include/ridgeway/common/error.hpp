@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace ridgeway {
+
+/// The one exception of the library: something that a caller handed in is bad.
+/// Outcomes of planning ("no route") are values, never exceptions.
+class InputError : public std::runtime_error {
+ public:
+  /// `what_went_wrong`: the defect; `where`: the file, field or value that has it;
+  /// `remedy`: what the caller can do about it.
+  InputError(const std::string& where, const std::string& what_went_wrong,
+             const std::string& remedy)
+      : std::runtime_error(where + ": " + what_went_wrong + " (" + remedy + ")"),
+        where_(where),
+        remedy_(remedy) {}
+
+  const std::string& where() const noexcept { return where_; }
+  const std::string& remedy() const noexcept { return remedy_; }
+
+ private:
+  std::string where_;
+  std::string remedy_;
+};
+
+/// Thrown out of a long stage when the caller's progress callback asks to stop.
+class Cancelled : public std::runtime_error {
+ public:
+  Cancelled() : std::runtime_error("cancelled by the caller") {}
+};
+
+}  // namespace ridgeway

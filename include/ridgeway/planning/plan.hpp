@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "ridgeway/roadmap/roadmap.hpp"
+
+namespace ridgeway {
+
+enum class PlanStatus : std::uint8_t {
+  kOk,
+  kStartOutsideMap,
+  kStartUnknown,
+  kStartInCollision,
+  kGoalOutsideMap,
+  kGoalUnknown,
+  kGoalInCollision,
+  kNoRoute,
+  kRadiusTooSmall,
+  kTimeout,
+};
+
+/// Which structure is searched, and which one answered.
+enum class Planner : std::uint8_t { kGraph, kDiagram, kEsdf };
+
+/// Names as in the JSON output: "ok", "start_outside_map", ...; "graph", "diagram", "esdf".
+std::string_view name_of(PlanStatus status);
+std::string_view name_of(Planner planner);
+
+struct PlanConfig {
+  Planner planner = Planner::kGraph;
+  std::optional<double> radius;  ///< metres; the roadmap's min_clearance when not given
+  bool shorten = true;           ///< pull the path tight; otherwise as the search found it
+  double time_limit = std::numeric_limits<double>::infinity();  ///< seconds
+
+  /// Throws InputError naming the bad field (radius or time limit negative, NaN).
+  void validate() const;
+};
+
+struct PlanSeconds {
+  double attach = 0.0;
+  double search = 0.0;
+  double shorten = 0.0;
+  double total = 0.0;
+};
+
+/// A path, or the one reason why there is none.
+struct PlanResult {
+  PlanStatus status = PlanStatus::kNoRoute;
+  Planner answered_by = Planner::kGraph;
+  std::vector<Point> waypoints;  ///< start first, goal last; empty unless ok
+  double length = 0.0;           ///< metres
+  double clearance = 0.0;        ///< smallest distance to an obstacle along the path, metres
+  double unknown_share = 0.0;    ///< share of the length whose nearest obstacle is unknown space
+  PlanSeconds seconds;
+
+  bool ok() const { return status == PlanStatus::kOk; }
+};
+
+/// Plans from start to goal (metres, map frame) for a sphere of the asked radius. Every segment of
+/// the path has been verified by the free-space predicate (esdf/free_space.hpp). The answer is
+/// exact on the voxel lattice: a path is found exactly when A* through the ESDF would find one.
+/// Thread-safe on one roadmap.
+PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
+                const PlanConfig& config = {});
+
+}  // namespace ridgeway

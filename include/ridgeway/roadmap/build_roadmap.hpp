@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <limits>
+
+#include "ridgeway/common/progress.hpp"
+#include "ridgeway/roadmap/roadmap.hpp"
+
+namespace ridgeway {
+
+/// From occupancy to a queryable roadmap. Lengths in metres, angles in radians.
+struct BuildConfig {
+  double min_clearance = 0.4;  ///< smallest robot radius the roadmap is for
+  UnknownPolicy unknown = UnknownPolicy::kObstacle;
+  double max_distance = std::numeric_limits<double>::infinity();  ///< distances stop here
+  double theta = 0.785;          ///< GVD: least angle between the directions to two sites
+  double prune_radius = 0.35;    ///< vertices closer than this along the diagram become one
+  double split_deviation = 0.0;  ///< edge's greatest distance from its diagram; 0: two voxels
+  bool paper_diagram = false;    ///< thinned edges alone, without the kernel, for comparison
+
+  /// Throws InputError naming the bad field.
+  void validate() const;
+};
+
+struct BuildSeconds {
+  double esdf = 0.0, gvd = 0.0, edges = 0.0, thin = 0.0, kernel = 0.0, graph = 0.0, attach = 0.0,
+         total = 0.0;
+};
+
+/// Counts and times of a build, for reports.
+struct BuildReport {
+  VoxelCounts voxels;
+  std::size_t allocated_voxels = 0;
+  std::size_t traversable_voxels = 0;
+  std::size_t traversable_components = 0;
+  std::size_t gvd_voxels = 0;
+  std::size_t edge_voxels = 0;
+  std::size_t kernel_voxels = 0;
+  std::size_t diagram_voxels = 0;
+  std::size_t graph_components = 0;
+  BuildSeconds seconds;
+};
+
+struct BuildResult {
+  Roadmap roadmap;
+  BuildReport report;
+};
+
+/// The whole pipeline: ESDF, GVD, edges, thinning, kernel, diagram, graph, attach field. Consumes
+/// the map. Same map and configuration give the same bytes for any number of threads (set by
+/// with_threads, common/parallel.hpp). Throws InputError where nothing is free.
+BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config = {},
+                          const Progress& progress = {});
+
+}  // namespace ridgeway

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "ridgeway/voxel/index.hpp"
+
+namespace ridgeway {
+
+enum class VertexId : std::uint32_t {};
+enum class EdgeId : std::uint32_t {};
+inline constexpr VertexId kNoVertex{0xffffffffu};
+constexpr std::size_t number(VertexId id) { return static_cast<std::size_t>(id); }
+constexpr std::size_t number(EdgeId id) { return static_cast<std::size_t>(id); }
+
+struct Vertex {
+  VoxelIndex voxel;        ///< the diagram voxel it stands on
+  Point position;          ///< that voxel's centre, metres
+  double clearance = 0.0;  ///< distance to the nearest obstacle, metres
+};
+
+struct Edge {
+  VertexId from{};         ///< from < to
+  VertexId to{};
+  double length = 0.0;     ///< metres
+  double clearance = 0.0;  ///< smallest distance to an obstacle along the whole segment, metres
+};
+
+/// One end of an edge as a vertex sees it.
+struct Link {
+  VertexId vertex{};  ///< the other end
+  EdgeId edge{};
+};
+
+/// Vertices and straight, collision-free edges (paper: Sparse Graph Generation).
+/// Contract: every edge is a straight segment whose clearance, all along it, is at least
+/// `min_clearance`; there are no self-loops and no two edges between the same vertices; edges are
+/// sorted by (from, to). Plain data; read-only use is thread-safe.
+struct SparseGraph {
+  double min_clearance = 0.0;  ///< metres
+  std::vector<Vertex> vertices;
+  std::vector<Edge> edges;
+  std::vector<std::uint32_t> first_link;  ///< vertices.size() + 1 entries into `links`
+  std::vector<Link> links;
+
+  std::span<const Link> links_of(VertexId v) const {
+    return std::span(links).subspan(first_link[number(v)],
+                                    first_link[number(v) + 1] - first_link[number(v)]);
+  }
+};
+
+/// Sorts the edges and fills `first_link` and `links` from them.
+void index_links(SparseGraph& graph);
+
+/// Label of the connected part each vertex belongs to, 0 .. count - 1, numbered by first vertex.
+struct GraphComponents {
+  std::vector<std::uint32_t> label;
+  std::uint32_t count = 0;
+};
+GraphComponents connected_components(const SparseGraph& graph);
+
+}  // namespace ridgeway

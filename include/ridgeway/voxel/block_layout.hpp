@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "ridgeway/voxel/index.hpp"
+#include "ridgeway/voxel/neighbourhood.hpp"
+
+namespace ridgeway {
+
+/// Which blocks of the unbounded lattice are allocated, and where. Voxel values live in arrays
+/// beside it (VoxelField, VoxelMask), one per quantity, all indexed by VoxelId, so that a stage
+/// touches only the bytes it needs and memory follows what is known, not the bounding box.
+///
+/// Blocks are numbered ("slots") in (z, y, x) order, so the same set of blocks gives the same
+/// numbers. Immutable after construction: safe to read from many threads.
+class BlockLayout {
+ public:
+  BlockLayout() = default;
+
+  /// Takes the blocks in any order; doubles count once. At most 2^23 - 1 blocks (4.29e9 voxels).
+  explicit BlockLayout(std::vector<BlockIndex> blocks);
+
+  std::uint32_t block_count() const { return static_cast<std::uint32_t>(blocks_.size()); }
+  std::size_t voxel_count() const { return blocks_.size() * kBlockVoxels; }
+  std::span<const BlockIndex> blocks() const { return blocks_; }
+  const BlockIndex& block(std::uint32_t slot) const { return blocks_[slot]; }
+
+  /// Slot of a block, or kNoBlock.
+  std::uint32_t find_block(const BlockIndex& block) const;
+  /// Slot of the block in one of 27 directions from a block, or kNoBlock.
+  std::uint32_t neighbour_block(std::uint32_t slot, int direction) const {
+    return neighbours_[slot][static_cast<std::size_t>(direction)];
+  }
+
+  /// Handle of a voxel, or kNoVoxel where its block is not allocated.
+  VoxelId find(const VoxelIndex& voxel) const {
+    const std::uint32_t slot = find_block(block_of(voxel));
+    return slot == kNoBlock ? kNoVoxel : slot * kBlockVoxels + local_of(voxel);
+  }
+  VoxelIndex index_of(VoxelId id) const {
+    return voxel_of(blocks_[id / kBlockVoxels], static_cast<int>(id % kBlockVoxels));
+  }
+
+  /// Handle of the 26-neighbour in a direction, or kNoVoxel.
+  VoxelId neighbour(VoxelId id, int direction) const {
+    const VoxelIndex o = offset_of(direction);
+    return step(id, o.x, o.y, o.z);
+  }
+
+  /// Handle of the voxel at a small offset (each part within -8..8), or kNoVoxel.
+  VoxelId step(VoxelId id, int dx, int dy, int dz) const {
+    const int x = static_cast<int>(id & 7) + dx;
+    const int y = static_cast<int>(id >> 3 & 7) + dy;
+    const int z = static_cast<int>(id >> 6 & 7) + dz;
+    std::uint32_t slot = id / kBlockVoxels;
+    if (((x | y | z) & ~7) != 0) {
+      const int direction = (x >> 3) + 1 + 3 * ((y >> 3) + 1) + 9 * ((z >> 3) + 1);
+      slot = neighbours_[slot][static_cast<std::size_t>(direction)];
+      if (slot == kNoBlock) return kNoVoxel;
+    }
+    return slot * kBlockVoxels +
+           static_cast<VoxelId>((x & 7) | (y & 7) << 3 | (z & 7) << 6);
+  }
+
+  std::size_t memory_bytes() const;
+
+  static constexpr std::uint32_t kNoBlock = 0xffffffffu;
+
+  friend bool operator==(const BlockLayout& a, const BlockLayout& b) {
+    return a.blocks_ == b.blocks_;
+  }
+
+ private:
+  std::vector<BlockIndex> blocks_;
+  std::vector<std::array<std::uint32_t, 27>> neighbours_;
+  std::vector<std::uint32_t> table_;  // open addressing: slots, kNoBlock where empty
+};
+
+}  // namespace ridgeway

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "ridgeway/voxel/index.hpp"
+
+namespace ridgeway {
+
+/// The 3x3x3 cube around a voxel as 27 bits: bit (dx+1) + 3 (dy+1) + 9 (dz+1). The same number
+/// names a direction; 13 is the voxel itself.
+using Cube27 = std::uint32_t;
+using Direction = std::uint8_t;
+
+inline constexpr Direction kCentre = 13;
+inline constexpr Cube27 kCentreBit = 1u << kCentre;
+inline constexpr Cube27 kAllCells = (1u << 27) - 1;
+
+constexpr VoxelIndex offset_of(int direction) {
+  return {direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1};
+}
+
+constexpr int direction_of(const VoxelIndex& offset) {
+  return (offset.x + 1) + 3 * (offset.y + 1) + 9 * (offset.z + 1);
+}
+
+constexpr int opposite(int direction) { return 26 - direction; }
+
+/// Squared length of the step in a direction, voxels: 0 to 3.
+constexpr int squared_length(int direction) {
+  const VoxelIndex o = offset_of(direction);
+  return o.x * o.x + o.y * o.y + o.z * o.z;
+}
+
+namespace detail {
+constexpr Cube27 cells_up_to(int longest) {
+  Cube27 cells = 0;
+  for (int d = 0; d < 27; ++d)
+    if (d != kCentre && squared_length(d) <= longest) cells |= 1u << d;
+  return cells;
+}
+constexpr Cube27 cells_where(int axis, int value) {
+  Cube27 cells = 0;
+  for (int d = 0; d < 27; ++d) {
+    const VoxelIndex o = offset_of(d);
+    if ((axis == 0 ? o.x : axis == 1 ? o.y : o.z) == value) cells |= 1u << d;
+  }
+  return cells;
+}
+}  // namespace detail
+
+inline constexpr Cube27 kCells6 = detail::cells_up_to(1);
+inline constexpr Cube27 kCells18 = detail::cells_up_to(2);
+inline constexpr Cube27 kCells26 = detail::cells_up_to(3);
+
+inline constexpr std::array<Direction, 6> kFaceDirections = {4, 10, 12, 14, 16, 22};
+
+/// All cells 26-adjacent to (or in) a set of cells of the cube.
+constexpr Cube27 grow26(Cube27 cells) {
+  constexpr Cube27 not_first_x = ~detail::cells_where(0, -1) & kAllCells;
+  constexpr Cube27 not_last_x = ~detail::cells_where(0, 1) & kAllCells;
+  constexpr Cube27 not_first_y = ~detail::cells_where(1, -1) & kAllCells;
+  constexpr Cube27 not_last_y = ~detail::cells_where(1, 1) & kAllCells;
+  cells |= ((cells & not_last_x) << 1) | ((cells & not_first_x) >> 1);
+  cells |= ((cells & not_last_y) << 3) | ((cells & not_first_y) >> 3);
+  return (cells | cells << 9 | cells >> 9) & kAllCells;
+}
+
+/// All cells 6-adjacent to (or in) a set of cells of the cube.
+constexpr Cube27 grow6(Cube27 cells) {
+  constexpr Cube27 not_first_x = ~detail::cells_where(0, -1) & kAllCells;
+  constexpr Cube27 not_last_x = ~detail::cells_where(0, 1) & kAllCells;
+  constexpr Cube27 not_first_y = ~detail::cells_where(1, -1) & kAllCells;
+  constexpr Cube27 not_last_y = ~detail::cells_where(1, 1) & kAllCells;
+  return (cells | (cells & not_last_x) << 1 | (cells & not_first_x) >> 1 |
+          (cells & not_last_y) << 3 | (cells & not_first_y) >> 3 | cells << 9 | cells >> 9) &
+         kAllCells;
+}
+
+/// Cells of `within` that are reached from `seed` by 26-steps inside `within`.
+constexpr Cube27 flood26(Cube27 seed, Cube27 within) {
+  for (Cube27 grown = seed & within;; seed = grown, grown = grow26(seed) & within)
+    if (grown == seed) return seed;
+}
+
+/// Cells of `within` that are reached from `seed` by 6-steps inside `within`.
+constexpr Cube27 flood6(Cube27 seed, Cube27 within) {
+  for (Cube27 grown = seed & within;; seed = grown, grown = grow6(seed) & within)
+    if (grown == seed) return seed;
+}
+
+}  // namespace ridgeway

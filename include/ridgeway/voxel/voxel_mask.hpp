@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "ridgeway/voxel/block_layout.hpp"
+
+namespace ridgeway {
+
+/// A set of voxels: one bit a voxel, a row of eight along x is one byte, a block is 64 bytes
+/// (one z-layer is one 64-bit word). A whole map of it fits the cache, which is what makes
+/// thinning fast. Voxels outside the layout's blocks count as `outside`.
+class VoxelMask {
+ public:
+  using Block = std::array<std::uint64_t, kBlockSide>;  // [z], bit x + 8 y
+
+  VoxelMask() = default;
+  explicit VoxelMask(const BlockLayout& layout) : blocks_(layout.block_count()) {}
+
+  bool test(VoxelId id) const { return word(id) >> (id & 63) & 1; }
+  void set(VoxelId id) { word(id) |= 1ull << (id & 63); }
+  void reset(VoxelId id) { word(id) &= ~(1ull << (id & 63)); }
+
+  Block& block(std::uint32_t slot) { return blocks_[slot]; }
+  const Block& block(std::uint32_t slot) const { return blocks_[slot]; }
+  std::size_t block_count() const { return blocks_.size(); }
+
+  std::size_t count() const {
+    std::size_t total = 0;
+    for (const Block& block : blocks_)
+      for (const std::uint64_t layer : block) total += static_cast<std::size_t>(std::popcount(layer));
+    return total;
+  }
+
+  /// Members in ascending order of their handle.
+  std::vector<VoxelId> members() const {
+    std::vector<VoxelId> ids;
+    ids.reserve(count());
+    for (std::uint32_t slot = 0; slot < blocks_.size(); ++slot)
+      for (std::uint32_t z = 0; z < kBlockSide; ++z)
+        for (std::uint64_t bits = blocks_[slot][z]; bits != 0; bits &= bits - 1)
+          ids.push_back(slot * kBlockVoxels + z * 64 +
+                        static_cast<VoxelId>(std::countr_zero(bits)));
+    return ids;
+  }
+
+  friend bool operator==(const VoxelMask&, const VoxelMask&) = default;
+  std::size_t memory_bytes() const { return blocks_.capacity() * sizeof(Block); }
+
+ private:
+  std::uint64_t& word(VoxelId id) { return blocks_[id >> 9][id >> 6 & 7]; }
+  const std::uint64_t& word(VoxelId id) const { return blocks_[id >> 9][id >> 6 & 7]; }
+
+  std::vector<Block> blocks_;
+};
+
+/// The 3x3x3 cube around a voxel, voxels outside the allocated blocks counting as absent. The
+/// voxel's own bit is included.
+inline Cube27 cube_around(const BlockLayout& layout, const VoxelMask& mask, VoxelId id) {
+  const int x = static_cast<int>(id & 7), y = static_cast<int>(id >> 3 & 7),
+            z = static_cast<int>(id >> 6 & 7);
+  const std::uint32_t slot = id >> 9;
+  Cube27 cube = 0;
+  if (x > 0 && x < 7 && y > 0 && y < 7 && z > 0 && z < 7) {
+    const VoxelMask::Block& block = mask.block(slot);
+    const int shift = x - 1 + 8 * (y - 1);
+    for (int dz = 0; dz < 3; ++dz) {
+      const std::uint64_t layer = block[static_cast<std::size_t>(z - 1 + dz)] >> shift;
+      cube |= static_cast<Cube27>((layer & 7) | (layer >> 8 & 7) << 3 | (layer >> 16 & 7) << 6)
+              << (9 * dz);
+    }
+    return cube;
+  }
+  for (int d = 0; d < 27; ++d) {
+    const VoxelId n = layout.neighbour(id, d);
+    if (n != kNoVoxel && mask.test(n)) cube |= 1u << d;
+  }
+  return cube;
+}
+
+}  // namespace ridgeway
