@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 The Ridgeway authors
+
+# ridgeway_test(<name> [SOURCES <file>...] [DEPENDS <target>...] [DEFINITIONS <definition>...])
+#
+# One test executable, <name>_tests, its cases registered with ctest. Skipped without sources.
+# Tests find the files of data/ by the macro RIDGEWAY_DATA_DIR.
+function(ridgeway_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS;DEFINITIONS")
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "ridgeway_test(${name}): what is '${arg_UNPARSED_ARGUMENTS}'?")
+  endif()
+  if(NOT arg_SOURCES)
+    message(STATUS "ridgeway: no ${name} tests yet, skipped")
+    return()
+  endif()
+  add_executable(${name}_tests ${arg_SOURCES})
+  ridgeway_target_defaults(${name}_tests)
+  target_include_directories(${name}_tests PRIVATE "${PROJECT_SOURCE_DIR}/tests")
+  target_link_libraries(${name}_tests PRIVATE ${arg_DEPENDS} GTest::gtest_main)
+  target_compile_definitions(
+    ${name}_tests PRIVATE RIDGEWAY_DATA_DIR="${PROJECT_SOURCE_DIR}/data"
+                          RIDGEWAY_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ${arg_DEFINITIONS})
+  gtest_discover_tests(
+    ${name}_tests
+    DISCOVERY_MODE PRE_TEST
+    DISCOVERY_TIMEOUT 120
+    WORKING_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}"
+    PROPERTIES TIMEOUT 900 LABELS ${name})
+endfunction()
