@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include "ridgeway/esdf/esdf_map.hpp"
+
+namespace ridgeway {
+
+/// The one predicate that decides everywhere what is free at a radius: D(x), the exact distance
+/// from a point to the closed obstacle cubes, and its minimum along straight segments. Trilinear
+/// interpolation can overestimate D and is never asked here.
+///
+/// Free means D >= radius (1 - 1e-9). Under UnknownPolicy::kIgnore a point must also lie in a
+/// known-free voxel; shared faces, edges and corners belong to every voxel that touches them.
+///
+/// How it is fast: D^2(x) - |x|^2 is concave, so distances at voxel centres bound D from below;
+/// only where that does not decide are the obstacles near the place looked at one by one.
+/// A view: the EsdfMap must outlive it. Thread-safe.
+class FreeSpace {
+ public:
+  explicit FreeSpace(const EsdfMap& esdf) : esdf_(esdf) {}
+
+  /// D at a point, metres; 0 in an obstacle, max_distance where all obstacles are farther than
+  /// that (infinite where there is none at all).
+  double distance(const Point& p) const;
+
+  /// Smallest D along a segment, metres.
+  double clearance(const Point& a, const Point& b) const;
+
+  /// Whether a sphere of a radius fits at a point.
+  bool is_free(const Point& p, double radius) const;
+
+  /// Whether a sphere of a radius can move along a segment.
+  bool is_free(const Point& a, const Point& b, double radius) const;
+
+  /// Whether all of a segment lies in known-free voxels.
+  bool is_known_free(const Point& a, const Point& b) const;
+
+  /// Whether a sphere can move from the centre of a free voxel to a free 26-neighbour of it, in
+  /// a direction (voxel/neighbourhood.hpp). `threshold`: squared_threshold(radius, voxel_size).
+  bool move_is_free(VoxelId from, VoxelId to, int direction, double threshold) const {
+    const double a = esdf_.squared[from], b = esdf_.squared[to];
+    if (a < threshold || b < threshold) return false;
+    const double bound = move_bound(a, b, squared_length(direction));
+    return bound >= threshold || slow_move_clearance(from, to, direction, threshold) >= threshold;
+  }
+
+  /// 4 c^2 / s^2 of that move, c its smallest D. Moves across a face never dip below their ends.
+  double move_clearance(VoxelId from, VoxelId to, int direction) const {
+    const double a = esdf_.squared[from], b = esdf_.squared[to];
+    const double low = a < b ? a : b;
+    if (move_bound(a, b, squared_length(direction)) >= low) return low;
+    return slow_move_clearance(from, to, direction, low);
+  }
+
+ private:
+  /// Lower bound of 4 D^2 / s^2 on a move of squared length L2 between ends a and b: the minimum
+  /// over t of (1-t) a + t b - 4 t (1-t) L2.
+  static double move_bound(double a, double b, int L2) {
+    const double low = a < b ? a : b, rise = a < b ? b - a : a - b;
+    if (L2 == 1 || rise >= 4.0 * L2) return low;
+    return 0.5 * (a + b) - L2 - rise * rise / (16.0 * L2);
+  }
+  double slow_move_clearance(VoxelId from, VoxelId to, int direction, double enough) const;
+
+  const EsdfMap& esdf_;
+};
+
+}  // namespace ridgeway

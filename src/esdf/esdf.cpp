@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/esdf/esdf.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "line_envelope.hpp"
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/common/parallel.hpp"
+#include "work_domain.hpp"
+
+namespace ridgeway {
+namespace {
+
+constexpr SiteOffset kNoOffset{INT16_MIN, INT16_MIN, INT16_MIN};
+
+/// A straight row of blocks without a gap: the sweeps run along its 64 lines of voxels.
+using BlockRow = std::vector<std::uint32_t>;
+
+constexpr int forward_direction(int axis) { return axis == 0 ? 14 : axis == 1 ? 16 : 22; }
+
+/// Slots that begin a row along an axis, that is, have no block before them.
+std::vector<std::uint32_t> row_starts(const BlockLayout& layout, int axis) {
+  std::vector<std::uint32_t> starts;
+  for (std::uint32_t slot = 0; slot < layout.block_count(); ++slot)
+    if (layout.neighbour_block(slot, opposite(forward_direction(axis))) == BlockLayout::kNoBlock)
+      starts.push_back(slot);
+  return starts;
+}
+
+BlockRow row_from(const BlockLayout& layout, std::uint32_t start, int axis) {
+  BlockRow row;
+  for (std::uint32_t slot = start; slot != BlockLayout::kNoBlock;
+       slot = layout.neighbour_block(slot, forward_direction(axis)))
+    row.push_back(slot);
+  return row;
+}
+
+/// The voxels of line `line` (0..63) of a row along an axis, in order.
+struct Line {
+  const BlockRow& row;
+  VoxelId base;    // place of the line's first voxel in a block
+  VoxelId stride;  // from voxel to voxel
+
+  Line(const BlockRow& blocks, int axis, int line)
+      : row(blocks), stride(static_cast<VoxelId>(1 << (axis * kBlockBits))) {
+    const auto low = static_cast<VoxelId>(line & 7), high = static_cast<VoxelId>(line >> 3);
+    base = axis == 0 ? low << 3 | high << 6 : axis == 1 ? low | high << 6 : low | high << 3;
+  }
+  int size() const { return static_cast<int>(row.size()) * kBlockSide; }
+  VoxelId operator[](int i) const {
+    return row[static_cast<std::size_t>(i >> kBlockBits)] * kBlockVoxels + base +
+           static_cast<VoxelId>(i & 7) * stride;
+  }
+};
+
+class Sweeper {
+ public:
+  Sweeper(const BlockLayout& layout, const VoxelMask& obstacle, bool solid_outside,
+          VoxelField<SiteOffset>& site)
+      : layout_(layout), obstacle_(obstacle), solid_outside_(solid_outside), site_(site) {}
+
+  void sweep(int axis) const {
+    const std::vector<std::uint32_t> starts = row_starts(layout_, axis);
+    parallel_for_each_index(starts.size(), [&](std::size_t i) {
+      const BlockRow row = row_from(layout_, starts[i], axis);
+      Scratch scratch;
+      for (int line = 0; line < 64; ++line) sweep_line(Line(row, axis, line), axis, scratch);
+    });
+  }
+
+ private:
+  struct Scratch {
+    detail::LineEnvelope envelope;
+    std::vector<SiteOffset> site;   // of the line before this sweep
+    std::vector<bool> is_obstacle;
+  };
+
+  /// An obstacle hides all that lies behind it, so each run between obstacles is swept alone.
+  void sweep_line(const Line& line, int axis, Scratch& scratch) const {
+    const int size = line.size();
+    scratch.site.resize(static_cast<std::size_t>(size));
+    scratch.is_obstacle.resize(static_cast<std::size_t>(size));
+    for (int i = 0; i < size; ++i) {
+      scratch.site[static_cast<std::size_t>(i)] = site_[line[i]];
+      scratch.is_obstacle[static_cast<std::size_t>(i)] = obstacle_.test(line[i]);
+    }
+    for (int first = 0; first < size;) {
+      if (scratch.is_obstacle[static_cast<std::size_t>(first)]) {
+        ++first;
+        continue;
+      }
+      int last = first;
+      while (last + 1 < size && !scratch.is_obstacle[static_cast<std::size_t>(last) + 1]) ++last;
+      sweep_run(line, axis, first, last, scratch);
+      first = last + 1;
+    }
+  }
+
+  void sweep_run(const Line& line, int axis, int first, int last, Scratch& scratch) const {
+    detail::LineEnvelope& envelope = scratch.envelope;
+    envelope.clear();
+    if (first > 0 || solid_outside_) envelope.add({first - 1, 0});
+    for (int i = first; i <= last; ++i) {
+      const SiteOffset& offset = scratch.site[static_cast<std::size_t>(i)];
+      if (offset != kNoOffset) envelope.add({i, quarter_squared(offset)});
+    }
+    if (last + 1 < line.size() || solid_outside_) envelope.add({last + 1, 0});
+    if (envelope.empty()) return;
+    envelope.for_each_winner(first, last, [&](int position, int winner) {
+      SiteOffset offset{};
+      if (winner >= first && winner <= last) offset = scratch.site[static_cast<std::size_t>(winner)];
+      const auto along = static_cast<std::int16_t>(
+          std::clamp(winner - position, -kFarthestSite - 1, kFarthestSite + 1));
+      (axis == 0 ? offset.x : axis == 1 ? offset.y : offset.z) = along;
+      site_[line[position]] = offset;
+    });
+  }
+
+  const BlockLayout& layout_;
+  const VoxelMask& obstacle_;
+  const bool solid_outside_;
+  VoxelField<SiteOffset>& site_;
+};
+
+VoxelMask find_obstacles(const BlockLayout& layout, const VoxelField<VoxelState>& state,
+                         UnknownPolicy unknown) {
+  VoxelMask obstacle(layout);
+  parallel_for_each_index(
+      layout.block_count(),
+      [&](std::size_t slot) {
+        const VoxelState* states = state.block(static_cast<std::uint32_t>(slot));
+        for (int v = 0; v < kBlockVoxels; ++v)
+          if (states[v] == VoxelState::kOccupied ||
+              (states[v] == VoxelState::kUnknown && unknown == UnknownPolicy::kObstacle))
+            obstacle.set(static_cast<VoxelId>(slot) * kBlockVoxels + static_cast<VoxelId>(v));
+      },
+      16);
+  return obstacle;
+}
+
+/// Runs the three sweeps on a layout; voxels without a site get kNoOffset, obstacles zero.
+VoxelField<SiteOffset> sweep_sites(const BlockLayout& layout, const VoxelMask& obstacle,
+                                   bool solid_outside) {
+  VoxelField<SiteOffset> site(layout, kNoOffset);
+  const Sweeper sweeper(layout, obstacle, solid_outside, site);
+  for (int axis = 0; axis < 3; ++axis) sweeper.sweep(axis);
+  return site;
+}
+
+/// Carries a field over to another layout that holds all blocks it shares with the first.
+template <typename Value>
+VoxelField<Value> move_to_layout(const BlockLayout& from, const VoxelField<Value>& field,
+                                 const BlockLayout& to, Value absent) {
+  VoxelField<Value> result(to, absent);
+  parallel_for_each_index(
+      to.block_count(),
+      [&](std::size_t slot) {
+        const auto target = static_cast<std::uint32_t>(slot);
+        const std::uint32_t source = from.find_block(to.block(target));
+        if (source != BlockLayout::kNoBlock)
+          std::copy_n(field.block(source), kBlockVoxels, result.block(target));
+      },
+      64);
+  return result;
+}
+
+/// Sites where unknown space is no obstacle: the sweeps must pass through blocks that the map has
+/// not allocated, so they run on a larger layout.
+VoxelField<SiteOffset> sweep_sites_through_unknown(const EsdfMap& map, double farthest) {
+  std::vector<bool> occupied(map.layout.block_count());
+  for (std::uint32_t slot = 0; slot < map.layout.block_count(); ++slot)
+    occupied[slot] = map.obstacle.block(slot) != VoxelMask::Block{};
+  const BlockLayout domain = detail::sweep_domain(map.layout, occupied, farthest);
+  VoxelMask obstacle(domain);
+  for (std::uint32_t slot = 0; slot < map.layout.block_count(); ++slot)
+    obstacle.block(domain.find_block(map.layout.block(slot))) = map.obstacle.block(slot);
+  return move_to_layout(domain, sweep_sites(domain, obstacle, false), map.layout, kNoOffset);
+}
+
+/// Squared distances from the offsets; too far or nothing at all becomes "no site".
+void finish_distances(EsdfMap& map, double farthest) {
+  map.squared = VoxelField<std::uint32_t>(map.layout);
+  const double reach = std::min(farthest, static_cast<double>(kFarthestSite));
+  const double limit = squared_threshold(reach, 1.0) * (1.0 + 4e-9);
+  parallel_for_each_index(
+      map.layout.block_count(),
+      [&](std::size_t slot) {
+        std::uint32_t* squared = map.squared.block(static_cast<std::uint32_t>(slot));
+        SiteOffset* site = map.site.block(static_cast<std::uint32_t>(slot));
+        for (int v = 0; v < kBlockVoxels; ++v) {
+          if (map.obstacle.test(static_cast<VoxelId>(slot * kBlockVoxels) +
+                                static_cast<VoxelId>(v))) {
+            site[v] = {};
+          } else if (site[v] == kNoOffset || quarter_squared(site[v]) > limit) {
+            site[v] = {};
+            squared[v] = kNoSite;
+            continue;
+          }
+          squared[v] = quarter_squared(site[v]);
+        }
+      },
+      16);
+}
+
+}  // namespace
+
+void EsdfConfig::validate() const {
+  if (!(max_distance > 0.0))
+    throw InputError("max_distance", "is " + std::to_string(max_distance),
+                     "give a length above 0 metres, or leave it out for no limit");
+}
+
+EsdfMap compute_esdf(OccupancyMap map, const EsdfConfig& config) {
+  config.validate();
+  EsdfMap esdf;
+  esdf.voxel_size = map.voxel_size;
+  esdf.unknown = config.unknown;
+  esdf.max_distance = config.max_distance;
+  const double farthest = config.max_distance / map.voxel_size;
+  const bool solid_unknown = config.unknown == UnknownPolicy::kObstacle;
+  if (solid_unknown) {
+    esdf.layout = std::move(map.layout);
+    esdf.state = std::move(map.state);
+  } else {
+    esdf.layout = detail::with_neighbour_blocks(map.layout);
+    esdf.state = move_to_layout(map.layout, map.state, esdf.layout, VoxelState::kUnknown);
+  }
+  esdf.obstacle = find_obstacles(esdf.layout, esdf.state, esdf.unknown);
+  esdf.site = solid_unknown ? sweep_sites(esdf.layout, esdf.obstacle, true)
+                            : sweep_sites_through_unknown(esdf, farthest);
+  finish_distances(esdf, farthest);
+  return esdf;
+}
+
+}  // namespace ridgeway

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/esdf/esdf.hpp"
+
+#include <gtest/gtest.h>
+
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/common/parallel.hpp"
+#include "support/brute_force.hpp"
+#include "support/random_maps.hpp"
+
+namespace ridgeway {
+namespace {
+
+using testing::all_obstacles;
+using testing::random_map;
+
+struct Nearest {
+  std::int64_t squared = kNoSite;
+  VoxelIndex site;
+};
+
+/// The first of the nearest obstacles in (z, y, x) order.
+Nearest brute_nearest(const VoxelIndex& v, const std::vector<VoxelIndex>& obstacles) {
+  Nearest nearest;
+  for (const VoxelIndex& o : obstacles) {
+    std::int64_t squared = 0;
+    for (const int k : {o.x - v.x, o.y - v.y, o.z - v.z}) {
+      const std::int64_t twice = std::max(2 * std::abs(k) - 1, 0);
+      squared += twice * twice;
+    }
+    if (squared < nearest.squared) nearest = {squared, o};
+  }
+  return nearest;
+}
+
+void expect_equal_to_brute_force(const OccupancyMap& map, const EsdfConfig& config,
+                                 const EsdfMap& esdf) {
+  const std::vector<VoxelIndex> obstacles = all_obstacles(map, config.unknown);
+  const double limit = config.max_distance / map.voxel_size;
+  for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id) {
+    const VoxelIndex v = esdf.layout.index_of(id);
+    const Nearest nearest = brute_nearest(v, obstacles);
+    if (nearest.squared == kNoSite || std::sqrt(0.25 * static_cast<double>(nearest.squared)) > limit) {
+      ASSERT_EQ(esdf.squared[id], kNoSite);
+      continue;
+    }
+    ASSERT_EQ(esdf.squared[id], nearest.squared) << v.x << " " << v.y << " " << v.z;
+    const SiteOffset& o = esdf.site[id];
+    ASSERT_EQ(v + (VoxelIndex{o.x, o.y, o.z}), nearest.site) << v.x << " " << v.y << " " << v.z;
+  }
+}
+
+class EsdfOnRandomMaps : public ::testing::TestWithParam<UnknownPolicy> {};
+
+TEST_P(EsdfOnRandomMaps, EqualsBruteForceOnEveryVoxelWithOneThreadAndTwo) {
+  for (unsigned seed = 0; seed < 120; ++seed) {
+    SCOPED_TRACE(seed);
+    const OccupancyMap map = random_map(seed);
+    EsdfConfig config{.unknown = GetParam()};
+    if (seed % 4 == 3) config.max_distance = 0.35;
+    const EsdfMap one = with_threads(1, [&] { return compute_esdf(map, config); });
+    const EsdfMap two = with_threads(2, [&] { return compute_esdf(map, config); });
+    ASSERT_EQ(one.squared.values(), two.squared.values());
+    ASSERT_EQ(one.site.values(), two.site.values());
+    expect_equal_to_brute_force(map, config, one);
+    if (HasFatalFailure()) return;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(BothPolicies, EsdfOnRandomMaps,
+                         ::testing::Values(UnknownPolicy::kObstacle, UnknownPolicy::kIgnore));
+
+TEST(Esdf, IsExactThroughSpaceThatIsNotAllocated) {
+  // Two lonely obstacles and lonely free voxels, many blocks of nothing between them.
+  OccupancyMap map;
+  map.voxel_size = 0.1;
+  map.layout = BlockLayout({{0, 0, 0}, {7, 3, -4}, {-5, 6, 2}, {1, -6, 1}});
+  map.state = VoxelField<VoxelState>(map.layout);
+  std::mt19937 random(5);
+  for (std::uint32_t slot = 0; slot < map.layout.block_count(); ++slot)
+    for (int i = 0; i < 40; ++i)
+      map.state.block(slot)[random() % kBlockVoxels] = VoxelState::kFree;
+  map.state[map.layout.find({3, 3, 3})] = VoxelState::kOccupied;
+  map.state[map.layout.find({9, -45, 12})] = VoxelState::kOccupied;
+  const EsdfConfig config{.unknown = UnknownPolicy::kIgnore};
+  expect_equal_to_brute_force(map, config, compute_esdf(map, config));
+}
+
+TEST(Esdf, AllocatesTheNeighboursOfKnownVoxelsWhereUnknownIsIgnored) {
+  const OccupancyMap map = random_map(3);
+  const EsdfMap esdf = compute_esdf(map, {.unknown = UnknownPolicy::kIgnore});
+  for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id) {
+    if (esdf.state[id] == VoxelState::kUnknown) continue;
+    for (int d = 0; d < 27; ++d) ASSERT_NE(esdf.layout.neighbour(id, d), kNoVoxel);
+  }
+}
+
+TEST(Esdf, RefusesAMaxDistanceThatIsNoLength) {
+  for (const double bad : {0.0, -1.0, std::nan("")})
+    EXPECT_THROW(compute_esdf(random_map(1), {.max_distance = bad}), InputError);
+}
+
+}  // namespace
+}  // namespace ridgeway

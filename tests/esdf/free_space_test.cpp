@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/esdf/free_space.hpp"
+
+#include <gtest/gtest.h>
+
+#include "ridgeway/esdf/esdf.hpp"
+#include "support/brute_force.hpp"
+#include "support/random_maps.hpp"
+
+namespace ridgeway {
+namespace {
+
+using testing::all_obstacles;
+using testing::brute_squared_distance;
+using testing::random_map;
+
+constexpr double kTiny = 1e-7;
+
+/// Points that matter: voxel centres, and anywhere.
+Point random_point(const EsdfMap& esdf, std::mt19937& random) {
+  VoxelId id = 0;
+  for (int tries = 0; tries < 60; ++tries) {  // mostly well inside free space
+    id = static_cast<VoxelId>(random() % esdf.layout.voxel_count());
+    if (esdf.state[id] == VoxelState::kFree && esdf.squared[id] > (tries < 40 ? 9u : 0u)) break;
+  }
+  const VoxelIndex v = esdf.layout.index_of(id);
+  if (random() % 3 == 0) return centre_of(v, esdf.voxel_size);
+  std::uniform_real_distribution<double> inside(0.0, 1.0);
+  return (Point(v.x, v.y, v.z) + Point(inside(random), inside(random), inside(random))) *
+         esdf.voxel_size;
+}
+
+class FreeSpaceOnRandomMaps : public ::testing::TestWithParam<UnknownPolicy> {};
+
+TEST_P(FreeSpaceOnRandomMaps, DistanceEqualsBruteForceAtAnyPoint) {
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    const OccupancyMap map = random_map(seed);
+    const EsdfMap esdf = compute_esdf(map, {.unknown = GetParam()});
+    const std::vector<VoxelIndex> obstacles = all_obstacles(map, GetParam());
+    const FreeSpace space(esdf);
+    std::mt19937 random(seed);
+    for (int i = 0; i < 60; ++i) {
+      const Point p = random_point(esdf, random);
+      const double brute =
+          esdf.voxel_size * std::sqrt(brute_squared_distance(p / esdf.voxel_size, obstacles));
+      if (std::isinf(brute)) {
+        ASSERT_TRUE(std::isinf(space.distance(p)));
+      } else {
+        ASSERT_NEAR(space.distance(p), brute, kTiny) << "seed " << seed;
+      }
+    }
+  }
+}
+
+/// Smallest distance along a segment by ternary search between dense samples.
+double brute_clearance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                       const std::vector<VoxelIndex>& obstacles) {
+  constexpr int kSamples = 400;
+  double best = brute_squared_distance(a, obstacles);
+  for (int i = 1; i <= kSamples; ++i)
+    best = std::min(best, brute_squared_distance(a + (b - a) * i / kSamples, obstacles));
+  return std::sqrt(best);
+}
+
+TEST_P(FreeSpaceOnRandomMaps, SegmentsAgreeWithBruteForce) {
+  int free_segments = 0, decided = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const OccupancyMap map = random_map(seed, 14);
+    const EsdfMap esdf = compute_esdf(map, {.unknown = GetParam()});
+    const std::vector<VoxelIndex> obstacles = all_obstacles(map, GetParam());
+    if (obstacles.empty()) continue;
+    const FreeSpace space(esdf);
+    std::mt19937 random(seed + 1000);
+    for (int i = 0; i < 12; ++i) {
+      const Point a = random_point(esdf, random);
+      const Point b = i % 4 == 0 ? random_point(esdf, random)
+                                 : Point(a + 0.35 * (random_point(esdf, random) - a).normalized());
+      const double brute = esdf.voxel_size * brute_clearance(a / esdf.voxel_size,
+                                                             b / esdf.voxel_size, obstacles);
+      const double clearance = space.clearance(a, b);
+      // Samples see a minimum that lies between them a little too high, never too low.
+      const double spacing = (b - a).norm() / 400;
+      ASSERT_LE(clearance, brute + kTiny);
+      ASSERT_GE(clearance, brute - 0.51 * spacing - kTiny);
+      if (GetParam() == UnknownPolicy::kIgnore && !space.is_known_free(a, b)) {
+        EXPECT_FALSE(space.is_free(a, b, 0.05));
+        continue;
+      }
+      for (const double radius : {0.05, 0.1, 0.15, 0.25, clearance * 0.999, clearance * 1.001}) {
+        if (radius <= 0.0) continue;
+        ++decided;
+        free_segments += space.is_free(a, b, radius);
+        ASSERT_EQ(space.is_free(a, b, radius), clearance >= radius * (1 - 1e-9))
+            << "seed " << seed << " radius " << radius << " clearance " << clearance;
+      }
+    }
+  }
+  EXPECT_GT(free_segments, decided / 20);  // the test sees both answers
+  EXPECT_LT(free_segments, decided * 19 / 20);
+}
+
+TEST_P(FreeSpaceOnRandomMaps, MovesBetweenVoxelsAgreeWithTheSegmentPredicate) {
+  int dips = 0;
+  for (unsigned seed = 0; seed < 30; ++seed) {
+    const EsdfMap esdf = compute_esdf(random_map(seed), {.unknown = GetParam()});
+    const FreeSpace space(esdf);
+    for (VoxelId id = seed % 3; id < esdf.layout.voxel_count(); id += 3) {
+      if (esdf.state[id] != VoxelState::kFree || esdf.squared[id] == kNoSite) continue;
+      const int d = static_cast<int>((id / 3) % 27);
+      const VoxelId to = esdf.layout.neighbour(id, d);
+      if (d == kCentre || to == kNoVoxel || esdf.state[to] != VoxelState::kFree) continue;
+      if (esdf.squared[to] == kNoSite) continue;
+      const Point a = centre_of(esdf.layout.index_of(id), esdf.voxel_size);
+      const Point b = centre_of(esdf.layout.index_of(to), esdf.voxel_size);
+      const double clearance = 0.5 * esdf.voxel_size * std::sqrt(space.move_clearance(id, to, d));
+      ASSERT_NEAR(clearance, space.clearance(a, b), kTiny);
+      dips += clearance < std::min(esdf.distance(id), esdf.distance(to)) - kTiny;
+      for (const double radius : {0.05, 0.1, 0.15, 0.2, 0.3, clearance})
+        ASSERT_EQ(space.move_is_free(id, to, d, squared_threshold(radius, esdf.voxel_size)),
+                  space.is_free(a, b, radius))
+            << "radius " << radius << " clearance " << clearance;
+    }
+  }
+  EXPECT_GT(dips, 100);  // moves that are narrower than both their ends do occur
+}
+
+INSTANTIATE_TEST_SUITE_P(BothPolicies, FreeSpaceOnRandomMaps,
+                         ::testing::Values(UnknownPolicy::kObstacle, UnknownPolicy::kIgnore));
+
+TEST(FreeSpace, KeepsToKnownFreeVoxelsWhereUnknownIsIgnored) {
+  // An L of free voxels; the short way between its ends crosses the unknown.
+  const OccupancyMap map = testing::make_map(0.1, {0, 0, 0}, {9, 9, 0}, [](const VoxelIndex& v) {
+    return v.x == 0 || v.y == 0 ? VoxelState::kFree : VoxelState::kUnknown;
+  });
+  const EsdfMap esdf = compute_esdf(map, {.unknown = UnknownPolicy::kIgnore});
+  const FreeSpace space(esdf);
+  EXPECT_TRUE(space.is_free(Point(0.05, 0.95, 0.05), Point(0.05, 0.05, 0.05), 0.3));
+  EXPECT_FALSE(space.is_free(Point(0.05, 0.95, 0.05), Point(0.95, 0.05, 0.05), 0.3));
+  EXPECT_FALSE(space.is_free(Point(0.5, 0.5, 0.05), 0.3));
+  // Through the very corner that two free voxels share, past unknown ones.
+  EXPECT_TRUE(space.is_free(Point(0.05, 0.15, 0.05), Point(0.15, 0.05, 0.05), 0.3));
+}
+
+}  // namespace
+}  // namespace ridgeway
