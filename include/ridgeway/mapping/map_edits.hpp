@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <span>
+
+#include "ridgeway/mapping/occupancy_map.hpp"
+
+namespace ridgeway {
+
+/// The same space at a coarser voxel size, without ever losing an obstacle: a coarse voxel is
+/// occupied where it shares volume with an occupied voxel, else unknown where it shares volume
+/// with an unknown one, else free. The ratio of the sizes need not be whole; one within 1e-6 of a
+/// whole number n is taken as n, and the result's voxel size is then exactly n times the map's.
+/// Throws InputError where `voxel_size` is finer than the map's own.
+OccupancyMap resample(OccupancyMap map, double voxel_size);
+
+/// What lies inside a box (the flight volume): voxels that are not wholly inside, with a relative
+/// slack of 1e-9, become unknown. Infinite coordinates mean no limit.
+OccupancyMap crop(OccupancyMap map, const Box& box);
+
+/// Makes every voxel that shares volume with one of the boxes occupied, unknown ones too. Boxes
+/// reach no farther than one block (8 voxels) beyond the known bounds. A box without extent along
+/// an axis closes the voxel layer that holds it.
+OccupancyMap add_no_fly(OccupancyMap map, std::span<const Box> boxes);
+
+/// Filter for noisy maps, in which a speck closes a doorway: every 26-connected cluster of fewer
+/// than `min_cluster` occupied voxels becomes free. 0 and 1 change nothing. It removes small real
+/// obstacles (a wire, a lamp) just as well, so nothing uses it unless asked to.
+OccupancyMap remove_isolated(OccupancyMap map, int min_cluster);
+
+}  // namespace ridgeway

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <unordered_map>
+
+#include "ridgeway/mapping/memory_limit.hpp"
+#include "ridgeway/mapping/occupancy_map.hpp"
+#include "ridgeway/mapping/voxel_range.hpp"
+
+namespace ridgeway {
+
+/// Makes an OccupancyMap from voxels and boxes of voxels that come in any order. Where they
+/// overlap, occupied wins over free, free over unknown, so the order does not matter. Memory
+/// follows the touched blocks; a map that would not fit the machine is refused before its memory
+/// is taken. For one thread.
+class OccupancyBuilder {
+ public:
+  struct Config {
+    VoxelRange clip = kAllVoxels;                  ///< voxels outside are ignored
+    int bytes_per_voxel = kPipelineBytesPerVoxel;  ///< to be reckoned with, see memory_limit.hpp
+    std::string name = "map";                      ///< file or value to name in errors
+  };
+
+  /// Throws InputError unless 0 < voxel_size < infinity.
+  explicit OccupancyBuilder(double voxel_size) : OccupancyBuilder(voxel_size, Config{}) {}
+  OccupancyBuilder(double voxel_size, Config config);
+
+  const VoxelRange& clip() const { return config_.clip; }
+
+  /// Raises a voxel to a state. Throws InputError where memory would not do.
+  void set(const VoxelIndex& voxel, VoxelState state) {
+    if (state == VoxelState::kUnknown || !config_.clip.contains(voxel)) return;
+    VoxelState& current = block_at(block_of(voxel))[static_cast<std::size_t>(local_of(voxel))];
+    if (current < state) current = state;
+  }
+
+  /// Raises all voxels of a range to a state.
+  void fill(const VoxelRange& range, VoxelState state);
+
+  OccupancyMap finish() &&;
+
+ private:
+  using Block = std::array<VoxelState, kBlockVoxels>;
+  struct BlockHash {
+    std::size_t operator()(const BlockIndex& b) const;
+  };
+
+  Block& block_at(const BlockIndex& index) {
+    if (last_ == nullptr || last_index_ != index) {
+      last_ = &find_or_add(index);
+      last_index_ = index;
+    }
+    return *last_;
+  }
+  Block& find_or_add(const BlockIndex& index);
+
+  double voxel_size_;
+  Config config_;
+  std::size_t block_limit_;
+  std::unordered_map<BlockIndex, Block*, BlockHash> table_;
+  std::deque<Block> blocks_;  // addresses stay
+  BlockIndex last_index_;
+  Block* last_ = nullptr;
+};
+
+/// Throws InputError naming the value unless 0 < voxel_size < infinity.
+void validate_voxel_size(double voxel_size, const std::string& name);
+
+/// A map of the blocks that hold a known voxel; the others are dropped.
+OccupancyMap without_unknown_blocks(OccupancyMap map);
+
+}  // namespace ridgeway

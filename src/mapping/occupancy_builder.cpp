@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/mapping/occupancy_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/common/parallel.hpp"
+
+namespace ridgeway {
+
+void validate_voxel_size(double voxel_size, const std::string& name) {
+  if (voxel_size > 0.0 && std::isfinite(voxel_size)) return;
+  std::ostringstream what;
+  what << "is " << voxel_size << " m";
+  throw InputError(name, what.str(), "give a finite length above 0, for example 0.1");
+}
+
+OccupancyBuilder::OccupancyBuilder(double voxel_size, Config config)
+    : voxel_size_(voxel_size), config_(std::move(config)) {
+  validate_voxel_size(voxel_size, "voxel_size");
+  config_.clip = intersection(config_.clip, kAllVoxels);
+  block_limit_ = static_cast<std::size_t>(available_memory_bytes() /
+                                          (static_cast<std::uint64_t>(kBlockVoxels) *
+                                           static_cast<std::uint64_t>(config_.bytes_per_voxel)));
+}
+
+std::size_t OccupancyBuilder::BlockHash::operator()(const BlockIndex& b) const {
+  std::uint64_t h = static_cast<std::uint32_t>(b.z);
+  h = h * 0x9e3779b97f4a7c15ull + static_cast<std::uint32_t>(b.y);
+  h = (h ^ h >> 29) * 0xbf58476d1ce4e5b9ull + static_cast<std::uint32_t>(b.x);
+  h = (h ^ h >> 32) * 0x94d049bb133111ebull;
+  return static_cast<std::size_t>(h ^ h >> 31);
+}
+
+OccupancyBuilder::Block& OccupancyBuilder::find_or_add(const BlockIndex& index) {
+  const auto [place, is_new] = table_.try_emplace(index, nullptr);
+  if (is_new) {
+    // Until finish() a block takes a fraction of what is reckoned for it, so this is in time.
+    if (blocks_.size() >= block_limit_) {
+      require_memory_for_blocks(static_cast<double>(table_.size()), config_.bytes_per_voxel,
+                                config_.name);
+    }
+    place->second = &blocks_.emplace_back();
+  }
+  return *place->second;
+}
+
+void OccupancyBuilder::fill(const VoxelRange& range, VoxelState state) {
+  const VoxelRange clipped = intersection(range, config_.clip);
+  if (clipped.empty() || state == VoxelState::kUnknown) return;
+  if (clipped.block_count() > static_cast<double>(block_limit_))
+    require_memory_for_blocks(clipped.block_count(), config_.bytes_per_voxel, config_.name);
+  const BlockIndex first = block_of(clipped.min), last = block_of(clipped.max);
+  for (int bz = first.z; bz <= last.z; ++bz)
+    for (int by = first.y; by <= last.y; ++by)
+      for (int bx = first.x; bx <= last.x; ++bx) {
+        Block& block = block_at({bx, by, bz});
+        const VoxelIndex corner = voxel_of({bx, by, bz}, 0);
+        const VoxelIndex low = {std::max(clipped.min.x - corner.x, 0),
+                                std::max(clipped.min.y - corner.y, 0),
+                                std::max(clipped.min.z - corner.z, 0)};
+        const VoxelIndex high = {std::min(clipped.max.x - corner.x, kBlockSide - 1),
+                                 std::min(clipped.max.y - corner.y, kBlockSide - 1),
+                                 std::min(clipped.max.z - corner.z, kBlockSide - 1)};
+        for (int z = low.z; z <= high.z; ++z)
+          for (int y = low.y; y <= high.y; ++y)
+            for (int x = low.x; x <= high.x; ++x) {
+              VoxelState& current = block[static_cast<std::size_t>(local_of({x, y, z}))];
+              current = std::max(current, state);
+            }
+      }
+}
+
+OccupancyMap OccupancyBuilder::finish() && {
+  std::vector<BlockIndex> indices;
+  indices.reserve(table_.size());
+  for (const auto& [index, block] : table_) indices.push_back(index);
+  OccupancyMap map;
+  map.voxel_size = voxel_size_;
+  map.layout = BlockLayout(std::move(indices));
+  map.state = VoxelField<VoxelState>(map.layout);
+  for (const auto& [index, block] : table_)
+    std::copy(block->begin(), block->end(), map.state.block(map.layout.find_block(index)));
+  return map;
+}
+
+OccupancyMap without_unknown_blocks(OccupancyMap map) {
+  std::vector<BlockIndex> kept;
+  for (std::uint32_t slot = 0; slot < map.layout.block_count(); ++slot) {
+    const VoxelState* states = map.state.block(slot);
+    if (std::any_of(states, states + kBlockVoxels,
+                    [](VoxelState s) { return s != VoxelState::kUnknown; }))
+      kept.push_back(map.layout.block(slot));
+  }
+  if (kept.size() == map.layout.block_count()) return map;
+  OccupancyMap result;
+  result.voxel_size = map.voxel_size;
+  result.layout = BlockLayout(std::move(kept));
+  result.state = VoxelField<VoxelState>(result.layout);
+  parallel_for_each_index(
+      result.layout.block_count(),
+      [&](std::size_t i) {
+        const auto slot = static_cast<std::uint32_t>(i);
+        const VoxelState* from = map.state.block(map.layout.find_block(result.layout.block(slot)));
+        std::copy(from, from + kBlockVoxels, result.state.block(slot));
+      },
+      64);
+  return result;
+}
+
+}  // namespace ridgeway
