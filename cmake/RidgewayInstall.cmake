@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 The Ridgeway authors
+
+# Installation, find_package(ridgeway COMPONENTS core io), and the Debian packages ridgeway (the
+# program) and ridgeway-dev (headers and static libraries).
+
+include(CMakePackageConfigHelpers)
+set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/ridgeway")
+
+# Core: every module but io, and the umbrella ridgeway::ridgeway.
+get_property(core_modules GLOBAL PROPERTY RIDGEWAY_MODULES_core)
+install(
+  TARGETS ${core_modules} ridgeway
+  EXPORT ridgeway-core
+  ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev)
+install(EXPORT ridgeway-core NAMESPACE ridgeway:: DESTINATION "${package_dir}" COMPONENT dev)
+install(
+  DIRECTORY include/ridgeway "${PROJECT_BINARY_DIR}/include/ridgeway"
+  DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+  COMPONENT dev
+  FILES_MATCHING
+  PATTERN "*.hpp"
+  PATTERN "io" EXCLUDE)
+
+get_property(io_modules GLOBAL PROPERTY RIDGEWAY_MODULES_io)
+if(io_modules)
+  install(
+    TARGETS ${io_modules}
+    EXPORT ridgeway-io
+    ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev)
+  install(EXPORT ridgeway-io NAMESPACE ridgeway:: DESTINATION "${package_dir}" COMPONENT dev)
+  install(
+    DIRECTORY include/ridgeway/io
+    DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/ridgeway"
+    COMPONENT dev
+    FILES_MATCHING
+    PATTERN "*.hpp")
+  install(FILES cmake/FindLZF.cmake DESTINATION "${package_dir}" COMPONENT dev)
+endif()
+
+configure_package_config_file(
+  cmake/ridgewayConfig.cmake.in "${PROJECT_BINARY_DIR}/ridgewayConfig.cmake"
+  INSTALL_DESTINATION "${package_dir}"
+  NO_SET_AND_CHECK_MACRO)
+# Before 1.0 a minor version may break its users.
+write_basic_package_version_file(
+  "${PROJECT_BINARY_DIR}/ridgewayConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
+install(
+  FILES "${PROJECT_BINARY_DIR}/ridgewayConfig.cmake"
+        "${PROJECT_BINARY_DIR}/ridgewayConfigVersion.cmake"
+  DESTINATION "${package_dir}"
+  COMPONENT dev)
+
+if(TARGET ridgeway_cli)
+  install(TARGETS ridgeway_cli RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT runtime)
+endif()
+install(
+  FILES LICENSE
+  DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/ridgeway"
+  RENAME copyright
+  COMPONENT runtime)
+install(
+  FILES LICENSE
+  DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/ridgeway-dev"
+  RENAME copyright
+  COMPONENT dev)
+
+if(PROJECT_IS_TOP_LEVEL)
+  set(CPACK_GENERATOR DEB)
+  set(CPACK_PACKAGE_CONTACT "The Ridgeway authors <ridgeway@localhost>")
+  set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+  set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+  set(CPACK_STRIP_FILES ON)
+  set(CPACK_COMPONENTS_ALL runtime dev)
+  set(CPACK_DEB_COMPONENT_INSTALL ON)
+  set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+  set(CPACK_DEBIAN_PACKAGE_SECTION science)
+  set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME ridgeway)
+  set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_DEV_PACKAGE_NAME ridgeway-dev)
+  set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+  set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, libtbb-dev")
+  set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "pkg-config, libcairo2-dev, libzstd-dev, liblzf-dev")
+  include(CPack)
+endif()
