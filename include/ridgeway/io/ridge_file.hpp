@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "ridgeway/roadmap/roadmap.hpp"
+
+namespace ridgeway {
+
+/// Writes a roadmap to one `.ridge` file, by way of a temporary file in the same folder: on any
+/// error an existing file stays as it was. The same roadmap gives the same bytes, whatever the
+/// number of threads. The layout of the file is in docs/ridge-format.md.
+/// Throws InputError when the file cannot be written, or when the roadmap's parts do not fit each
+/// other (a field on another layout, a distance that is not that of its site).
+void save_roadmap(const Roadmap& roadmap, const std::filesystem::path& path);
+
+/// Reads a roadmap back; every field is the one that was saved. Throws InputError, with the
+/// section's name, for a file that is truncated, damaged, of a newer version or no roadmap, and for
+/// one whose content would break a query (an index out of range, a number that is not finite).
+Roadmap load_roadmap(const std::filesystem::path& path);
+
+/// A section of a `.ridge` file.
+struct RidgeSection {
+  std::string name;
+  std::uint64_t raw_bytes = 0;
+  std::uint64_t compressed_bytes = 0;
+};
+
+/// What a `.ridge` file says of itself, read without its content.
+struct RidgeInfo {
+  std::uint32_t version = 0;
+  std::string header;  ///< JSON text: content, voxel_size, policy, config, counts
+  std::vector<RidgeSection> sections;
+};
+
+/// Reads the header alone. Throws InputError as load_roadmap does.
+RidgeInfo read_ridge_info(const std::filesystem::path& path);
+
+}  // namespace ridgeway

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridge_checks.hpp"
+
+#include <atomic>
+#include <cmath>
+#include <tuple>
+
+#include "ridgeway/common/parallel.hpp"
+
+namespace ridgeway {
+namespace {
+
+using Defect = std::optional<RoadmapDefect>;
+
+bool is_length(double value) { return std::isfinite(value) && value >= 0.0; }
+
+/// Clearances may be infinite: far from everything there is no site.
+bool is_clearance(double value) { return value >= 0.0; }
+
+Defect find_vertex_defect(const Roadmap& roadmap) {
+  for (const Vertex& v : roadmap.graph.vertices) {
+    if (roadmap.esdf.layout.find(v.voxel) == kNoVoxel) {
+      return RoadmapDefect{"vertices", "has a vertex outside the map"};
+    }
+    if (!is_clearance(v.clearance)) {
+      return RoadmapDefect{"vertices", "has a clearance that is no distance"};
+    }
+  }
+  return {};
+}
+
+Defect find_edge_defect(const SparseGraph& graph) {
+  for (std::size_t i = 0; i < graph.edges.size(); ++i) {
+    const Edge& edge = graph.edges[i];
+    if (number(edge.to) >= graph.vertices.size() || edge.from >= edge.to) {
+      return RoadmapDefect{"edges", "has an edge to no vertex"};
+    }
+    if (!is_length(edge.length) || !is_clearance(edge.clearance)) {
+      return RoadmapDefect{"edges", "has a length or clearance that is no distance"};
+    }
+    if (i > 0 &&
+        std::tie(graph.edges[i - 1].from, graph.edges[i - 1].to) >= std::tie(edge.from, edge.to)) {
+      return RoadmapDefect{"edges", "is not in order"};
+    }
+  }
+  return {};
+}
+
+/// Every vertex must reach a root: each is walked from once, up to the first known good one.
+bool is_forest(const std::vector<VertexId>& parent) {
+  enum : std::uint8_t { kNew, kOnTheWay, kGood };
+  std::vector<std::uint8_t> mark(parent.size(), kNew);
+  for (std::size_t start = 0; start < parent.size(); ++start) {
+    std::size_t v = start;
+    while (mark[v] == kNew && number(parent[v]) != v) {
+      mark[v] = kOnTheWay;
+      v = number(parent[v]);
+    }
+    if (mark[v] == kOnTheWay) return false;
+    mark[v] = kGood;
+    for (v = start; mark[v] == kOnTheWay; v = number(parent[v])) mark[v] = kGood;
+  }
+  return true;
+}
+
+Defect find_tree_defect(const Roadmap& roadmap) {
+  const ClearanceTree& tree = roadmap.tree;
+  for (std::size_t v = 0; v < tree.parent.size(); ++v) {
+    if (number(tree.parent[v]) >= tree.parent.size()) {
+      return RoadmapDefect{"tree", "has a parent that is no vertex"};
+    }
+    if (!is_clearance(tree.clearance[v])) {
+      return RoadmapDefect{"tree", "has a clearance that is no distance"};
+    }
+    const bool root = number(tree.parent[v]) == v;
+    if (!root && roadmap.esdf.layout.find(tree.place[v]) == kNoVoxel) {
+      return RoadmapDefect{"tree", "has a narrowest place outside the map"};
+    }
+  }
+  if (!is_forest(tree.parent)) return RoadmapDefect{"tree", "goes in a circle"};
+  return {};
+}
+
+/// Whether every way out of a block's voxels ends in a traversable voxel.
+bool ways_stay_inside(const Roadmap& roadmap, std::uint32_t slot) {
+  const BlockLayout& layout = roadmap.esdf.layout;
+  const VoxelField<Direction>& next = roadmap.attach.next;
+  const VoxelId first = slot * kBlockVoxels;
+  for (VoxelId id = first; id < first + kBlockVoxels; ++id) {
+    const Direction direction = next[id];
+    if (direction == AttachField::kNotTraversable || direction == AttachField::kHere) continue;
+    const VoxelId to = layout.neighbour(id, direction);
+    if (to == kNoVoxel || next[to] == AttachField::kNotTraversable) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Defect find_size_defect(const Roadmap& roadmap) {
+  const EsdfMap& esdf = roadmap.esdf;
+  const std::size_t voxels = esdf.layout.voxel_count(), blocks = esdf.layout.block_count();
+  if (!(esdf.voxel_size > 0.0) || !std::isfinite(esdf.voxel_size)) {
+    return RoadmapDefect{"header", "has no positive voxel size"};
+  }
+  if (esdf.state.size() != voxels || esdf.squared.size() != voxels || esdf.site.size() != voxels ||
+      esdf.obstacle.block_count() != blocks) {
+    return RoadmapDefect{"state", "has fields that do not fit the blocks"};
+  }
+  if (roadmap.diagram.voxels.block_count() != blocks) {
+    return RoadmapDefect{"diagram", "does not fit the blocks"};
+  }
+  if (roadmap.attach.next.size() != voxels) {
+    return RoadmapDefect{"attach", "does not fit the blocks"};
+  }
+  const std::size_t vertices = roadmap.graph.vertices.size();
+  const ClearanceTree& tree = roadmap.tree;
+  if (tree.parent.size() != vertices || tree.clearance.size() != vertices ||
+      tree.place.size() != vertices) {
+    return RoadmapDefect{"tree", "does not fit the number of vertices"};
+  }
+  return {};
+}
+
+Defect find_graph_defect(const Roadmap& roadmap) {
+  if (Defect defect = find_vertex_defect(roadmap)) return defect;
+  if (Defect defect = find_edge_defect(roadmap.graph)) return defect;
+  return find_tree_defect(roadmap);
+}
+
+Defect find_attach_defect(const Roadmap& roadmap) {
+  std::atomic<bool> good = true;
+  parallel_for_each_index(
+      roadmap.esdf.layout.block_count(),
+      [&](std::size_t slot) {
+        if (!ways_stay_inside(roadmap, static_cast<std::uint32_t>(slot))) good = false;
+      },
+      64);
+  if (good) return {};
+  return RoadmapDefect{"attach", "leaves traversable space"};
+}
+
+}  // namespace ridgeway

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridge_header.hpp"
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "ridgeway/common/error.hpp"
+
+namespace ridgeway {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// JSON has no infinity: it stands as null.
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+double get_number(const Json& header, const char* key, double null_value) {
+  const Json& value = header.at(key);
+  return value.is_null() ? null_value : value.get<double>();
+}
+
+/// An unsigned number below 2^32 - 1; anything else throws what parse_header catches.
+std::uint32_t get_count(const Json& counts, const char* key) {
+  const Json& value = counts.at(key);
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() >= 0xffffffffu) {
+    throw std::out_of_range(std::string("'") + key + "' is no count");
+  }
+  return value.get<std::uint32_t>();
+}
+
+UnknownPolicy parse_policy(const std::string& name) {
+  if (name == "obstacle") return UnknownPolicy::kObstacle;
+  if (name == "ignore") return UnknownPolicy::kIgnore;
+  throw std::out_of_range("'unknown' is neither obstacle nor ignore");
+}
+
+RidgeHeader header_from(const Json& json) {
+  const Json& counts = json.at("counts");
+  RidgeHeader header;
+  header.voxel_size = get_number(json, "voxel_size", 0.0);
+  header.unknown = parse_policy(json.at("unknown").get<std::string>());
+  header.max_distance = get_number(json, "max_distance", kInfinity);
+  header.min_clearance = get_number(json, "min_clearance", kInfinity);
+  header.graph_min_clearance = get_number(json, "graph_min_clearance", kInfinity);
+  header.source = json.at("source").get<std::string>();
+  header.config = json.at("config").get<std::string>();
+  header.blocks = get_count(counts, "blocks");
+  header.vertices = get_count(counts, "vertices");
+  header.edges = get_count(counts, "edges");
+  if (!(header.voxel_size > 0.0)) throw std::out_of_range("'voxel_size' is not positive");
+  if (!(header.max_distance >= 0.0) || !(header.min_clearance >= 0.0) ||
+      !(header.graph_min_clearance >= 0.0)) {
+    throw std::out_of_range("a distance is negative");
+  }
+  return header;
+}
+
+}  // namespace
+
+RidgeHeader header_of(const Roadmap& roadmap) {
+  return {roadmap.esdf.voxel_size,
+          roadmap.esdf.unknown,
+          roadmap.esdf.max_distance,
+          roadmap.min_clearance,
+          roadmap.graph.min_clearance,
+          roadmap.source,
+          roadmap.config,
+          roadmap.esdf.layout.block_count(),
+          static_cast<std::uint32_t>(roadmap.graph.vertices.size()),
+          static_cast<std::uint32_t>(roadmap.graph.edges.size())};
+}
+
+std::string header_text(const RidgeHeader& header) {
+  Json json;
+  json["content"] = "roadmap";
+  json["voxel_size"] = header.voxel_size;
+  json["unknown"] = header.unknown == UnknownPolicy::kObstacle ? "obstacle" : "ignore";
+  json["max_distance"] = number_or_null(header.max_distance);
+  json["min_clearance"] = number_or_null(header.min_clearance);
+  json["graph_min_clearance"] = number_or_null(header.graph_min_clearance);
+  json["source"] = header.source;
+  json["config"] = header.config;
+  json["counts"] = {
+      {"blocks", header.blocks}, {"vertices", header.vertices}, {"edges", header.edges}};
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+RidgeHeader parse_header(const RidgeReader& reader) {
+  try {
+    const Json json = Json::parse(reader.header());
+    if (const auto content = json.at("content").get<std::string>(); content != "roadmap") {
+      throw InputError(reader.path(), "holds a '" + content + "', not a roadmap",
+                       "make a roadmap with `ridgeway build`");
+    }
+    return header_from(json);
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    reader.damaged("header", std::string("is not readable: ") + error.what());
+  }
+}
+
+}  // namespace ridgeway

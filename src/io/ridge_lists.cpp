@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <array>
+
+#include "little_endian.hpp"
+#include "ridge_sections.hpp"
+
+namespace ridgeway {
+namespace {
+
+constexpr std::size_t kBlockBytes = 12;
+constexpr std::size_t kVertexBytes = 20;
+constexpr std::size_t kEdgeBytes = 24;
+constexpr std::size_t kTreeBytes = 24;
+
+/// Appends one number of every item, item after item: alike bytes stand together.
+template <typename Items, typename NumberOf>
+void append_plane(std::vector<std::byte>& bytes, const Items& items, const NumberOf& number_of) {
+  for (const auto& item : items) append_number(bytes, number_of(item));
+}
+
+template <typename Items, typename Number, typename Item>
+void append_plane(std::vector<std::byte>& bytes, const Items& items, Number Item::*member) {
+  append_plane(bytes, items, [member](const Item& item) { return item.*member; });
+}
+
+/// Hands out the planes of a section in the order in which they were appended.
+class Planes {
+ public:
+  Planes(const RidgeReader& reader, const char* name, std::uint32_t type, std::size_t count,
+         std::size_t item_bytes)
+      : bytes_(reader.read_all(reader.get_section(name, type), count * item_bytes)),
+        count_(count) {}
+
+  /// Calls put(i, number) for every item.
+  template <typename Number, typename Put>
+  void take(const Put& put) {
+    for (std::size_t i = 0; i < count_; ++i) put(i, number_at<Number>(bytes_, offset_, i));
+    offset_ += count_ * sizeof(Number);
+  }
+
+ private:
+  std::vector<std::byte> bytes_;
+  std::size_t count_;
+  std::size_t offset_ = 0;
+};
+
+std::vector<std::byte> block_bytes(const BlockLayout& layout) {
+  std::vector<std::byte> bytes;
+  for (const auto axis : {&BlockIndex::x, &BlockIndex::y, &BlockIndex::z}) {
+    std::uint32_t previous = 0;
+    for (const BlockIndex& block : layout.blocks()) {
+      const auto value = static_cast<std::uint32_t>(block.*axis);
+      append_number(bytes, value - previous);
+      previous = value;
+    }
+  }
+  return bytes;
+}
+
+std::vector<std::byte> vertex_bytes(const SparseGraph& graph) {
+  std::vector<std::byte> bytes;
+  append_plane(bytes, graph.vertices, [](const Vertex& v) { return v.voxel.x; });
+  append_plane(bytes, graph.vertices, [](const Vertex& v) { return v.voxel.y; });
+  append_plane(bytes, graph.vertices, [](const Vertex& v) { return v.voxel.z; });
+  append_plane(bytes, graph.vertices, &Vertex::clearance);
+  return bytes;
+}
+
+std::vector<std::byte> edge_bytes(const SparseGraph& graph) {
+  std::vector<std::byte> bytes;
+  append_plane(bytes, graph.edges,
+               [](const Edge& e) { return static_cast<std::uint32_t>(e.from); });
+  append_plane(bytes, graph.edges, [](const Edge& e) { return static_cast<std::uint32_t>(e.to); });
+  append_plane(bytes, graph.edges, &Edge::length);
+  append_plane(bytes, graph.edges, &Edge::clearance);
+  return bytes;
+}
+
+std::vector<std::byte> tree_bytes(const ClearanceTree& tree) {
+  std::vector<std::byte> bytes;
+  append_plane(bytes, tree.parent, [](VertexId v) { return static_cast<std::uint32_t>(v); });
+  append_plane(bytes, tree.clearance, [](double c) { return c; });
+  append_plane(bytes, tree.place, &VoxelIndex::x);
+  append_plane(bytes, tree.place, &VoxelIndex::y);
+  append_plane(bytes, tree.place, &VoxelIndex::z);
+  return bytes;
+}
+
+}  // namespace
+
+std::vector<RidgeSectionSource> list_sections(const Roadmap& roadmap) {
+  return {plain_section("blocks", kBlocksType, block_bytes(roadmap.esdf.layout)),
+          plain_section("vertices", kVerticesType, vertex_bytes(roadmap.graph)),
+          plain_section("edges", kEdgesType, edge_bytes(roadmap.graph)),
+          plain_section("tree", kTreeType, tree_bytes(roadmap.tree))};
+}
+
+BlockLayout load_blocks(const RidgeReader& reader, const RidgeHeader& header) {
+  Planes planes(reader, "blocks", kBlocksType, header.blocks, kBlockBytes);
+  std::vector<BlockIndex> blocks(header.blocks);
+  for (const auto axis : {&BlockIndex::x, &BlockIndex::y, &BlockIndex::z}) {
+    std::uint32_t value = 0;
+    planes.take<std::uint32_t>([&](std::size_t i, std::uint32_t difference) {
+      value += difference;
+      blocks[i].*axis = static_cast<int>(value);
+    });
+  }
+  constexpr int kFarthest = 1 << 26;  // half of what a voxel index can name
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    for (const int part : {blocks[i].x, blocks[i].y, blocks[i].z}) {
+      if (part < -kFarthest || part > kFarthest) reader.damaged("blocks", "has one out of range");
+    }
+    if (i > 0 && !(blocks[i - 1] < blocks[i])) reader.damaged("blocks", "is not in order");
+  }
+  return BlockLayout(std::move(blocks));
+}
+
+void load_graph(const RidgeReader& reader, const RidgeHeader& header, Roadmap& roadmap) {
+  SparseGraph& graph = roadmap.graph;
+  graph.vertices.resize(header.vertices);
+  Planes vertices(reader, "vertices", kVerticesType, header.vertices, kVertexBytes);
+  for (const auto axis : {&VoxelIndex::x, &VoxelIndex::y, &VoxelIndex::z}) {
+    vertices.take<int>([&](std::size_t i, int k) { graph.vertices[i].voxel.*axis = k; });
+  }
+  vertices.take<double>([&](std::size_t i, double c) { graph.vertices[i].clearance = c; });
+  for (Vertex& v : graph.vertices) v.position = centre_of(v.voxel, header.voxel_size);
+
+  graph.edges.resize(header.edges);
+  Planes edges(reader, "edges", kEdgesType, header.edges, kEdgeBytes);
+  edges.take<std::uint32_t>(
+      [&](std::size_t i, std::uint32_t v) { graph.edges[i].from = VertexId{v}; });
+  edges.take<std::uint32_t>(
+      [&](std::size_t i, std::uint32_t v) { graph.edges[i].to = VertexId{v}; });
+  edges.take<double>([&](std::size_t i, double d) { graph.edges[i].length = d; });
+  edges.take<double>([&](std::size_t i, double c) { graph.edges[i].clearance = c; });
+
+  ClearanceTree& tree = roadmap.tree;
+  tree.parent.resize(header.vertices);
+  tree.clearance.resize(header.vertices);
+  tree.place.resize(header.vertices);
+  Planes nodes(reader, "tree", kTreeType, header.vertices, kTreeBytes);
+  nodes.take<std::uint32_t>([&](std::size_t i, std::uint32_t v) { tree.parent[i] = VertexId{v}; });
+  nodes.take<double>([&](std::size_t i, double c) { tree.clearance[i] = c; });
+  for (const auto axis : {&VoxelIndex::x, &VoxelIndex::y, &VoxelIndex::z}) {
+    nodes.take<int>([&](std::size_t i, int k) { tree.place[i].*axis = k; });
+  }
+}
+
+}  // namespace ridgeway

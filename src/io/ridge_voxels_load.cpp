@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_invoke.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "ridge_sections.hpp"
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/common/parallel.hpp"
+#include "site_codec.hpp"
+#include "voxel_chunks.hpp"
+
+namespace ridgeway {
+namespace {
+
+/// What a thread keeps from chunk to chunk.
+struct Worker {
+  RidgeReader::Scratch scratch;
+  std::vector<std::byte> state, site, diagram, attach;
+};
+
+/// A chunk that must have a given number of bytes for each of its blocks.
+void read_exactly(const RidgeReader& reader, const RidgeSectionEntry& section, std::size_t chunk,
+                  std::size_t expected, Worker& worker, std::vector<std::byte>& raw) {
+  if (section.chunks[chunk].raw_bytes != expected) {
+    reader.damaged(section.name, "has a chunk of the wrong size");
+  }
+  reader.read_chunk(section, chunk, worker.scratch, raw);
+}
+
+/// Widens one block's part of a plane of bytes or words.
+void load_plane(const std::byte* raw, bool narrow, BlockPlane& plane) {
+  if (!narrow) {
+    std::memcpy(plane.data(), raw, sizeof(plane));
+    return;
+  }
+  std::array<std::int8_t, kBlockVoxels> bytes;
+  std::memcpy(bytes.data(), raw, sizeof(bytes));
+  std::copy(bytes.begin(), bytes.end(), plane.begin());
+}
+
+/// States, obstacle bits and which voxels have a site to come; false where a byte makes no sense.
+bool decode_states(const std::byte* raw, EsdfMap& esdf, std::uint32_t slot, BlockPlane& live) {
+  std::array<std::uint8_t, kBlockVoxels> obstacle;
+  VoxelState* state = esdf.state.block(slot);
+  const unsigned obstacles = 1u << 2 | (esdf.unknown == UnknownPolicy::kObstacle ? 1u << 0 : 0);
+  unsigned bad = 0;
+  for (std::size_t i = 0; i < kBlockVoxels; ++i) {
+    const auto byte = static_cast<unsigned>(raw[i]);
+    const unsigned value = byte & 3, no_site = byte >> 2 & 1;
+    const unsigned solid = obstacles >> value & 1;
+    bad |= byte >> 3 | (value & (value >> 1)) | (solid & no_site);
+    state[i] = static_cast<VoxelState>(value);
+    obstacle[i] = static_cast<std::uint8_t>(solid);
+    live[i] = static_cast<std::int16_t>(-static_cast<int>((solid ^ 1) & (no_site ^ 1)));
+  }
+  for (std::size_t z = 0; z < kBlockSide; ++z) {
+    std::uint64_t layer = 0;
+    for (std::size_t y = 0; y < kBlockSide; ++y) {
+      std::uint64_t row;  // eight bytes of 0 or 1 become eight bits
+      std::memcpy(&row, obstacle.data() + z * 64 + y * 8, 8);
+      layer |= (row * 0x0102040810204080ull >> 56) << (8 * y);
+    }
+    esdf.obstacle.block(slot)[z] = layer;
+  }
+  return bad == 0;
+}
+
+/// Sites and distances; false where an offset is zero or longer than any distance may be.
+bool decode_distances(const SitePlanes& sites, const BlockPlane& live, EsdfMap& esdf,
+                      std::uint32_t slot) {
+  std::uint32_t* squared = esdf.squared.block(slot);
+  SiteOffset* site = esdf.site.block(slot);
+  const VoxelMask::Block& obstacle = esdf.obstacle.block(slot);
+  std::uint32_t bad = 0;
+  const auto part = [&](int k) {
+    bad |= static_cast<std::uint32_t>((k > kFarthestSite) | (k < -kFarthestSite));
+    const int twice = 2 * (k < 0 ? -k : k);
+    const std::uint32_t odd = static_cast<std::uint32_t>(twice - (twice != 0));
+    return odd * odd;
+  };
+  for (std::size_t i = 0; i < kBlockVoxels; ++i) {
+    const std::uint32_t sum = part(sites.x[i]) + part(sites.y[i]) + part(sites.z[i]);
+    bad |= static_cast<std::uint32_t>((live[i] != 0) & (sum == 0));
+    squared[i] = sum | (live[i] != 0 ? 0u : kNoSite);
+  }
+  for (std::size_t i = 0; i < kBlockVoxels; ++i) site[i] = {sites.x[i], sites.y[i], sites.z[i]};
+  for (std::size_t z = 0; z < kBlockSide; ++z)
+    for (std::uint64_t bits = obstacle[z]; bits != 0; bits &= bits - 1)
+      squared[z * 64 + static_cast<std::size_t>(std::countr_zero(bits))] = 0;
+  return bad == 0;
+}
+
+void load_esdf_blocks(const RidgeReader& reader, const BlockRange& range, const Worker& worker,
+                      EsdfMap& esdf) {
+  const std::size_t voxels = range.count() * kBlockVoxels;
+  const bool narrow = worker.site.size() == 3 * voxels;
+  const std::size_t width = narrow ? 1 : 2;
+  SitePlanes coded, sites;
+  BlockPlane live;
+  for (std::uint32_t slot = range.first; slot < range.last; ++slot) {
+    const std::size_t offset = std::size_t{slot - range.first} * kBlockVoxels;
+    if (!decode_states(worker.state.data() + offset, esdf, slot, live)) {
+      reader.damaged("state", "has a voxel in no known state");
+    }
+    const std::byte* raw = worker.site.data() + offset * width;
+    load_plane(raw, narrow, coded.x);
+    load_plane(raw + voxels * width, narrow, coded.y);
+    load_plane(raw + 2 * voxels * width, narrow, coded.z);
+    decode_sites(coded, live, sites);
+    if (!decode_distances(sites, live, esdf, slot)) {
+      reader.damaged("site", "has an offset that no voxel can have");
+    }
+  }
+}
+
+void load_diagram_blocks(const RidgeReader& reader, const BlockRange& range, const Worker& worker,
+                         Roadmap& roadmap) {
+  std::memcpy(&roadmap.diagram.voxels.block(range.first), worker.diagram.data(),
+              worker.diagram.size());
+  std::uint64_t inside = 0;
+  for (std::uint32_t slot = range.first; slot < range.last; ++slot)
+    for (std::size_t z = 0; z < kBlockSide; ++z)
+      inside |= roadmap.diagram.voxels.block(slot)[z] & roadmap.esdf.obstacle.block(slot)[z];
+  if (inside != 0) reader.damaged("diagram", "has a voxel inside an obstacle");
+}
+
+/// The fields take their pages from the system here, which costs as much as the decoding.
+void allocate_fields(Roadmap& roadmap) {
+  EsdfMap& esdf = roadmap.esdf;
+  const BlockLayout& layout = esdf.layout;
+  tbb::parallel_invoke(
+      [&] {
+        esdf.squared = VoxelField<std::uint32_t>(layout);
+        esdf.state = VoxelField<VoxelState>(layout);
+        esdf.obstacle = VoxelMask(layout);
+      },
+      [&] { esdf.site = VoxelField<SiteOffset>(layout); },
+      [&] {
+        roadmap.attach.next = VoxelField<Direction>(layout);
+        roadmap.diagram.voxels = VoxelMask(layout);
+      });
+}
+
+}  // namespace
+
+void check_memory(const RidgeReader& reader, const RidgeHeader& header) {
+  constexpr std::size_t kBytesPerVoxel = 13;
+  constexpr std::size_t kBytesPerBlock = kBlockVoxels * kBytesPerVoxel + 140;
+  const std::size_t needed = std::size_t{header.blocks} * kBytesPerBlock;
+  const std::size_t memory = static_cast<std::size_t>(::sysconf(_SC_PHYS_PAGES)) *
+                             static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  if (needed <= memory) return;
+  throw InputError(reader.path(),
+                   "needs " + std::to_string(needed >> 20) + " MiB of memory, this machine has " +
+                       std::to_string(memory >> 20),
+                   "build the map with a larger --voxel-size or smaller --bounds");
+}
+
+void load_voxels(const RidgeReader& reader, const RidgeHeader& header, Roadmap& roadmap) {
+  const RidgeSectionEntry& state = reader.get_section("state", kStateType);
+  const RidgeSectionEntry& site = reader.get_section("site", kSiteType);
+  const RidgeSectionEntry& diagram = reader.get_section("diagram", kMaskType);
+  const RidgeSectionEntry& attach = reader.get_section("attach", kAttachType);
+  const std::size_t chunks = chunks_for(header.blocks);
+  for (const RidgeSectionEntry* section : {&state, &site, &diagram, &attach}) {
+    if (section->chunks.size() != chunks) {
+      reader.damaged(section->name, "does not fit the number of blocks");
+    }
+  }
+  allocate_fields(roadmap);
+  tbb::enumerable_thread_specific<Worker> workers;
+  parallel_for_each_index(chunks, [&](std::size_t chunk) {
+    Worker& worker = workers.local();
+    const BlockRange range = blocks_of_chunk(chunk, header.blocks);
+    const std::size_t voxels = range.count() * kBlockVoxels;
+    read_exactly(reader, state, chunk, voxels, worker, worker.state);
+    const bool narrow = site.chunks[chunk].raw_bytes == 3 * voxels;
+    read_exactly(reader, site, chunk, (narrow ? 3 : 6) * voxels, worker, worker.site);
+    load_esdf_blocks(reader, range, worker, roadmap.esdf);
+    read_exactly(reader, diagram, chunk, voxels / 8, worker, worker.diagram);
+    load_diagram_blocks(reader, range, worker, roadmap);
+    read_exactly(reader, attach, chunk, voxels, worker, worker.attach);
+    std::memcpy(roadmap.attach.next.block(range.first), worker.attach.data(), voxels);
+    const auto last = *std::max_element(worker.attach.begin(), worker.attach.end());
+    if (last > std::byte{AttachField::kNotTraversable}) {
+      reader.damaged("attach", "has a direction above 27");
+    }
+  });
+}
+
+}  // namespace ridgeway
