@@ -23,5 +23,7 @@ function(ridgeway_target_defaults target)
     ${target} PROPERTIES CXX_EXTENSIONS OFF CXX_STANDARD 20 POSITION_INDEPENDENT_CODE ON)
   target_compile_options(
     ${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -ffp-contract=off
+                      # Clang counts this as -Wconversion, GCC does not.
+                      $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>
                       $<$<BOOL:${RIDGEWAY_WERROR}>:-Werror>)
 endfunction()
