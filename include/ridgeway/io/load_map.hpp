@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ridgeway/mapping/occupancy_map.hpp"
+
+namespace ridgeway {
+
+/// How to make a map of a file. Lengths in metres, boxes in the map frame (z up).
+struct LoadConfig {
+  /// Voxel size of the result. Required for point clouds; for .3dmap the size of a cell (1 unless
+  /// given); for OctoMaps the file's own unless given, never finer.
+  std::optional<double> voxel_size;
+  /// The flight volume: what is not wholly inside is unknown. Required for point clouds, which do
+  /// not record free space.
+  std::optional<Box> bounds;
+  std::vector<Box> exclude;  ///< no-fly boxes, made occupied
+  /// From the file's frame to the map's. Quarter turns and translations by whole voxels are exact;
+  /// others make the obstacles of a voxel file grow (transform_map), not those of a cloud.
+  Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
+  int isolated_below = 0;  ///< clusters of fewer occupied voxels become free (remove_isolated)
+
+  /// Throws InputError naming the bad field.
+  void validate() const;
+};
+
+/// What a person should be told about a map that was loaded all the same.
+struct LoadNotes {
+  std::vector<std::string> notes;
+};
+
+/// Reads OctoMap .bt and .ot, point clouds .pcd, .ply and .xyz, and MovingAI .3dmap, by what the
+/// file's bytes say and not by its name. In this order: read, transform, resample, isolated filter,
+/// crop, no-fly boxes. Throws InputError naming the file (or the bad option) and the remedy; a map
+/// that does not fit into memory is refused before it is taken.
+OccupancyMap load_map(const std::filesystem::path& file, const LoadConfig& config = {},
+                      LoadNotes* notes = nullptr);
+
+}  // namespace ridgeway

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "ridgeway/mapping/occupancy_map.hpp"
+#include "ridgeway/mapping/voxel_range.hpp"
+
+namespace ridgeway {
+
+/// Points of a file, in its own frame, metres.
+struct PointCloud {
+  std::vector<Point> points;      ///< all finite
+  std::size_t skipped = 0;        ///< points left out because a coordinate is NaN or infinite
+  std::size_t ignored_faces = 0;  ///< faces of a mesh file, of which only the vertices are taken
+
+  void add(double x, double y, double z) {
+    if (std::isfinite(x) && std::isfinite(y) && std::isfinite(z))
+      points.emplace_back(x, y, z);
+    else
+      ++skipped;
+  }
+};
+
+struct CloudMapConfig {
+  double voxel_size = 0.0;  ///< metres, required
+  Box bounds;               ///< where the space is known, map frame, required
+  int margin = 0;  ///< obstacles are also kept this many voxels beyond the bounds, for filters
+  Eigen::Isometry3d T_map_cloud = Eigen::Isometry3d::Identity();
+};
+
+/// Voxels that hold a point are occupied; of the others, those wholly inside the bounds are free:
+/// a cloud does not say where it saw nothing. Throws InputError naming `name` where no point lies
+/// within the bounds, they hold no voxel, or a point lies beyond 1e9 voxels.
+OccupancyMap map_from_points(const PointCloud& cloud, const CloudMapConfig& config,
+                             const std::string& name);
+
+/// Box around the points of a cloud, moved into the map frame.
+Box extent(const PointCloud& cloud, const Eigen::Isometry3d& T_map_cloud);
+
+/// "x0,y0,z0 to x1,y1,z1", for messages.
+std::string describe(const Box& box);
+
+}  // namespace ridgeway
