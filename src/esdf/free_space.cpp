@@ -214,12 +214,14 @@ bool FreeSpace::is_known_free(const Point& a, const Point& b) const {
 
 double FreeSpace::slow_move_clearance(VoxelId from, VoxelId to, int direction,
                                       double enough) const {
+  const double low = std::min(esdf_.squared[from], esdf_.squared[to]);
+  if (low == kNoSite) return low;  // both ends farther than max_distance from everything
   const VoxelIndex v = esdf_.layout.index_of(from), o = offset_of(direction);
   const Vector a(v.x + 0.5, v.y + 0.5, v.z + 0.5), b = a + Vector(o.x, o.y, o.z);
-  const double low = std::min(esdf_.squared[from], esdf_.squared[to]);
   // Sites of the two ends first: near an obstacle one of them usually is the nearest on the way.
   double best = 0.25 * low;
   for (const VoxelId end : {from, to}) {
+    if (esdf_.squared[end] == kNoSite) continue;
     const SiteOffset& site = esdf_.site[end];
     const VoxelIndex cube = (end == from ? v : v + o) + VoxelIndex{site.x, site.y, site.z};
     best = std::min(best, detail::squared_distance(a, b, detail::cube_of(cube)));

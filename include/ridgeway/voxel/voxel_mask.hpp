@@ -13,7 +13,7 @@ namespace ridgeway {
 
 /// A set of voxels: one bit a voxel, a row of eight along x is one byte, a block is 64 bytes
 /// (one z-layer is one 64-bit word). A whole map of it fits the cache, which is what makes
-/// thinning fast. Voxels outside the layout's blocks count as `outside`.
+/// thinning fast.
 class VoxelMask {
  public:
   using Block = std::array<std::uint64_t, kBlockSide>;  // [z], bit x + 8 y
@@ -65,20 +65,31 @@ inline Cube27 cube_around(const BlockLayout& layout, const VoxelMask& mask, Voxe
             z = static_cast<int>(id >> 6 & 7);
   const std::uint32_t slot = id >> 9;
   Cube27 cube = 0;
-  if (x > 0 && x < 7 && y > 0 && y < 7 && z > 0 && z < 7) {
-    const VoxelMask::Block& block = mask.block(slot);
+  if (x > 0 && x < 7 && y > 0 && y < 7) {  // no more than two blocks, one above the other
     const int shift = x - 1 + 8 * (y - 1);
-    for (int dz = 0; dz < 3; ++dz) {
-      const std::uint64_t layer = block[static_cast<std::size_t>(z - 1 + dz)] >> shift;
+    for (int dz = -1; dz <= 1; ++dz) {
+      const std::uint32_t n = layout.neighbour_block(slot, 13 + 9 * ((z + dz) >> 3));
+      if (n == BlockLayout::kNoBlock) continue;
+      const std::uint64_t layer = mask.block(n)[static_cast<std::size_t>((z + dz) & 7)] >> shift;
       cube |= static_cast<Cube27>((layer & 7) | (layer >> 8 & 7) << 3 | (layer >> 16 & 7) << 6)
-              << (9 * dz);
+              << (9 * (dz + 1));
     }
     return cube;
   }
-  for (int d = 0; d < 27; ++d) {
-    const VoxelId n = layout.neighbour(id, d);
-    if (n != kNoVoxel && mask.test(n)) cube |= 1u << d;
-  }
+  for (int dz = -1; dz <= 1; ++dz)
+    for (int dy = -1; dy <= 1; ++dy) {
+      const int beside = 13 + 9 * ((z + dz) >> 3) + 3 * ((y + dy) >> 3);
+      const auto row = [&](int dx) -> unsigned {
+        const std::uint32_t n = layout.neighbour_block(slot, beside + dx);
+        if (n == BlockLayout::kNoBlock) return 0;
+        return static_cast<unsigned>(mask.block(n)[static_cast<std::size_t>((z + dz) & 7)] >>
+                                     (8 * ((y + dy) & 7))) & 0xffu;
+      };
+      unsigned bits = row(0) << 1;
+      if (x == 0) bits |= row(-1) >> 7;
+      if (x == 7) bits |= (row(1) & 1u) << 9;
+      cube |= (bits >> x & 7u) << (9 * (dz + 1) + 3 * (dy + 1));
+    }
   return cube;
 }
 

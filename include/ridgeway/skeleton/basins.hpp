@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "ridgeway/esdf/esdf_map.hpp"
+#include "ridgeway/voxel/voxel_mask.hpp"
+
+namespace ridgeway {
+
+/// `next` of a voxel that is not traversable.
+inline constexpr Direction kNotTraversable = 27;
+
+/// A place where two basins meet: the widest move between them. `level`: 4 c^2 / s^2 of that move,
+/// c its clearance.
+struct Pass {
+  double level = 0.0;
+  VoxelId from = kNoVoxel;
+  VoxelId to = kNoVoxel;
+};
+
+/// Traversable space as a landscape whose height is the clearance. Each voxel climbs to a peak by
+/// moves that are nowhere narrower than the voxel itself; the passes, widest first, are the
+/// maximum spanning forest of all basins over all legal moves. Together they tell exactly at which
+/// radius any two voxels part.
+///
+/// Heights are ordered by (4 d^2 / s^2, smaller handle first), so there are no ties.
+struct Basins {
+  VoxelField<Direction> next;         ///< towards the peak; kCentre at a peak
+  VoxelField<std::uint32_t> basin;    ///< number of the voxel's basin
+  std::vector<VoxelId> peaks;         ///< by basin, ascending handles
+  std::vector<double> dynamics;       ///< by basin: height above its pass to a higher peak, voxels
+  std::vector<Pass> passes;           ///< widest first
+  std::size_t components() const { return peaks.size() - passes.size(); }
+};
+
+Basins find_basins(const EsdfMap& esdf, const VoxelMask& traversable);
+
+}  // namespace ridgeway

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include "ridgeway/esdf/esdf_map.hpp"
+#include "ridgeway/voxel/voxel_mask.hpp"
+
+namespace ridgeway {
+
+struct GvdConfig {
+  double min_clearance = 0.4;  ///< metres; voxels nearer to an obstacle are left out
+  double theta = 0.785;        ///< radians; least angle between the directions to two sites
+};
+
+/// Free voxels at least `radius` metres from every obstacle (inclusive).
+VoxelMask traversable_voxels(const EsdfMap& esdf, double radius);
+
+/// Voxels on the generalized Voronoi diagram (paper: GVD Generation): those with a free
+/// 6-neighbour whose nearest site lies in a direction more than theta away from the voxel's own,
+/// both seen from the voxel. A voxel without a site counts as on the ridge.
+VoxelMask compute_gvd(const EsdfMap& esdf, const VoxelMask& traversable,
+                      const GvdConfig& config = {});
+
+/// GVD voxels with at least 18 of their 26 neighbours on the GVD: its thick edges (paper: Edge
+/// Extraction).
+VoxelMask extract_edges(const EsdfMap& esdf, const VoxelMask& gvd);
+
+}  // namespace ridgeway

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <array>
+
+#include "ridgeway/voxel/voxel_mask.hpp"
+
+namespace ridgeway {
+
+/// Calls body(id) for every member of a mask in one block, in ascending order.
+template <typename Body>
+void for_each_member(const VoxelMask& mask, std::uint32_t slot, const Body& body) {
+  for (std::uint32_t z = 0; z < kBlockSide; ++z)
+    for (std::uint64_t bits = mask.block(slot)[z]; bits != 0; bits &= bits - 1)
+      body(slot * kBlockVoxels + z * 64 + static_cast<VoxelId>(std::countr_zero(bits)));
+}
+
+/// A block of a mask with a border of one voxel: 10 x 10 rows of 10 bits, so that the 3x3x3 cube
+/// around each of its voxels is nine shifts. For passes over whole blocks.
+class CubeGather {
+ public:
+  CubeGather(const BlockLayout& layout, const VoxelMask& mask, std::uint32_t slot) {
+    for (int z = -1; z <= kBlockSide; ++z)
+      for (int y = -1; y <= kBlockSide; ++y) {
+        unsigned row = 0;
+        const int beside = 3 * ((y >> 3) + 1) + 9 * ((z >> 3) + 1);
+        const auto part = [&](int dx) -> unsigned {
+          const std::uint32_t n = layout.neighbour_block(slot, beside + dx + 1);
+          if (n == BlockLayout::kNoBlock) return 0;
+          return static_cast<unsigned>(mask.block(n)[static_cast<std::size_t>(z & 7)] >>
+                                       (8 * (y & 7))) & 0xffu;
+        };
+        row |= part(0) << 1 | part(-1) >> 7 | (part(1) & 1u) << 9;
+        rows_[static_cast<std::size_t>((z + 1) * 10 + y + 1)] = static_cast<std::uint16_t>(row);
+      }
+  }
+
+  /// The cube around a voxel of this block; its own bit included.
+  Cube27 cube(VoxelId id) const {
+    const int x = static_cast<int>(id & 7);
+    const std::size_t first = (id >> 6 & 7) * 10 + (id >> 3 & 7);
+    Cube27 cube = 0;
+    for (std::size_t z = 0; z < 3; ++z)
+      for (std::size_t y = 0; y < 3; ++y)
+        cube |= (static_cast<Cube27>(rows_[first + 10 * z + y]) >> x & 7u) << (9 * z + 3 * y);
+    return cube;
+  }
+
+ private:
+  std::array<std::uint16_t, 100> rows_;
+};
+
+}  // namespace ridgeway

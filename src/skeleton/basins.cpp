@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/skeleton/basins.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <queue>
+
+#include "ridgeway/common/parallel.hpp"
+#include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/skeleton/basins.hpp"
+#include "ridgeway/voxel/cube_gather.hpp"
+#include "ridgeway/voxel/disjoint_sets.hpp"
+
+namespace ridgeway {
+namespace {
+
+/// Place of a voxel in the total order of heights; larger is higher. Zero: not traversable.
+std::uint64_t height(const EsdfMap& esdf, VoxelId id) {
+  return std::uint64_t{esdf.squared[id]} << 32 | (0xffffffffu - id);
+}
+
+constexpr std::array<float, 27> kInverseLength = [] {
+  std::array<float, 27> inverse{};
+  for (std::size_t d = 0; d < 27; ++d) {
+    const int squared = squared_length(static_cast<int>(d));
+    inverse[d] = squared == 1 ? 1.0f : squared == 2 ? 0.70710678f : 0.57735027f;
+  }
+  return inverse;
+}();
+
+/// Heights of a block's voxels and of the voxels around it.
+class HeightGather {
+ public:
+  HeightGather(const EsdfMap& esdf, const VoxelMask& traversable, std::uint32_t slot) {
+    std::size_t place = 0;
+    for (int z = -1; z <= kBlockSide; ++z)
+      for (int y = -1; y <= kBlockSide; ++y)
+        for (int x = -1; x <= kBlockSide; ++x, ++place) {
+          const std::uint32_t n = esdf.layout.neighbour_block(
+              slot, 13 + (x >> 3) + 3 * (y >> 3) + 9 * (z >> 3));
+          heights_[place] = 0;
+          if (n == BlockLayout::kNoBlock) continue;
+          const VoxelId id = n * kBlockVoxels +
+                             static_cast<VoxelId>((x & 7) | (y & 7) << 3 | (z & 7) << 6);
+          if (traversable.test(id)) heights_[place] = height(esdf, id);
+        }
+  }
+
+  const std::uint64_t* at(VoxelId id) const {
+    return &heights_[((id >> 6 & 7) + 1) * 100 + ((id >> 3 & 7) + 1) * 10 + (id & 7) + 1];
+  }
+  static constexpr int step(int direction) {
+    const VoxelIndex o = offset_of(direction);
+    return o.x + 10 * o.y + 100 * o.z;
+  }
+
+ private:
+  std::array<std::uint64_t, 1000> heights_;
+};
+
+struct Surroundings {
+  Cube27 higher = 0;           // traversable neighbours above the voxel
+  Direction steepest = kCentre;  // among those reached without a dip
+};
+
+Surroundings look_around(const std::uint64_t* centre) {
+  Surroundings result;
+  const auto own = static_cast<float>(*centre >> 32);
+  float best = -1.0f;
+  for (int d = 0; d < 27; ++d) {
+    const std::uint64_t other = centre[HeightGather::step(d)];
+    if (other <= *centre) continue;
+    result.higher |= 1u << d;
+    const int squared = squared_length(d);
+    const float rise = static_cast<float>(other >> 32) - own;
+    if (squared > 1 && rise < 4.0f * static_cast<float>(squared)) continue;  // it might dip
+    const float slope = rise * kInverseLength[static_cast<std::size_t>(d)];
+    if (slope > best) {
+      best = slope;
+      result.steepest = static_cast<Direction>(d);
+    }
+  }
+  return result;
+}
+
+/// Whether adding the voxel, from the top down, neither starts a basin nor can join two: all its
+/// higher neighbours hang together by moves across faces, and one of them is across a face.
+bool is_regular(Cube27 higher) {
+  const Cube27 faces = higher & kCells6;
+  return faces != 0 && flood6(faces & (~faces + 1), higher) == higher;
+}
+
+struct Landscape {
+  Basins basins;
+  std::vector<VoxelId> critical;  // peaks and possible passes
+};
+
+Landscape climb(const EsdfMap& esdf, const VoxelMask& traversable) {
+  Landscape land;
+  land.basins.next = VoxelField<Direction>(esdf.layout, kNotTraversable);
+  std::vector<std::vector<VoxelId>> critical(esdf.layout.block_count());
+  parallel_for_each_index(
+      esdf.layout.block_count(),
+      [&](std::size_t block) {
+        const auto slot = static_cast<std::uint32_t>(block);
+        if (traversable.block(slot) == VoxelMask::Block{}) return;
+        const HeightGather gather(esdf, traversable, slot);
+        for_each_member(traversable, slot, [&](VoxelId id) {
+          const Surroundings around = look_around(gather.at(id));
+          land.basins.next[id] = around.steepest;
+          if (!is_regular(around.higher)) critical[slot].push_back(id);
+        });
+      },
+      16);
+  for (const std::vector<VoxelId>& ids : critical)
+    land.critical.insert(land.critical.end(), ids.begin(), ids.end());
+  return land;
+}
+
+/// Numbers the peaks and labels every voxel with its own. Threads may walk the same way twice and
+/// then write the same label.
+void label_basins(const EsdfMap& esdf, const VoxelMask& traversable, Landscape& land) {
+  Basins& basins = land.basins;
+  constexpr std::uint32_t kNone = 0xffffffffu;
+  basins.basin = VoxelField<std::uint32_t>(esdf.layout, kNone);
+  for (const VoxelId id : land.critical)
+    if (basins.next[id] == kCentre) {
+      basins.basin[id] = static_cast<std::uint32_t>(basins.peaks.size());
+      basins.peaks.push_back(id);
+    }
+  const auto label = [&](VoxelId id) { return std::atomic_ref<std::uint32_t>(basins.basin[id]); };
+  parallel_for_each_index(
+      esdf.layout.block_count(),
+      [&](std::size_t slot) {
+        for_each_member(traversable, static_cast<std::uint32_t>(slot), [&](VoxelId start) {
+          VoxelId top = start;
+          std::uint32_t basin;
+          while ((basin = label(top).load(std::memory_order_relaxed)) == kNone)
+            top = esdf.layout.neighbour(top, basins.next[top]);
+          for (VoxelId id = start; id != top; id = esdf.layout.neighbour(id, basins.next[id]))
+            label(id).store(basin, std::memory_order_relaxed);
+        });
+      },
+      16);
+}
+
+/// Kruskal over the critical voxels from the top down. A pass that is narrower than both its ends
+/// waits until the level has sunk to it.
+class PassFinder {
+ public:
+  PassFinder(const EsdfMap& esdf, const VoxelMask& traversable, Basins& basins)
+      : esdf_(esdf), traversable_(traversable), basins_(basins), sets_(basins.peaks.size()),
+        space_(esdf) {
+    basins_.dynamics.assign(basins_.peaks.size(), std::numeric_limits<double>::infinity());
+    highest_.resize(basins_.peaks.size());
+    std::iota(highest_.begin(), highest_.end(), 0u);
+  }
+
+  void run(std::vector<VoxelId> critical) {
+    std::sort(critical.begin(), critical.end(), [&](VoxelId a, VoxelId b) {
+      return height(esdf_, a) > height(esdf_, b);
+    });
+    for (const VoxelId id : critical) {
+      join_waiting(static_cast<double>(esdf_.squared[id]));
+      add(id);
+    }
+    join_waiting(0.0);
+  }
+
+ private:
+  struct Narrower {
+    bool operator()(const Pass& a, const Pass& b) const {
+      return a.level != b.level ? a.level < b.level
+             : a.from != b.from ? a.from > b.from
+                                : a.to > b.to;
+    }
+  };
+
+  void add(VoxelId id) {
+    const std::uint64_t own = height(esdf_, id);
+    Cube27 higher = 0;
+    for (Cube27 cube = cube_around(esdf_.layout, traversable_, id) & kCells26; cube != 0;
+         cube &= cube - 1) {
+      const int d = std::countr_zero(cube);
+      if (height(esdf_, esdf_.layout.neighbour(id, d)) > own) higher |= 1u << d;
+    }
+    for (Cube27 left = higher; left != 0;) {
+      const Cube27 part = flood6(left & (~left + 1), left);
+      left &= ~part;
+      connect(id, part);
+    }
+  }
+
+  /// Joins a voxel with a face-connected part of its higher neighbours: by a face if it can, else
+  /// by the widest diagonal move.
+  void connect(VoxelId id, Cube27 part) {
+    const double own = esdf_.squared[id];
+    Pass widest;
+    for (Cube27 cells = part & kCells6 ? part & kCells6 : part; cells != 0; cells &= cells - 1) {
+      const int d = std::countr_zero(cells);
+      const VoxelId other = esdf_.layout.neighbour(id, d);
+      if (sets_.find(basins_.basin[id]) == sets_.find(basins_.basin[other])) return;
+      const double level = space_.move_clearance(id, other, d);
+      if (level > widest.level) widest = {level, id, other};
+      if (level >= own) break;
+    }
+    if (widest.level >= own) {
+      join(widest);
+    } else if (widest.level > 0.0) {
+      waiting_.push(widest);
+    }
+  }
+
+  void join_waiting(double level) {
+    while (!waiting_.empty() && waiting_.top().level > level) {
+      const Pass pass = waiting_.top();
+      waiting_.pop();
+      join(pass);
+    }
+  }
+
+  void join(const Pass& pass) {
+    const std::uint32_t a = sets_.find(basins_.basin[pass.from]);
+    const std::uint32_t b = sets_.find(basins_.basin[pass.to]);
+    if (a == b) return;
+    const auto peak_height = [&](std::uint32_t set) {
+      return height(esdf_, basins_.peaks[highest_[set]]);
+    };
+    const std::uint32_t lower = peak_height(a) < peak_height(b) ? highest_[a] : highest_[b];
+    const std::uint32_t higher = lower == highest_[a] ? highest_[b] : highest_[a];
+    basins_.dynamics[lower] =
+        0.5 * (std::sqrt(static_cast<double>(esdf_.squared[basins_.peaks[lower]])) -
+               std::sqrt(pass.level));
+    highest_[sets_.join(a, b)] = higher;
+    basins_.passes.push_back(pass);
+  }
+
+  const EsdfMap& esdf_;
+  const VoxelMask& traversable_;
+  Basins& basins_;
+  DisjointSets sets_;
+  FreeSpace space_;
+  std::vector<std::uint32_t> highest_;  // by set: the basin of its highest peak
+  std::priority_queue<Pass, std::vector<Pass>, Narrower> waiting_;
+};
+
+}  // namespace
+
+Basins find_basins(const EsdfMap& esdf, const VoxelMask& traversable) {
+  Landscape land = climb(esdf, traversable);
+  label_basins(esdf, traversable, land);
+  PassFinder(esdf, traversable, land.basins).run(std::move(land.critical));
+  return std::move(land.basins);
+}
+
+}  // namespace ridgeway

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/skeleton/kernel.hpp"
+
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "parallel_deletion.hpp"
+#include "ridgeway/skeleton/simple_point.hpp"
+
+namespace ridgeway {
+namespace {
+
+constexpr double kSignificantDynamics = 1.0;  // voxels
+
+/// Voxels in ascending order of (4 d^2 / s^2, handle), as (value << 32 | handle).
+std::vector<std::uint64_t> ascending_by_distance(const EsdfMap& esdf, const VoxelMask& voxels) {
+  std::vector<std::uint64_t> order;
+  for (const VoxelId id : voxels.members())
+    order.push_back(std::uint64_t{esdf.squared[id]} << 32 | id);
+  tbb::parallel_sort(order.begin(), order.end());
+  return order;
+}
+
+/// Asks voxels again once a neighbour of theirs is gone, but only those whose turn has come.
+class OrderedDeletion {
+ public:
+  OrderedDeletion(const BlockLayout& layout, VoxelMask& voxels)
+      : layout_(layout), voxels_(voxels), due_(layout) {}
+
+  /// The turn of these voxels has come: deletes what may go among them and among earlier ones.
+  template <typename MayGo>
+  void process(std::vector<VoxelId> work, const MayGo& may_go) {
+    for (const VoxelId id : work) due_.set(id);
+    while (!work.empty()) {
+      const std::vector<VoxelId> deleted = detail::delete_round(layout_, voxels_, work, may_go);
+      for (const VoxelId id : deleted) due_.reset(id);
+      work = detail::neighbours_of(layout_, due_, deleted);
+    }
+  }
+
+  /// Left over from turns that have come.
+  const VoxelMask& due() const { return due_; }
+
+  /// Deletes voxels that may go for another reason, and then what that sets free.
+  template <typename MayGoFirst, typename MayGo>
+  void process_after(const std::vector<VoxelId>& first, const MayGoFirst& may_go_first,
+                     const MayGo& may_go) {
+    const std::vector<VoxelId> deleted =
+        detail::delete_round(layout_, voxels_, first, may_go_first);
+    for (const VoxelId id : deleted) due_.reset(id);
+    process(detail::neighbours_of(layout_, due_, deleted), may_go);
+  }
+
+ private:
+  const BlockLayout& layout_;
+  VoxelMask& voxels_;
+  VoxelMask due_;
+};
+
+/// Calls body(voxels of one level) for runs of equal level(value) in ascending order.
+template <typename Level, typename Body>
+void for_each_level(const std::vector<std::uint64_t>& order, const Level& level, const Body& body) {
+  for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
+    std::vector<VoxelId> ids;
+    const auto own = level(order[first] >> 32);
+    for (; last < order.size() && level(order[last] >> 32) == own; ++last)
+      ids.push_back(static_cast<VoxelId>(order[last]));
+    body(std::move(ids));
+  }
+}
+
+/// A voxel of a sheet: foreground around it hangs together, background lies on two sides of it.
+bool is_sheet(Cube27 cube) { return foreground_parts(cube) == 1 && background_parts(cube) > 1; }
+
+/// From each connected group of sheet voxels that are due, the one nearest to an obstacle.
+std::vector<VoxelId> piercing_places(const EsdfMap& esdf, const VoxelMask& voxels,
+                                     const VoxelMask& due, const VoxelMask& keep) {
+  VoxelMask sheet(esdf.layout);
+  std::vector<VoxelId> candidates;
+  for (const VoxelId id : due.members())
+    if (!keep.test(id) && is_sheet(cube_around(esdf.layout, voxels, id))) {
+      sheet.set(id);
+      candidates.push_back(id);
+    }
+  std::vector<VoxelId> places;
+  for (const VoxelId seed : candidates) {
+    if (!sheet.test(seed)) continue;
+    VoxelId best = seed;
+    std::vector<VoxelId> stack{seed};
+    sheet.reset(seed);
+    while (!stack.empty()) {
+      const VoxelId id = stack.back();
+      stack.pop_back();
+      if (std::pair(esdf.squared[id], id) < std::pair(esdf.squared[best], best)) best = id;
+      for (Cube27 cube = cube_around(esdf.layout, sheet, id); cube != 0; cube &= cube - 1) {
+        stack.push_back(esdf.layout.neighbour(id, std::countr_zero(cube)));
+        sheet.reset(stack.back());
+      }
+    }
+    places.push_back(best);
+  }
+  return places;
+}
+
+}  // namespace
+
+VoxelMask significant_peaks(const EsdfMap& esdf, const Basins& basins) {
+  VoxelMask peaks(esdf.layout);
+  for (std::size_t i = 0; i < basins.peaks.size(); ++i)
+    if (basins.dynamics[i] >= kSignificantDynamics) peaks.set(basins.peaks[i]);
+  return peaks;
+}
+
+VoxelMask compute_kernel(const EsdfMap& esdf, const VoxelMask& traversable, const Basins& basins) {
+  VoxelMask kernel = traversable;
+  const VoxelMask keep = significant_peaks(esdf, basins);
+  OrderedDeletion deletion(esdf.layout, kernel);
+  for_each_level(
+      ascending_by_distance(esdf, traversable), [](std::uint64_t value) { return value; },
+      [&](std::vector<VoxelId> ids) {
+        deletion.process(std::move(ids), [&](VoxelId id, Cube27 cube) {
+          return is_simple(cube) && !keep.test(id);
+        });
+      });
+  return kernel;
+}
+
+void open_shells(const EsdfMap& esdf, VoxelMask& voxels, const VoxelMask& keep) {
+  OrderedDeletion deletion(esdf.layout, voxels);
+  const auto may_go = [&](VoxelId id, Cube27 cube) {
+    return is_simple(cube) && !is_curve_end(cube) && !keep.test(id);
+  };
+  const auto may_be_pierced = [&](VoxelId, Cube27 cube) { return is_sheet(cube); };
+  // Whole voxels of clearance are one level: dents below that are noise, not basins.
+  const auto level = [](std::uint64_t squared) {
+    return static_cast<std::uint32_t>(0.5 * std::sqrt(static_cast<double>(squared)));
+  };
+  for_each_level(ascending_by_distance(esdf, voxels), level, [&](std::vector<VoxelId> ids) {
+    deletion.process(std::move(ids), may_go);
+    for (;;) {
+      const std::vector<VoxelId> places =
+          piercing_places(esdf, voxels, deletion.due(), keep);
+      if (places.empty()) break;
+      deletion.process_after(places, may_be_pierced, may_go);
+    }
+  });
+}
+
+}  // namespace ridgeway

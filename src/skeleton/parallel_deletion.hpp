@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "ridgeway/common/parallel.hpp"
+#include "ridgeway/voxel/voxel_mask.hpp"
+
+namespace ridgeway::detail {
+
+inline constexpr std::size_t kParallelFrom = 4096;  // below this a loop is faster alone
+
+/// Which of the eight parity sub-fields a voxel is in; no two voxels of one are 26-adjacent.
+constexpr std::uint32_t sub_field(VoxelId id) {
+  return (id & 1) | (id >> 3 & 1) << 1 | (id >> 6 & 1) << 2;
+}
+
+/// One round over a work list: its voxels sub-field by sub-field, each deleted if
+/// `may_go(id, cube)` says so of its neighbourhood as it is then. Inside a sub-field the order
+/// does not matter, since no decision there sees another one's result. Returns the deleted ones,
+/// in the order of the work list within each sub-field.
+template <typename MayGo>
+std::vector<VoxelId> delete_round(const BlockLayout& layout, VoxelMask& voxels,
+                                  const std::vector<VoxelId>& work, const MayGo& may_go) {
+  std::array<std::vector<VoxelId>, 8> fields;
+  for (const VoxelId id : work)
+    if (voxels.test(id)) fields[sub_field(id)].push_back(id);
+  std::vector<VoxelId> deleted;
+  std::vector<std::uint8_t> gone;
+  for (const std::vector<VoxelId>& field : fields) {
+    if (field.size() < kParallelFrom) {
+      for (const VoxelId id : field)
+        if (may_go(id, cube_around(layout, voxels, id))) {
+          voxels.reset(id);
+          deleted.push_back(id);
+        }
+      continue;
+    }
+    gone.assign(field.size(), 0);
+    parallel_for_each_index(
+        field.size(),
+        [&](std::size_t i) {
+          if (!may_go(field[i], cube_around(layout, voxels, field[i]))) return;
+          gone[i] = 1;
+        },
+        512);
+    for (std::size_t i = 0; i < field.size(); ++i)
+      if (gone[i]) {
+        voxels.reset(field[i]);
+        deleted.push_back(field[i]);
+      }
+  }
+  return deleted;
+}
+
+/// Members of `voxels` 26-adjacent to the given ones, each once, ascending.
+inline std::vector<VoxelId> neighbours_of(const BlockLayout& layout, const VoxelMask& voxels,
+                                          const std::vector<VoxelId>& ids) {
+  std::vector<VoxelId> result;
+  for (const VoxelId id : ids)
+    for (Cube27 cube = cube_around(layout, voxels, id) & kCells26; cube != 0; cube &= cube - 1)
+      result.push_back(layout.neighbour(id, std::countr_zero(cube)));
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+/// Deletes rounds of voxels until none of them may go; after the first round only neighbours of
+/// deleted voxels are asked again.
+template <typename MayGo>
+void delete_layers(const BlockLayout& layout, VoxelMask& voxels, std::vector<VoxelId> work,
+                   const MayGo& may_go) {
+  while (!work.empty())
+    work = neighbours_of(layout, voxels, delete_round(layout, voxels, work, may_go));
+}
+
+}  // namespace ridgeway::detail
