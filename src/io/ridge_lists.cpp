@@ -118,16 +118,16 @@ BlockLayout load_blocks(const RidgeReader& reader, const RidgeHeader& header) {
 
 void load_graph(const RidgeReader& reader, const RidgeHeader& header, Roadmap& roadmap) {
   SparseGraph& graph = roadmap.graph;
-  graph.vertices.resize(header.vertices);
   Planes vertices(reader, "vertices", kVerticesType, header.vertices, kVertexBytes);
+  graph.vertices.resize(header.vertices);
   for (const auto axis : {&VoxelIndex::x, &VoxelIndex::y, &VoxelIndex::z}) {
     vertices.take<int>([&](std::size_t i, int k) { graph.vertices[i].voxel.*axis = k; });
   }
   vertices.take<double>([&](std::size_t i, double c) { graph.vertices[i].clearance = c; });
   for (Vertex& v : graph.vertices) v.position = centre_of(v.voxel, header.voxel_size);
 
-  graph.edges.resize(header.edges);
   Planes edges(reader, "edges", kEdgesType, header.edges, kEdgeBytes);
+  graph.edges.resize(header.edges);
   edges.take<std::uint32_t>(
       [&](std::size_t i, std::uint32_t v) { graph.edges[i].from = VertexId{v}; });
   edges.take<std::uint32_t>(
@@ -136,10 +136,10 @@ void load_graph(const RidgeReader& reader, const RidgeHeader& header, Roadmap& r
   edges.take<double>([&](std::size_t i, double c) { graph.edges[i].clearance = c; });
 
   ClearanceTree& tree = roadmap.tree;
+  Planes nodes(reader, "tree", kTreeType, header.vertices, kTreeBytes);
   tree.parent.resize(header.vertices);
   tree.clearance.resize(header.vertices);
   tree.place.resize(header.vertices);
-  Planes nodes(reader, "tree", kTreeType, header.vertices, kTreeBytes);
   nodes.take<std::uint32_t>([&](std::size_t i, std::uint32_t v) { tree.parent[i] = VertexId{v}; });
   nodes.take<double>([&](std::size_t i, double c) { tree.clearance[i] = c; });
   for (const auto axis : {&VoxelIndex::x, &VoxelIndex::y, &VoxelIndex::z}) {

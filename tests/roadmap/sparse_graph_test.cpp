@@ -18,7 +18,8 @@ SparseGraph random_graph(std::uint32_t vertices, std::size_t tries, std::uint32_
   std::mt19937 random(seed);
   std::set<std::pair<std::uint32_t, std::uint32_t>> taken;
   for (std::size_t i = 0; i < tries; ++i) {
-    const std::uint32_t a = random() % vertices, b = random() % vertices;
+    const auto a = static_cast<std::uint32_t>(random() % vertices);
+    const auto b = static_cast<std::uint32_t>(random() % vertices);
     if (a == b || !taken.insert(std::minmax(a, b)).second) continue;
     graph.edges.push_back({VertexId{std::min(a, b)}, VertexId{std::max(a, b)}, 1.0 + a, 0.5});
   }
