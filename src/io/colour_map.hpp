@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace ridgeway {
+
+struct Colour {
+  double r = 0.0, g = 0.0, b = 0.0;  ///< 0 to 1
+};
+
+/// Violet, blue, teal, green, amber for shares 0 to 1 (values that are no number count as 1): even
+/// in lightness steps, told apart by colour-blind readers, none of it as red as a path.
+inline Colour ramp_colour(double share) {
+  constexpr std::array<Colour, 5> stops = {{{0.30, 0.16, 0.48},
+                                            {0.21, 0.37, 0.60},
+                                            {0.13, 0.55, 0.55},
+                                            {0.41, 0.74, 0.36},
+                                            {0.93, 0.78, 0.22}}};
+  const double at = (share >= 0.0 && share < 1.0 ? share : share < 0.0 ? 0.0 : 1.0) * 4.0;
+  const auto low = std::min<std::size_t>(static_cast<std::size_t>(at), 3);
+  const double t = at - static_cast<double>(low);
+  const Colour &a = stops[low], &b = stops[low + 1];
+  return {a.r + t * (b.r - a.r), a.g + t * (b.g - a.g), a.b + t * (b.b - a.b)};
+}
+
+inline std::array<std::uint8_t, 3> bytes_of(const Colour& c) {
+  const auto byte = [](double v) { return static_cast<std::uint8_t>(std::lround(v * 255.0)); };
+  return {byte(c.r), byte(c.g), byte(c.b)};
+}
+
+}  // namespace ridgeway
