@@ -43,9 +43,11 @@ class Overlap {
   }
 
  private:
+  static constexpr double kFar = 2e9;  // beyond all voxels, within int
+
   /// Lower plane of a coarse voxel in fine voxels, put onto a fine plane where it is meant to be.
   double plane(int coarse) const {
-    const double at = coarse * ratio_, nearest = std::round(at);
+    const double at = std::clamp(coarse * ratio_, -kFar, kFar), nearest = std::round(at);
     return std::abs(at - nearest) <= 1e-9 * std::max(1.0, std::abs(at)) ? nearest : at;
   }
   double ratio_;

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/mapping/map_edits.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "mapping/random_map.hpp"
+#include "ridgeway/common/error.hpp"
+
+namespace ridgeway {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(Crop, KeepsExactlyWhatIsWhollyInside) {
+  const OccupancyMap map = testing::random_map(2);
+  const Box box = {{-1.0, -0.55, -0.3}, {0.7, 1.2, 0.95}};  // faces on and between the planes
+  const OccupancyMap cut = crop(map, box);
+  testing::for_each_known(map, [&](const VoxelIndex& v, VoxelState state) {
+    const bool inside = v.x >= -10 && v.x <= 6 && v.y >= -5 && v.y <= 11 && v.z >= -3 && v.z <= 8;
+    EXPECT_EQ(cut.at(v), inside ? state : VoxelState::kUnknown);
+  });
+}
+
+TEST(Crop, InfiniteBoundsChangeNothing) {
+  const OccupancyMap map = testing::random_map(2);
+  EXPECT_TRUE(testing::same_voxels(
+      map, crop(map, {Point::Constant(-kInfinity), Point::Constant(kInfinity)})));
+}
+
+TEST(Crop, RefusesBoxesInsideOut) {
+  const OccupancyMap map = testing::random_map(2);
+  EXPECT_THROW(crop(map, {{0, 0, 0}, {1, -1, 1}}), InputError);
+  EXPECT_THROW(crop(map, {{0, 0, std::nan("")}, {1, 1, 1}}), InputError);
+}
+
+TEST(NoFly, ClosesWhatSharesVolumeWithTheBox) {
+  const OccupancyMap map = testing::random_map(4);
+  const Box box = {{-1.0, -0.55, -0.3}, {0.7, 1.2, 0.95}};
+  const OccupancyMap closed = add_no_fly(map, std::vector<Box>{box});
+  testing::for_each_in({{-25, -25, -25}, {25, 25, 25}}, [&](const VoxelIndex& v) {
+    const bool inside = v.x >= -10 && v.x <= 6 && v.y >= -6 && v.y <= 11 && v.z >= -3 && v.z <= 9;
+    EXPECT_EQ(closed.at(v), inside ? VoxelState::kOccupied : map.at(v));
+  });
+}
+
+TEST(NoFly, AnEndlessBoxStaysNearTheKnown) {
+  OccupancyBuilder builder(0.1);
+  builder.fill({{0, 0, 0}, {15, 15, 15}}, VoxelState::kFree);
+  const OccupancyMap map = std::move(builder).finish();
+  const std::vector<Box> boxes = {{Point::Constant(-kInfinity), Point(kInfinity, kInfinity, 0.5)}};
+  const OccupancyMap closed = add_no_fly(map, boxes);
+  EXPECT_EQ(closed.layout.block_count(), 4u * 4u * 2u + 4u);
+  EXPECT_EQ(closed.at({-8, -8, -8}), VoxelState::kOccupied);
+  EXPECT_EQ(closed.at({7, 7, 4}), VoxelState::kOccupied);
+  EXPECT_EQ(closed.at({7, 7, 5}), VoxelState::kFree);
+}
+
+TEST(NoFly, AFlatBoxClosesALayer) {
+  OccupancyBuilder builder(0.1);
+  builder.fill({{0, 0, 0}, {15, 15, 15}}, VoxelState::kFree);
+  const OccupancyMap closed =
+      add_no_fly(std::move(builder).finish(), std::vector<Box>{{{0, 0, 0.75}, {1.6, 1.6, 0.75}}});
+  EXPECT_EQ(count_voxels(closed).occupied, 256u);
+  EXPECT_EQ(closed.at({3, 3, 7}), VoxelState::kOccupied);
+}
+
+TEST(NoFly, RefusesBoxesInsideOutByNumber) {
+  const std::vector<Box> boxes = {{{0, 0, 0}, {1, 1, 1}}, {{0, 2, 0}, {1, 1, 1}}};
+  try {
+    add_no_fly(testing::random_map(2), boxes);
+    FAIL() << "was not refused";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.where(), "no-fly box 2");
+  }
+}
+
+TEST(RemoveIsolated, FreesClustersBelowTheNumberOnly) {
+  OccupancyBuilder builder(0.1);
+  builder.fill({{-20, -20, -20}, {20, 20, 20}}, VoxelState::kFree);
+  for (int i = 0; i < 3; ++i)
+    builder.set({i - 1, i - 1, i - 1}, VoxelState::kOccupied);  // diagonal
+  builder.set({10, 0, 0}, VoxelState::kOccupied);
+  builder.set({30, 0, 0}, VoxelState::kOccupied);  // in the unknown
+  const OccupancyMap map = std::move(builder).finish();
+  EXPECT_EQ(count_voxels(remove_isolated(map, 0)).occupied, 5u);
+  EXPECT_EQ(count_voxels(remove_isolated(map, 1)).occupied, 5u);
+  EXPECT_EQ(count_voxels(remove_isolated(map, 2)).occupied, 3u);
+  EXPECT_EQ(count_voxels(remove_isolated(map, 3)).occupied, 3u);
+  EXPECT_EQ(count_voxels(remove_isolated(map, 4)).occupied, 0u);
+  EXPECT_EQ(count_voxels(remove_isolated(map, 4)).known(), count_voxels(map).known());
+  EXPECT_THROW(remove_isolated(map, -1), InputError);
+}
+
+}  // namespace
+}  // namespace ridgeway

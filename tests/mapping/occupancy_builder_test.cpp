@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/mapping/occupancy_builder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <map>
+#include <random>
+
+#include "mapping/random_map.hpp"
+#include "ridgeway/common/error.hpp"
+
+namespace ridgeway {
+namespace {
+
+TEST(OccupancyBuilder, OccupiedWinsOverFreeInAnyOrder) {
+  for (const bool occupied_first : {true, false}) {
+    OccupancyBuilder builder(0.1);
+    const VoxelRange box = {{-9, -9, -9}, {9, 9, 9}};
+    if (occupied_first) builder.set({-9, 3, 8}, VoxelState::kOccupied);
+    builder.fill(box, VoxelState::kFree);
+    if (!occupied_first) builder.set({-9, 3, 8}, VoxelState::kOccupied);
+    builder.set({-9, 3, 8}, VoxelState::kFree);
+    builder.set({-9, 3, 8}, VoxelState::kUnknown);
+    const OccupancyMap map = std::move(builder).finish();
+    EXPECT_EQ(map.at({-9, 3, 8}), VoxelState::kOccupied);
+    EXPECT_EQ(count_voxels(map).occupied, 1u);
+    EXPECT_EQ(count_voxels(map).free, 19u * 19u * 19u - 1u);
+  }
+}
+
+TEST(OccupancyBuilder, EqualsAPlainTableOfVoxels) {
+  std::mt19937 random(7);
+  const auto below = [&random](int n) {
+    return static_cast<int>(random() % static_cast<unsigned>(n));
+  };
+  OccupancyBuilder builder(0.2, {.clip = {{-25, -20, -30}, {25, 29, 20}}});
+  std::map<VoxelIndex, VoxelState> table;
+  for (int i = 0; i < 200; ++i) {
+    const auto state = below(3) == 0 ? VoxelState::kOccupied : VoxelState::kFree;
+    const VoxelIndex low = {below(60) - 30, below(60) - 30, below(60) - 30};
+    const VoxelRange range = {low, low + VoxelIndex{below(12), below(3), below(20)}};
+    builder.fill(range, state);
+    testing::for_each_in(range, [&](const VoxelIndex& v) {
+      if (builder.clip().contains(v)) table[v] = std::max(table[v], state);
+    });
+  }
+  const OccupancyMap map = std::move(builder).finish();
+  for (const auto& [voxel, state] : table) EXPECT_EQ(map.at(voxel), state);
+  EXPECT_EQ(count_voxels(map).known(), table.size());
+}
+
+TEST(OccupancyBuilder, RefusesWhatDoesNotFitBeforeTakingIt) {
+  OccupancyBuilder builder(0.1, {.name = "huge.bt"});
+  try {
+    builder.fill({{0, 0, 0}, {100'000'000, 100'000'000, 100}}, VoxelState::kFree);
+    FAIL() << "was not refused";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.where(), "huge.bt");
+    EXPECT_NE(error.remedy().find("--voxel-size"), std::string::npos);
+    EXPECT_NE(error.remedy().find("--bounds"), std::string::npos);
+  }
+}
+
+TEST(OccupancyBuilder, RefusesNonsenseVoxelSizes) {
+  for (const double size : {0.0, -0.1, std::numeric_limits<double>::infinity(),
+                            std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW(OccupancyBuilder{size}, InputError);
+}
+
+TEST(OccupancyMap, KnownBoundsAreTight) {
+  EXPECT_FALSE(known_bounds(OccupancyMap{.voxel_size = 0.1, .layout = {}, .state = {}}));
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    const OccupancyMap map = testing::random_map(seed);
+    Point low = Point::Constant(1e9), high = Point::Constant(-1e9);
+    testing::for_each_known(map, [&](const VoxelIndex& v, VoxelState) {
+      low = low.cwiseMin(Point(v.x, v.y, v.z) * 0.1);
+      high = high.cwiseMax(Point(v.x + 1, v.y + 1, v.z + 1) * 0.1);
+    });
+    const auto bounds = known_bounds(map);
+    ASSERT_TRUE(bounds);
+    EXPECT_EQ(bounds->min, low);
+    EXPECT_EQ(bounds->max, high);
+  }
+}
+
+TEST(OccupancyMap, DroppingUnknownBlocksKeepsAllVoxels) {
+  OccupancyMap map = testing::random_map(3);
+  for (int local = 0; local < kBlockVoxels; ++local)
+    map.state.block(4)[local] = VoxelState::kUnknown;
+  const OccupancyMap smaller = without_unknown_blocks(map);
+  EXPECT_EQ(smaller.layout.block_count(), map.layout.block_count() - 1);
+  EXPECT_TRUE(testing::same_voxels(map, smaller));
+}
+
+}  // namespace
+}  // namespace ridgeway
