@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "redundant_voxels.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "parallel_deletion.hpp"
+#include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/skeleton/simple_point.hpp"
+
+namespace ridgeway::detail {
+namespace {
+
+struct Neighbour {
+  VoxelId id;
+  int direction;
+  double width;  // of the move over the centre
+};
+
+/// Width of the move between two neighbours of a voxel, or 0 where they are not adjacent.
+double width_between(const FreeSpace& space, const Neighbour& a, const Neighbour& b) {
+  const VoxelIndex o = offset_of(b.direction) - offset_of(a.direction);
+  if (std::max({std::abs(o.x), std::abs(o.y), std::abs(o.z)}) > 1) return 0.0;
+  return space.move_clearance(a.id, b.id, direction_of(o));
+}
+
+/// Whether each pair of neighbours is connected without the centre as widely as over it.
+bool can_do_without(const EsdfMap& esdf, const FreeSpace& space, double threshold, VoxelId id,
+                    Cube27 cube) {
+  std::array<Neighbour, 26> neighbours;
+  std::size_t count = 0;
+  for (Cube27 cells = cube & kCells26; cells != 0; cells &= cells - 1) {
+    const int d = std::countr_zero(cells);
+    const VoxelId other = esdf.layout.neighbour(id, d);
+    const double width = space.move_clearance(id, other, d);
+    if (width >= threshold) neighbours[count++] = {other, d, width};
+  }
+  std::sort(neighbours.begin(), neighbours.begin() + static_cast<std::ptrdiff_t>(count),
+            [](const Neighbour& a, const Neighbour& b) { return a.width > b.width; });
+  // Each one, widest first, must hang on a wider one without the centre.
+  for (std::size_t i = 1; i < count; ++i) {
+    std::array<bool, 26> reached{};
+    std::vector<std::size_t> stack{i};
+    reached[i] = true;
+    bool hangs = false;
+    while (!stack.empty() && !hangs) {
+      const std::size_t from = stack.back();
+      stack.pop_back();
+      for (std::size_t to = 0; to < count; ++to) {
+        if (reached[to] ||
+            width_between(space, neighbours[from], neighbours[to]) < neighbours[i].width)
+          continue;
+        reached[to] = true;
+        hangs |= to < i;
+        stack.push_back(to);
+      }
+    }
+    if (!hangs) return false;
+  }
+  return count > 0;
+}
+
+}  // namespace
+
+void remove_redundant_voxels(const EsdfMap& esdf, double threshold, const Basins& basins,
+                             VoxelMask& diagram) {
+  const FreeSpace space(esdf);
+  std::vector<VoxelId> work = diagram.members();
+  while (!work.empty()) {
+    std::sort(work.begin(), work.end(), [&](VoxelId a, VoxelId b) {
+      return std::pair(esdf.squared[a], a) < std::pair(esdf.squared[b], b);
+    });
+    std::vector<VoxelId> deleted;
+    for (const VoxelId id : work) {
+      if (basins.next[id] == kCentre) continue;
+      const Cube27 cube = cube_around(esdf.layout, diagram, id);
+      if (!is_simple(cube) || is_curve_end(cube)) continue;
+      if (!can_do_without(esdf, space, threshold, id, cube)) continue;
+      diagram.reset(id);
+      deleted.push_back(id);
+    }
+    work = neighbours_of(esdf.layout, diagram, deleted);
+  }
+}
+
+}  // namespace ridgeway::detail
