@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ridgeway/roadmap/roadmap.hpp"
+
+namespace ridgeway {
+
+/// What the colours of the diagram's voxels say.
+enum class DiagramColour : std::uint8_t { kClearance, kHeight };
+
+/// Heights that count for the plan's walls and free space, metres; low <= high.
+struct HeightBand {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+struct PictureConfig {
+  int width = 1600;  ///< pixels, 400 to 16000; the height follows the map, up to 1.5 widths
+  /// Not given: between the 20th and the 80th percentile of the free voxels' heights, so that
+  /// floor and ceiling do not hide the rooms.
+  std::optional<HeightBand> band;
+  bool diagram = true;
+  bool graph = true;
+  DiagramColour diagram_colour = DiagramColour::kClearance;
+  std::string title;            ///< not given: the file name of the roadmap's source
+  std::vector<Point> raw_path;  ///< the path before it was shortened, dashed; may be empty
+
+  /// Throws InputError naming the bad field.
+  void validate() const;
+};
+
+/// Draws the map from above, x to the right and y up, as a PNG or SVG picture by the extension of
+/// `out`: known free space white, obstacles dark by the occupied share of each column within the
+/// height band, unknown pale; over it the skeleton diagram, the graph, and the path (may be empty)
+/// with its start and goal. With title, coordinates, scale bar and legend. A map of any extent: the
+/// picture's cells cover several voxels where there are more voxels than pixels.
+/// Throws InputError for a map without known voxels, another extension, a file that cannot be
+/// written. The file is replaced whole or not at all.
+void draw_floor_plan(const Roadmap& roadmap, std::span<const Point> path,
+                     const std::filesystem::path& out, const PictureConfig& config = {});
+
+}  // namespace ridgeway

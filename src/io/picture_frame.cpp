@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "picture_frame.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+namespace ridgeway {
+namespace {
+
+constexpr double kSwatch = 34.0;   // width of a mark in the legend, units
+constexpr double kMarkGap = 9.0;   // between a mark and its text
+constexpr double kItemGap = 34.0;  // between items
+constexpr double kLegendFont = 16.0;
+
+double mark_width(LegendItem::Mark mark, double unit) {
+  return (mark == LegendItem::Mark::kDiagram ? 3.2 : 1.0) * kSwatch * unit;
+}
+
+void draw_swatch(Canvas& canvas, double x, double y, double unit, const Colour& colour) {
+  const double h = 16.0 * unit;
+  canvas.fill_rectangle(x, y - 0.5 * h, kSwatch * unit, h, colour);
+  cairo_rectangle(canvas.cairo(), x, y - 0.5 * h, kSwatch * unit, h);
+  canvas.set_colour(ink::kFrame);
+  canvas.set_line(unit);
+  cairo_stroke(canvas.cairo());
+}
+
+void draw_line(Canvas& canvas, double x0, double y0, double x1, double y1) {
+  cairo_move_to(canvas.cairo(), x0, y0);
+  cairo_line_to(canvas.cairo(), x1, y1);
+  cairo_stroke(canvas.cairo());
+}
+
+void draw_ramp(Canvas& canvas, double x, double y, double width, double unit) {
+  const double h = 12.0 * unit;
+  for (int i = 0; i < 64; ++i) {
+    canvas.fill_rectangle(x + width * i / 64.0, y - 0.5 * h, width / 64.0 + 0.5, h,
+                          ramp_colour((i + 0.5) / 64.0));
+  }
+}
+
+void draw_mark(Canvas& canvas, LegendItem::Mark mark, double x, double y, double unit) {
+  using Mark = LegendItem::Mark;
+  const double width = mark_width(mark, unit), middle = x + 0.5 * width;
+  switch (mark) {
+    case Mark::kFree:
+      return draw_swatch(canvas, x, y, unit, ink::kFree);
+    case Mark::kWall:
+      return draw_swatch(canvas, x, y, unit, ink::kWall);
+    case Mark::kUnknown:
+      return draw_swatch(canvas, x, y, unit, ink::kUnknown);
+    case Mark::kDiagram:
+      return draw_ramp(canvas, x, y, width, unit);
+    case Mark::kGraph:
+      canvas.set_colour(ink::kGraph);
+      canvas.set_line(1.6 * unit);
+      draw_line(canvas, x, y, x + width, y);
+      canvas.set_line(7.0 * unit);
+      draw_line(canvas, x + 0.25 * width, y, x + 0.25 * width, y);
+      return draw_line(canvas, x + 0.75 * width, y, x + 0.75 * width, y);
+    case Mark::kPath:
+      canvas.set_colour(ink::kPath);
+      canvas.set_line(5.0 * unit);
+      return draw_line(canvas, x, y, x + width, y);
+    case Mark::kRawPath:
+      canvas.set_colour(ink::kRawPath);
+      canvas.set_line(2.5 * unit, {7.0 * unit, 5.0 * unit});
+      draw_line(canvas, x, y, x + width, y);
+      return canvas.set_line(unit);
+    case Mark::kStart:
+      return draw_start(canvas, middle, y, 0.8 * unit);
+    case Mark::kGoal:
+      return draw_goal(canvas, middle, y, 0.8 * unit);
+  }
+}
+
+}  // namespace
+
+double round_step(double most) {
+  const double power = std::pow(10.0, std::floor(std::log10(most)));
+  for (const double lead : {5.0, 2.0}) {
+    if (lead * power <= most) return lead * power;
+  }
+  return power;
+}
+
+std::string short_number(double value, int decimals) {
+  std::array<char, 64> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                 std::chars_format::fixed, decimals);
+  std::string number(text.data(), end.ptr);
+  if (number.find('.') != std::string::npos) {
+    number.erase(number.find_last_not_of('0') + 1);
+    if (number.back() == '.') number.pop_back();
+  }
+  return number == "-0" ? "0" : number;
+}
+
+void draw_start(Canvas& canvas, double x, double y, double unit) {
+  cairo_t* cairo = canvas.cairo();
+  cairo_arc(cairo, x, y, 10.0 * unit, 0.0, 2.0 * std::numbers::pi);
+  canvas.set_colour(ink::kStart);
+  cairo_fill_preserve(cairo);
+  canvas.set_colour(ink::kHalo);
+  canvas.set_line(2.5 * unit);
+  cairo_stroke(cairo);
+}
+
+void draw_goal(Canvas& canvas, double x, double y, double unit) {
+  cairo_t* cairo = canvas.cairo();
+  for (int i = 0; i < 10; ++i) {
+    const double radius = (i % 2 == 0 ? 15.0 : 6.2) * unit;
+    const double angle = i * std::numbers::pi / 5.0;
+    cairo_line_to(cairo, x + radius * std::sin(angle), y - radius * std::cos(angle));
+  }
+  cairo_close_path(cairo);
+  canvas.set_colour(ink::kHalo);
+  canvas.set_line(5.0 * unit);
+  cairo_stroke_preserve(cairo);
+  canvas.set_colour(ink::kPath);
+  cairo_fill(cairo);
+}
+
+LegendLayout lay_out_legend(Canvas& canvas, std::span<const LegendItem> items, double width,
+                            double unit) {
+  canvas.set_font(kLegendFont * unit);
+  LegendLayout layout;
+  double x = 0.0;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const double item =
+        mark_width(items[i].mark, unit) + kMarkGap * unit + canvas.text_width(items[i].text);
+    if (layout.rows.empty() || x + item > width) {
+      layout.rows.emplace_back();
+      x = 0.0;
+    }
+    layout.rows.back().push_back(i);
+    layout.offsets.push_back(x);
+    x += item + kItemGap * unit;
+  }
+  return layout;
+}
+
+void draw_legend(Canvas& canvas, std::span<const LegendItem> items, const LegendLayout& layout,
+                 double left, double top, double unit) {
+  double y = top + 0.5 * legend_row_height(unit);
+  for (const std::vector<std::size_t>& row : layout.rows) {
+    for (const std::size_t i : row) {
+      const double x = left + layout.offsets[i];
+      draw_mark(canvas, items[i].mark, x, y, unit);
+      canvas.set_font(kLegendFont * unit);
+      canvas.set_colour(ink::kText);
+      canvas.draw_text(x + mark_width(items[i].mark, unit) + kMarkGap * unit, y + 5.5 * unit,
+                       items[i].text);
+    }
+    y += legend_row_height(unit);
+  }
+}
+
+void draw_scale_bar(Canvas& canvas, const MapFrame& frame, double left, double top,
+                    double most_pixels) {
+  const double metres = round_step(most_pixels / frame.scale);
+  const double length = metres * frame.scale, height = 7.0 * frame.unit;
+  const double y = top + 0.5 * legend_row_height(frame.unit) - 0.5 * height;
+  constexpr int kParts = 4;
+  for (int i = 0; i < kParts; ++i) {
+    canvas.fill_rectangle(left + length * i / kParts, y, length / kParts, height,
+                          i % 2 == 0 ? ink::kText : ink::kHalo);
+  }
+  cairo_rectangle(canvas.cairo(), left, y, length, height);
+  canvas.set_colour(ink::kText);
+  canvas.set_line(frame.unit);
+  cairo_stroke(canvas.cairo());
+  canvas.set_font(15.0 * frame.unit);
+  canvas.draw_text(left, y + height + 18.0 * frame.unit, "0", Canvas::Align::kMiddle);
+  canvas.draw_text(left + length, y + height + 18.0 * frame.unit, short_number(metres, 6) + " m",
+                   Canvas::Align::kMiddle);
+}
+
+void draw_border(Canvas& canvas, const MapFrame& frame) {
+  const double u = frame.unit, tick = 6.0 * u;
+  const double bottom = frame.top + frame.height, right = frame.left + frame.width;
+  cairo_rectangle(canvas.cairo(), frame.left, frame.top, frame.width, frame.height);
+  canvas.set_colour(ink::kFrame);
+  canvas.set_line(1.5 * u);
+  cairo_stroke(canvas.cairo());
+
+  double step = round_step(160.0 * u / frame.scale);
+  if (step * frame.scale < 70.0 * u) step *= 2.0;
+  canvas.set_font(14.0 * u);
+  const double first_x = std::ceil(frame.min.x() / step);
+  for (double k = first_x; k * step <= frame.min.x() + frame.width / frame.scale; ++k) {
+    const double x = frame.left + (k * step - frame.min.x()) * frame.scale;
+    canvas.set_colour(ink::kFrame);
+    draw_line(canvas, x, bottom, x, bottom + tick);
+    canvas.set_colour(ink::kFaint);
+    if (x > right - 24.0 * u) continue;  // the axis' name stands there
+    canvas.draw_text(x, bottom + tick + 15.0 * u, short_number(k * step, 6),
+                     Canvas::Align::kMiddle);
+  }
+  const double first_y = std::ceil(frame.min.y() / step);
+  for (double k = first_y; k * step <= frame.min.y() + frame.height / frame.scale; ++k) {
+    const double y = bottom - (k * step - frame.min.y()) * frame.scale;
+    canvas.set_colour(ink::kFrame);
+    draw_line(canvas, frame.left - tick, y, frame.left, y);
+    canvas.set_colour(ink::kFaint);
+    if (y < frame.top + 20.0 * u) continue;
+    canvas.draw_text(frame.left - tick - 5.0 * u, y + 5.0 * u, short_number(k * step, 6),
+                     Canvas::Align::kRight);
+  }
+  canvas.draw_text(right, bottom + tick + 15.0 * u, "x (m)", Canvas::Align::kRight);
+  canvas.draw_text(frame.left - tick - 5.0 * u, frame.top + 11.0 * u, "y (m)",
+                   Canvas::Align::kRight);
+}
+
+}  // namespace ridgeway

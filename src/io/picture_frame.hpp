@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "canvas.hpp"
+#include "floor_raster.hpp"
+
+namespace ridgeway {
+
+/// Colours of the floor plan, in one place.
+namespace ink {
+inline constexpr Colour kUnknown{0.910, 0.922, 0.933};
+inline constexpr Colour kFree{1.0, 1.0, 1.0};
+inline constexpr Colour kWall{0.16, 0.18, 0.21};
+inline constexpr Colour kText{0.13, 0.15, 0.18};
+inline constexpr Colour kFaint{0.42, 0.45, 0.49};
+inline constexpr Colour kFrame{0.62, 0.65, 0.69};
+inline constexpr Colour kGraph{0.16, 0.36, 0.58};
+inline constexpr Colour kPath{0.84, 0.15, 0.16};
+inline constexpr Colour kRawPath{0.91, 0.49, 0.18};
+inline constexpr Colour kStart{0.10, 0.55, 0.27};
+inline constexpr Colour kHalo{1.0, 1.0, 1.0};
+}  // namespace ink
+
+/// Where the map lies on the page, pixels.
+struct MapFrame {
+  double left = 0.0, top = 0.0, width = 0.0, height = 0.0;
+  double scale = 1.0;         ///< pixels a metre
+  Point min = Point::Zero();  ///< map corner at the frame's left and bottom
+  double unit = 1.0;          ///< a pixel on a page of 1600
+
+  double x(const Point& p) const { return left + (p.x() - min.x()) * scale; }
+  double y(const Point& p) const { return top + height - (p.y() - min.y()) * scale; }
+};
+
+/// Start of a path: a disc. Goal: a star. Both with a white rim.
+void draw_start(Canvas& canvas, double x, double y, double unit);
+void draw_goal(Canvas& canvas, double x, double y, double unit);
+
+/// An entry of the legend: what is drawn and what it means.
+struct LegendItem {
+  enum class Mark { kFree, kWall, kUnknown, kDiagram, kGraph, kPath, kRawPath, kStart, kGoal };
+  Mark mark;
+  std::string text;
+};
+
+/// Rows that the legend takes beside the scale bar.
+struct LegendLayout {
+  std::vector<std::vector<std::size_t>> rows;  ///< numbers of the items
+  std::vector<double> offsets;                 ///< of each item from the legend's left, pixels
+};
+LegendLayout lay_out_legend(Canvas& canvas, std::span<const LegendItem> items, double width,
+                            double unit);
+inline double legend_row_height(double unit) { return 32.0 * unit; }
+
+void draw_legend(Canvas& canvas, std::span<const LegendItem> items, const LegendLayout& layout,
+                 double left, double top, double unit);
+/// A bar of a round number of metres, at most a number of pixels long.
+void draw_scale_bar(Canvas& canvas, const MapFrame& frame, double left, double top,
+                    double most_pixels);
+/// Border of the map with coordinates every round number of metres.
+void draw_border(Canvas& canvas, const MapFrame& frame);
+
+/// 1, 2 or 5 times a power of ten, the largest that is at most `most`.
+double round_step(double most);
+/// A number with no more decimals than it needs, at most `decimals`.
+std::string short_number(double value, int decimals);
+
+}  // namespace ridgeway
