@@ -16,11 +16,11 @@ namespace ridgeway {
 struct LoadConfig {
   /// Voxel size of the result. Required for point clouds; for .3dmap the size of a cell (1 unless
   /// given); for OctoMaps the file's own unless given, never finer.
-  std::optional<double> voxel_size;
+  std::optional<double> voxel_size = std::nullopt;
   /// The flight volume: what is not wholly inside is unknown. Required for point clouds, which do
   /// not record free space.
-  std::optional<Box> bounds;
-  std::vector<Box> exclude;  ///< no-fly boxes, made occupied
+  std::optional<Box> bounds = std::nullopt;
+  std::vector<Box> exclude = {};  ///< no-fly boxes, made occupied
   /// From the file's frame to the map's. Quarter turns and translations by whole voxels are exact;
   /// others make the obstacles of a voxel file grow (transform_map), not those of a cloud.
   Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
