@@ -37,11 +37,12 @@ Nearest brute_nearest(const VoxelIndex& v, const std::vector<VoxelIndex>& obstac
 void expect_equal_to_brute_force(const OccupancyMap& map, const EsdfConfig& config,
                                  const EsdfMap& esdf) {
   const std::vector<VoxelIndex> obstacles = all_obstacles(map, config.unknown);
-  const double limit = config.max_distance / map.voxel_size;
+  const double limit = config.max_distance / map.voxel_size * (1 + 1e-9);
   for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id) {
     const VoxelIndex v = esdf.layout.index_of(id);
     const Nearest nearest = brute_nearest(v, obstacles);
-    if (nearest.squared == kNoSite || std::sqrt(0.25 * static_cast<double>(nearest.squared)) > limit) {
+    if (nearest.squared == kNoSite ||
+        std::sqrt(0.25 * static_cast<double>(nearest.squared)) > limit) {
       ASSERT_EQ(esdf.squared[id], kNoSite);
       continue;
     }

@@ -7,15 +7,17 @@
 
 namespace ridgeway {
 
-/// Joins thinned edges and kernel to one diagram that is as wide as space itself: two of its
-/// voxels are connected along it at a clearance exactly when they are in traversable space, at
-/// every clearance. From high to low clearance, a piece that space connects at some level and the
-/// diagram does not is joined along the way its voxels climb. Pieces of the edges that merely run
-/// beside a curve of the diagram within two voxels are dropped. In the end no voxel is left that
-/// could go without a loss: not simple, the end of a curve, or needed by the legal moves.
+/// Joins thinned edges and kernel to one diagram along which space is connected as widely as it is.
+///
+/// First the kernel is made exact: from high to low clearance, wherever space connects two of its
+/// pieces and the kernel does not, the way over the pass is added. Then the pieces of the edges
+/// are hooked on: a piece that within one voxel of clearance below its top meets nothing gets the
+/// way its top climbs; pieces that merely run beside a curve within two voxels are dropped. In the
+/// end no voxel is left that could go without a loss: that is not simple, the end of a curve, or
+/// needed by the legal moves.
 ///
 /// Redirects `basins.next` on the way: afterwards each voxel's way leads to the diagram, widest
-/// first (a diagram voxel's own entry still climbs).
+/// first (a diagram voxel's own entry still climbs on).
 VoxelMask join_diagram(const EsdfMap& esdf, const VoxelMask& edges, const VoxelMask& kernel,
                        double min_clearance, Basins& basins);
 

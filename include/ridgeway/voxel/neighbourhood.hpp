@@ -82,14 +82,20 @@ constexpr Cube27 grow6(Cube27 cells) {
 
 /// Cells of `within` that are reached from `seed` by 26-steps inside `within`.
 constexpr Cube27 flood26(Cube27 seed, Cube27 within) {
-  for (Cube27 grown = seed & within;; seed = grown, grown = grow26(seed) & within)
+  for (seed &= within;;) {
+    const Cube27 grown = grow26(seed) & within;
     if (grown == seed) return seed;
+    seed = grown;
+  }
 }
 
 /// Cells of `within` that are reached from `seed` by 6-steps inside `within`.
 constexpr Cube27 flood6(Cube27 seed, Cube27 within) {
-  for (Cube27 grown = seed & within;; seed = grown, grown = grow6(seed) & within)
+  for (seed &= within;;) {
+    const Cube27 grown = grow6(seed) & within;
     if (grown == seed) return seed;
+    seed = grown;
+  }
 }
 
 }  // namespace ridgeway

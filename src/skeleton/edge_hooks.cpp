@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "edge_hooks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <unordered_map>
+#include <vector>
+
+#include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/voxel/disjoint_sets.hpp"
+
+namespace ridgeway::detail {
+namespace {
+
+constexpr std::size_t kBesideSteps = 2;  // an edge this near to the diagram runs beside it
+constexpr double kPatience = 1.0;        // voxels of clearance a piece may sink before it is hooked
+
+class EdgeHooks {
+ public:
+  EdgeHooks(const EsdfMap& esdf, double threshold, const Basins& basins, VoxelMask& diagram)
+      : esdf_(esdf), layout_(esdf.layout), threshold_(threshold), basins_(basins), space_(esdf),
+        exact_(diagram), diagram_(diagram) {}
+
+  void run(const VoxelMask& edges) {
+    std::vector<VoxelId> voxels = edges.members();
+    std::sort(voxels.begin(), voxels.end(), [&](VoxelId a, VoxelId b) {
+      return std::pair(esdf_.squared[b], a) < std::pair(esdf_.squared[a], b);
+    });
+    for (const VoxelId id : voxels) {
+      sink_to(static_cast<double>(esdf_.squared[id]));
+      if (!diagram_.test(id)) add(id);
+    }
+    sink_to(0.0);
+  }
+
+ private:
+  /// Something that happens once the level has sunk to it: two voxels of pieces connect, or
+  /// (from == to) a voxel's piece has waited long enough.
+  struct Event {
+    double level;
+    VoxelId from, to;
+    friend bool operator<(const Event& a, const Event& b) {
+      return a.level != b.level ? a.level < b.level
+             : a.from != b.from ? a.from > b.from
+                                : a.to > b.to;
+    }
+  };
+
+  void sink_to(double level) {
+    while (!events_.empty() && events_.top().level > level) {
+      const Event event = events_.top();
+      events_.pop();
+      if (event.from == event.to) {
+        if (!is_hooked(event.from)) hook(event.from);
+      } else {
+        connect(event.from, event.to);
+      }
+    }
+  }
+
+  void add(VoxelId id) {
+    const double level = esdf_.squared[id];
+    const std::uint32_t piece = pieces_.add();
+    hooked_.push_back(false);
+    struct Move { double width; VoxelId other; };
+    std::vector<Move> moves;
+    bool alone = true;
+    for (Cube27 cube = cube_around(layout_, diagram_, id) & kCells26; cube != 0;
+         cube &= cube - 1) {
+      const int d = std::countr_zero(cube);
+      const VoxelId other = layout_.neighbour(id, d);
+      const double width = space_.move_clearance(id, other, d);
+      if (width >= threshold_) moves.push_back({width, other});
+      alone &= width < level;
+    }
+    if (alone && steps_to_diagram(id) <= kBesideSteps) return;
+    piece_[id] = piece;
+    diagram_.set(id);
+    for (const Move& move : moves) {
+      if (move.width >= level) {
+        connect(id, move.other);
+      } else {
+        events_.push({move.width, id, move.other});
+      }
+    }
+    const double sunk = std::max(std::sqrt(level) - 2.0 * kPatience, 0.0);
+    if (!is_hooked(id)) events_.push({std::max(sunk * sunk, threshold_), id, id});
+  }
+
+  bool is_hooked(VoxelId id) {
+    return exact_.test(id) || hooked_[pieces_.find(piece_.at(id))];
+  }
+
+  void connect(VoxelId a, VoxelId b) {
+    if (exact_.test(a)) std::swap(a, b);
+    const bool hooked = is_hooked(a) || is_hooked(b);
+    std::uint32_t piece = pieces_.find(piece_.at(a));
+    if (!exact_.test(b)) piece = pieces_.join(piece, piece_.at(b));
+    hooked_[piece] = hooked;
+  }
+
+  VoxelId after(VoxelId id) const { return layout_.neighbour(id, basins_.next[id]); }
+
+  std::size_t steps_to_diagram(VoxelId id) const {
+    std::size_t steps = 1;
+    for (id = after(id); !diagram_.test(id); id = after(id)) ++steps;
+    return steps;
+  }
+
+  /// Adds the way from a voxel up to a hooked part of the diagram.
+  void hook(VoxelId top) {
+    VoxelId id = top;
+    while (true) {
+      const VoxelId next = after(id);
+      if (!diagram_.test(next)) {
+        piece_[next] = pieces_.add();
+        hooked_.push_back(false);
+        diagram_.set(next);
+      }
+      const bool arrived = is_hooked(next);
+      connect(id, next);
+      if (arrived) return;
+      id = next;
+    }
+  }
+
+  const EsdfMap& esdf_;
+  const BlockLayout& layout_;
+  const double threshold_;
+  const Basins& basins_;
+  FreeSpace space_;
+  const VoxelMask exact_;  // the diagram as it was: everything on it is connected
+  VoxelMask& diagram_;
+  DisjointSets pieces_{0};
+  std::vector<bool> hooked_;  // by piece: connected with the exact diagram
+  std::unordered_map<VoxelId, std::uint32_t> piece_;
+  std::priority_queue<Event> events_;
+};
+
+}  // namespace
+
+void hook_edges(const EsdfMap& esdf, const VoxelMask& edges, double threshold,
+                const Basins& basins, VoxelMask& diagram) {
+  EdgeHooks(esdf, threshold, basins, diagram).run(edges);
+}
+
+}  // namespace ridgeway::detail
