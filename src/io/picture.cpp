@@ -100,12 +100,12 @@ void draw_diagram(Canvas& canvas, const std::vector<DiagramDot>& dots, const Ran
     const double share = std::clamp(range.share(dot.value), 0.0, 0.999);
     buckets[static_cast<std::size_t>(share * kColours)].push_back(&dot);
   }
-  canvas.set_line(std::clamp(0.75 * voxel_size * frame.scale, 1.6 * frame.unit, 5.0 * frame.unit));
+  canvas.set_line(std::clamp(0.75 * voxel_size * frame.scale, 2.2 * frame.unit, 5.0 * frame.unit));
   for (std::size_t i = 0; i < kColours; ++i) {
     for (const DiagramDot* dot : buckets[i]) {
       add_dot(canvas, frame.x(dot->centre), frame.y(dot->centre));
     }
-    canvas.set_colour(ramp_colour((static_cast<double>(i) + 0.5) / kColours), 0.5);
+    canvas.set_colour(ramp_colour((static_cast<double>(i) + 0.5) / kColours), 0.6);
     cairo_stroke(canvas.cairo());
   }
 }
@@ -196,10 +196,11 @@ std::vector<LegendItem> legend_items(bool diagram, const Range& range, std::span
                      std::string("diagram, ") + (height ? "height " : "clearance ") +
                          short_number(range.low, 1) + " to " + short_number(range.high, 1) + " m"});
   }
+  if (!path.empty()) items.push_back({Mark::kPath, "path"});
   if (!config.raw_path.empty()) items.push_back({Mark::kRawPath, "before shortening"});
   if (!path.empty()) {
-    items.insert(items.end(),
-                 {{Mark::kPath, "path"}, {Mark::kStart, "start"}, {Mark::kGoal, "goal"}});
+    items.push_back({Mark::kStart, "start"});
+    items.push_back({Mark::kGoal, "goal"});
   }
   return items;
 }

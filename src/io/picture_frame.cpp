@@ -188,8 +188,7 @@ void draw_border(Canvas& canvas, const MapFrame& frame) {
   canvas.set_line(1.5 * u);
   cairo_stroke(canvas.cairo());
 
-  double step = round_step(160.0 * u / frame.scale);
-  if (step * frame.scale < 70.0 * u) step *= 2.0;
+  double step = round_step(200.0 * u / frame.scale);  // from 80 to 200 units apart
   canvas.set_font(14.0 * u);
   const double first_x = std::ceil(frame.min.x() / step);
   for (double k = first_x; k * step <= frame.min.x() + frame.width / frame.scale; ++k) {

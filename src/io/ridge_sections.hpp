@@ -26,7 +26,7 @@ enum RidgeType : std::uint32_t {
 /// Sections with a value for every voxel: state, site, diagram, attach.
 /// The squared distances and the obstacle mask follow from these and are not stored.
 std::vector<RidgeSectionSource> voxel_sections(const Roadmap& roadmap);
-/// Throws InputError where the fields would not fit into this machine's memory.
+/// Throws InputError where the fields would not fit into the memory that is left.
 void check_memory(const RidgeReader& reader, const RidgeHeader& header);
 /// Fills esdf (the layout must stand), diagram and attach.
 void load_voxels(const RidgeReader& reader, const RidgeHeader& header, Roadmap& roadmap);

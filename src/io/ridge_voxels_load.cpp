@@ -2,15 +2,14 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_invoke.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
 #include <cstring>
 
 #include "ridge_sections.hpp"
-#include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "ridgeway/mapping/memory_limit.hpp"
 #include "site_codec.hpp"
 #include "voxel_chunks.hpp"
 
@@ -107,6 +106,10 @@ void load_esdf_blocks(const RidgeReader& reader, const BlockRange& range, const 
     if (!decode_states(worker.state.data() + offset, esdf, slot, live)) {
       reader.damaged("state", "has a voxel in no known state");
     }
+    const VoxelMask::Block& solid = esdf.obstacle.block(slot);
+    if (std::all_of(solid.begin(), solid.end(), [](std::uint64_t l) { return l == ~0ull; })) {
+      continue;  // all zero, as the fields were made
+    }
     const std::byte* raw = worker.site.data() + offset * width;
     load_plane(raw, narrow, coded.x);
     load_plane(raw + voxels * width, narrow, coded.y);
@@ -149,16 +152,8 @@ void allocate_fields(Roadmap& roadmap) {
 }  // namespace
 
 void check_memory(const RidgeReader& reader, const RidgeHeader& header) {
-  constexpr std::size_t kBytesPerVoxel = 13;
-  constexpr std::size_t kBytesPerBlock = kBlockVoxels * kBytesPerVoxel + 140;
-  const std::size_t needed = std::size_t{header.blocks} * kBytesPerBlock;
-  const std::size_t memory = static_cast<std::size_t>(::sysconf(_SC_PHYS_PAGES)) *
-                             static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-  if (needed <= memory) return;
-  throw InputError(reader.path(),
-                   "needs " + std::to_string(needed >> 20) + " MiB of memory, this machine has " +
-                       std::to_string(memory >> 20),
-                   "build the map with a larger --voxel-size or smaller --bounds");
+  constexpr int kBytesPerVoxel = 14;  // the fields, and the layout's share
+  require_memory_for_blocks(header.blocks, kBytesPerVoxel, reader.path());
 }
 
 void load_voxels(const RidgeReader& reader, const RidgeHeader& header, Roadmap& roadmap) {

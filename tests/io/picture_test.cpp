@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/io/picture.hpp"
+
+#include <cairo.h>
+#include <gtest/gtest.h>
+
+#include "ridgeway/common/error.hpp"
+#include "synthetic_roadmap.hpp"
+#include "temporary_folder.hpp"
+
+namespace ridgeway {
+namespace {
+
+using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+
+Surface open_png(const std::filesystem::path& path) {
+  return {cairo_image_surface_create_from_png(path.c_str()), &cairo_surface_destroy};
+}
+
+/// Pixels that are exactly of a colour, 0xrrggbb.
+std::size_t count_pixels(cairo_surface_t* image, std::uint32_t colour) {
+  const int width = cairo_image_surface_get_width(image);
+  const int height = cairo_image_surface_get_height(image);
+  const unsigned char* data = cairo_image_surface_get_data(image);
+  std::size_t count = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      std::uint32_t pixel;
+      std::memcpy(&pixel, data + y * cairo_image_surface_get_stride(image) + 4 * x, 4);
+      count += (pixel & 0xffffff) == colour;
+    }
+  }
+  return count;
+}
+
+std::vector<Point> diagonal(const Roadmap& roadmap) {
+  return {roadmap.graph.vertices.front().position, roadmap.graph.vertices.back().position};
+}
+
+TEST(Picture, PngShowsMapAndPath) {
+  const TemporaryFolder folder;
+  const Roadmap roadmap = synthetic_roadmap();
+  for (const int width : {400, 1600}) {
+    PictureConfig config;
+    config.width = width;
+    draw_floor_plan(roadmap, diagonal(roadmap), folder / "plan.png", config);
+    EXPECT_EQ(read_whole(folder / "plan.png").substr(0, 8), "\x89PNG\r\n\x1a\n");
+    const Surface image = open_png(folder / "plan.png");
+    ASSERT_EQ(cairo_surface_status(image.get()), CAIRO_STATUS_SUCCESS);
+    EXPECT_EQ(cairo_image_surface_get_width(image.get()), width);
+    const int height = cairo_image_surface_get_height(image.get());  // 73 x 49 voxels, and text
+    EXPECT_GT(height, 0.66 * width);
+    EXPECT_LT(height, 0.95 * width);
+    EXPECT_GT(count_pixels(image.get(), 0xd62628), 100u);   // path
+    EXPECT_GT(count_pixels(image.get(), 0x292e36), 1000u);  // walls
+    EXPECT_GT(count_pixels(image.get(), 0xe8ebee), 100u);   // unknown
+  }
+}
+
+TEST(Picture, WithoutPathNothingIsRed) {
+  const TemporaryFolder folder;
+  draw_floor_plan(synthetic_roadmap(), {}, folder / "plan.png");
+  EXPECT_EQ(count_pixels(open_png(folder / "plan.png").get(), 0xd62628), 0u);
+}
+
+TEST(Picture, SvgIsOneDocument) {
+  const TemporaryFolder folder;
+  const Roadmap roadmap = synthetic_roadmap();
+  draw_floor_plan(roadmap, diagonal(roadmap), folder / "plan.svg");
+  const std::string svg = read_whole(folder / "plan.svg");
+  EXPECT_EQ(svg.substr(0, 5), "<?xml");
+  EXPECT_NE(svg.find("</svg>"), std::string::npos);
+}
+
+TEST(Picture, SamePictureEveryTime) {
+  const TemporaryFolder folder;
+  const Roadmap roadmap = synthetic_roadmap();
+  draw_floor_plan(roadmap, diagonal(roadmap), folder / "a.png");
+  draw_floor_plan(roadmap, diagonal(roadmap), folder / "b.png");
+  EXPECT_TRUE(read_whole(folder / "a.png") == read_whole(folder / "b.png"));
+}
+
+TEST(Picture, AnyTitleAndTallMapsAreFine) {
+  const TemporaryFolder folder;
+  SyntheticConfig tall;
+  tall.rooms_x = 1;
+  tall.rooms_y = 12;
+  Roadmap roadmap = synthetic_roadmap(tall);
+  PictureConfig config;
+  config.width = 500;
+  config.title = std::string("\xff\xfe \n \xc3") + std::string(500, 'w') + "\xc3\xa4";
+  config.diagram_colour = DiagramColour::kHeight;
+  config.raw_path = diagonal(roadmap);
+  draw_floor_plan(roadmap, diagonal(roadmap), folder / "plan.png", config);
+  EXPECT_LT(cairo_image_surface_get_height(open_png(folder / "plan.png").get()), 1.6 * 500);
+}
+
+TEST(Picture, BandsChooseTheHeights) {
+  const TemporaryFolder folder;
+  const Roadmap roadmap = synthetic_roadmap();
+  PictureConfig floor;
+  floor.diagram = floor.graph = false;
+  floor.band = HeightBand{-0.3, -0.2};  // the floor itself: all occupied
+  draw_floor_plan(roadmap, {}, folder / "floor.png", floor);
+  PictureConfig rooms = floor;
+  rooms.band.reset();
+  draw_floor_plan(roadmap, {}, folder / "rooms.png", rooms);
+  EXPECT_GT(count_pixels(open_png(folder / "floor.png").get(), 0x292e36),
+            5 * count_pixels(open_png(folder / "rooms.png").get(), 0x292e36));
+}
+
+TEST(Picture, BadRequestsAreRefused) {
+  const TemporaryFolder folder;
+  const Roadmap roadmap = synthetic_roadmap();
+  EXPECT_THROW(draw_floor_plan(roadmap, {}, folder / "plan.jpg"), InputError);
+  EXPECT_THROW(draw_floor_plan(roadmap, {}, folder / "none/plan.png"), InputError);
+  EXPECT_THROW(draw_floor_plan({}, {}, folder / "plan.png"), InputError);
+  PictureConfig config;
+  config.width = 10;
+  EXPECT_THROW(draw_floor_plan(roadmap, {}, folder / "plan.png", config), InputError);
+  config.width = 800;
+  config.band = HeightBand{2.0, 1.0};
+  EXPECT_THROW(draw_floor_plan(roadmap, {}, folder / "plan.png", config), InputError);
+  EXPECT_TRUE(folder.is_empty());
+}
+
+}  // namespace
+}  // namespace ridgeway
