@@ -3,6 +3,7 @@
 #include "ridgeway/io/octomap.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -59,15 +60,14 @@ class TreeWalk {
     const auto high = reader_.take<std::uint8_t>();
     const unsigned kinds = low | static_cast<unsigned>(high) << 8;
     if (kinds == 0) reader_.fail("has an inner node without children", kFetchAgain);
-    for (int i = 0; i < 8; ++i) {
-      const unsigned kind = kinds >> (2 * i) & 3;
-      if (kind == 0) continue;
-      ++nodes_;
-      if (kind == 1) leaf_(cube.child(i), VoxelState::kFree);
-      if (kind == 2) leaf_(cube.child(i), VoxelState::kOccupied);
+    const unsigned known = (kinds | kinds >> 1) & 0x5555, inner = kinds & kinds >> 1 & 0x5555;
+    nodes_ += static_cast<unsigned>(std::popcount(known));
+    for (unsigned leaves = known & ~inner; leaves != 0; leaves &= leaves - 1) {
+      const int bit = std::countr_zero(leaves);
+      leaf_(cube.child(bit / 2), kinds >> bit & 1 ? VoxelState::kFree : VoxelState::kOccupied);
     }
-    for (int i = 0; i < 8; ++i)
-      if ((kinds >> (2 * i) & 3) == 3) binary_children(cube.child(i));
+    for (unsigned rest = inner; rest != 0; rest &= rest - 1)
+      binary_children(cube.child(std::countr_zero(rest) / 2));
   }
 
   /// .ot: a node is its log-odds, perhaps a colour, and a bit for each child that follows.
@@ -105,11 +105,18 @@ VoxelRange hull(const VoxelRange& a, const VoxelRange& b) {
           {std::max(a.max.x, b.max.x), std::max(a.max.y, b.max.y), std::max(a.max.z, b.max.z)}};
 }
 
-std::string describe(const VoxelRange& range, double voxel_size) {
+/// The box around all voxels of a sound file, as placed, for messages.
+std::string describe_span(std::string_view bytes, const std::string& name,
+                          const OctomapHeader& header, const VoxelPlacement& placement) {
+  VoxelRange range = {kAllVoxels.max, kAllVoxels.min};
+  ByteReader reader(bytes, name, header.data_offset);
+  walk_tree(reader, header, [&](const Cube& cube, VoxelState) {
+    range = hull(range, placement.motion(cube.voxels()));
+  });
+  const double s = header.voxel_size;
   std::ostringstream text;
-  text << range.min.x * voxel_size << ',' << range.min.y * voxel_size << ','
-       << range.min.z * voxel_size << " to " << (range.max.x + 1) * voxel_size << ','
-       << (range.max.y + 1) * voxel_size << ',' << (range.max.z + 1) * voxel_size;
+  text << range.min.x * s << ',' << range.min.y * s << ',' << range.min.z * s << " to "
+       << (range.max.x + 1) * s << ',' << (range.max.y + 1) * s << ',' << (range.max.z + 1) * s;
   return text.str();
 }
 
@@ -121,20 +128,18 @@ double check_tree(std::string_view bytes, const std::string& name, const Octomap
   if (header.nodes == 0) reader.fail("holds no voxels", "record a map first");
   double blocks = 0.0;
   bool any_free = false;
-  VoxelRange span = {kAllVoxels.max, kAllVoxels.min};
   std::optional<BlockIndex> last;
   const std::uint64_t nodes = walk_tree(reader, header, [&](const Cube& cube, VoxelState state) {
     any_free |= state == VoxelState::kFree;
-    const VoxelRange placed = placement.motion(cube.voxels());
-    span = hull(span, placed);
-    const VoxelRange kept = intersection(placed, placement.clip);
-    if (kept.empty()) return;
     if (cube.side >= kBlockSide) {
+      const VoxelRange kept = intersection(placement.motion(cube.voxels()), placement.clip);
+      if (kept.empty()) return;
       blocks += (kept.max.x - kept.min.x + 1.0) * (kept.max.y - kept.min.y + 1.0) *
                 (kept.max.z - kept.min.z + 1.0) / kBlockVoxels;
-    } else if (last != block_of(cube.min)) {
-      last = block_of(cube.min);
-      blocks += 1.0;
+    } else if (const BlockIndex block = block_of(cube.min); last != block) {
+      last = block;  // the file's order keeps the leaves of a block together
+      const VoxelRange whole = {voxel_of(block, 0), voxel_of(block, kBlockVoxels - 1)};
+      if (!intersection(placement.motion(whole), placement.clip).empty()) blocks += 1.0;
     }
   });
   if (reader.remaining() > 0) {
@@ -152,7 +157,7 @@ double check_tree(std::string_view bytes, const std::string& name, const Octomap
   }
   if (blocks == 0.0) {
     throw InputError(name, "has no voxel within the bounds",
-                     "its voxels span " + describe(span, header.voxel_size));
+                     "its voxels span " + describe_span(bytes, name, header, placement));
   }
   return blocks;
 }

@@ -8,11 +8,12 @@
 namespace ridgeway {
 
 VoxelCounts count_voxels(const OccupancyMap& map) {
-  std::array<std::size_t, 3> counts{};
-  for (const VoxelState state : map.state.values()) ++counts[static_cast<std::size_t>(state)];
-  return {.free = counts[static_cast<std::size_t>(VoxelState::kFree)],
-          .occupied = counts[static_cast<std::size_t>(VoxelState::kOccupied)],
-          .unknown = counts[static_cast<std::size_t>(VoxelState::kUnknown)]};
+  const auto& states = map.state.values();
+  const auto count = [&states](VoxelState state) {
+    return static_cast<std::size_t>(std::count(states.begin(), states.end(), state));
+  };
+  const std::size_t free = count(VoxelState::kFree), occupied = count(VoxelState::kOccupied);
+  return {.free = free, .occupied = occupied, .unknown = states.size() - free - occupied};
 }
 
 std::optional<Box> known_bounds(const OccupancyMap& map) {
