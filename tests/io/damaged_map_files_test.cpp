@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <random>
 #include <string>
 #include <vector>
@@ -49,6 +50,7 @@ LoadConfig config_for(const Sample& sample) {
 /// Loads it, or is refused by an InputError that names the file or an option; anything else fails.
 bool loads(const TemporaryFolder& folder, const Sample& sample) {
   const auto file = folder / sample.name;
+  std::filesystem::remove(file);  // some file systems flush what is written over
   write_whole(file, sample.bytes);
   try {
     load_map(file, config_for(sample));
