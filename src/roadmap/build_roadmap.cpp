@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/roadmap/build_roadmap.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/esdf/esdf.hpp"
+#include "ridgeway/roadmap/build_graph.hpp"
+#include "ridgeway/skeleton/diagram.hpp"
+#include "ridgeway/skeleton/gvd.hpp"
+#include "ridgeway/skeleton/kernel.hpp"
+#include "ridgeway/skeleton/thinning.hpp"
+
+namespace ridgeway {
+namespace {
+
+/// Times the stages one after the other and reports each to the caller.
+class StageClock {
+ public:
+  explicit StageClock(const Progress& progress) : progress_(progress) {}
+
+  void begin(std::string_view stage) {
+    if (progress_ && !progress_(stage, static_cast<double>(done_++) / kStages)) throw Cancelled();
+    start_ = Clock::now();
+  }
+  void end(double& seconds) const {
+    seconds += std::chrono::duration<double>(Clock::now() - start_).count();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr int kStages = 7;
+  const Progress& progress_;
+  int done_ = 0;
+  Clock::time_point start_ = Clock::now();
+};
+
+void require(bool holds, const char* field, double value, const char* remedy) {
+  if (!holds) throw InputError(field, "is " + std::to_string(value), remedy);
+}
+
+}  // namespace
+
+void BuildConfig::validate() const {
+  require(min_clearance > 0.0 && std::isfinite(min_clearance), "min_clearance", min_clearance,
+          "give the robot's radius in metres, above 0");
+  require(max_distance > min_clearance, "max_distance", max_distance,
+          "give a length above min_clearance, or leave it out for no limit");
+  require(theta > 0.0 && theta < 3.1416, "theta", theta, "give an angle in radians in (0, pi)");
+  require(prune_radius >= 0.0 && std::isfinite(prune_radius), "prune_radius", prune_radius,
+          "give a length in metres, 0 or more");
+  require(split_deviation >= 0.0 && std::isfinite(split_deviation), "split_deviation",
+          split_deviation, "give a length in metres, 0 for two voxels");
+}
+
+BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Progress& progress) {
+  config.validate();
+  BuildResult result;
+  BuildReport& report = result.report;
+  Roadmap& roadmap = result.roadmap;
+  StageClock clock(progress);
+  report.voxels = count_voxels(map);
+  if (report.voxels.free == 0)
+    throw InputError("map", "has no free space",
+                     "record free space, or give --bounds where a cloud holds only surfaces");
+  roadmap.min_clearance = config.min_clearance;
+
+  clock.begin("esdf");
+  roadmap.esdf = compute_esdf(std::move(map), {config.unknown, config.max_distance});
+  const EsdfMap& esdf = roadmap.esdf;
+  const VoxelMask traversable = traversable_voxels(esdf, config.min_clearance);
+  clock.end(report.seconds.esdf);
+  report.allocated_voxels = esdf.layout.voxel_count();
+  report.traversable_voxels = traversable.count();
+  if (report.traversable_voxels == 0)
+    throw InputError("min_clearance " + std::to_string(config.min_clearance),
+                     "leaves no traversable voxel in this map",
+                     "give a smaller --min-clearance, or --unknown ignore");
+
+  clock.begin("gvd");
+  const VoxelMask gvd = compute_gvd(esdf, traversable, {config.min_clearance, config.theta});
+  report.gvd_voxels = gvd.count();
+  clock.end(report.seconds.gvd);
+
+  clock.begin("edges");
+  VoxelMask edges = extract_edges(esdf, gvd);
+  report.edge_voxels = edges.count();
+  clock.end(report.seconds.edges);
+
+  clock.begin("thin");
+  thin(esdf.layout, edges);
+  clock.end(report.seconds.thin);
+
+  clock.begin("kernel");
+  Basins basins = find_basins(esdf, traversable);
+  report.traversable_components = basins.components();
+  VoxelMask kernel = compute_kernel(esdf, traversable, basins);
+  report.kernel_voxels = kernel.count();
+  open_shells(esdf, kernel, significant_peaks(esdf, basins));
+  VoxelMask diagram = join_diagram(esdf, edges, kernel, config.min_clearance, basins);
+  clock.end(report.seconds.kernel);
+
+  clock.begin("graph");
+  GraphConfig graph;
+  graph.min_clearance = config.min_clearance;
+  graph.prune_radius = config.prune_radius;
+  graph.split_deviation = config.split_deviation;
+  roadmap.graph = build_graph(esdf, config.paper_diagram ? edges : diagram, graph);
+  roadmap.tree = build_clearance_tree(esdf, roadmap.graph, basins);
+  report.graph_components = connected_components(roadmap.graph).count;
+  clock.end(report.seconds.graph);
+
+  clock.begin("attach");
+  if (config.paper_diagram) diagram = edges;
+  roadmap.attach = build_attach_field(esdf, diagram, roadmap.graph, std::move(basins));
+  roadmap.diagram.voxels = std::move(diagram);
+  report.diagram_voxels = roadmap.diagram.voxels.count();
+  clock.end(report.seconds.attach);
+
+  const BuildSeconds& s = report.seconds;
+  report.seconds.total = s.esdf + s.gvd + s.edges + s.thin + s.kernel + s.graph + s.attach;
+  if (progress) progress("done", 1.0);
+  return result;
+}
+
+}  // namespace ridgeway

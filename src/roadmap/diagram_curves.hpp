@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "ridgeway/esdf/esdf_map.hpp"
+#include "ridgeway/voxel/voxel_mask.hpp"
+
+namespace ridgeway::detail {
+
+/// Number of a voxel among the diagram's voxels, ascending handles.
+using DiagramNumber = std::uint32_t;
+inline constexpr DiagramNumber kNowhere = 0xffffffffu;
+
+/// A legal move between two diagram voxels.
+struct DiagramMove {
+  DiagramNumber to;
+  float length;  ///< voxels
+  double width;  ///< 4 c^2 / s^2, c the move's clearance
+};
+
+/// The diagram as a compact graph of its voxels and their legal moves: everything the sparse
+/// graph is made from, in a few cache lines a voxel.
+struct DiagramCurves {
+  std::vector<VoxelId> voxels;             ///< ascending
+  std::vector<std::uint32_t> squared;      ///< 4 d^2 / s^2
+  std::vector<Point> position;             ///< voxel centres, metres
+  std::vector<std::uint32_t> first_move;   ///< voxels.size() + 1 entries into `moves`
+  std::vector<DiagramMove> moves;
+
+  std::size_t size() const { return voxels.size(); }
+  std::span<const DiagramMove> moves_of(DiagramNumber v) const {
+    return std::span(moves).subspan(first_move[v], first_move[v + 1] - first_move[v]);
+  }
+  /// Number of a diagram voxel; kNowhere for any other.
+  DiagramNumber find(VoxelId id) const;
+};
+
+DiagramCurves index_diagram(const EsdfMap& esdf, const VoxelMask& diagram, double min_clearance);
+
+/// For every diagram voxel the widest way along the diagram to one of the given vertices, the
+/// shortest among equally wide ones.
+struct DiagramFlood {
+  std::vector<std::uint32_t> vertex;  ///< index into the given vertices; kNowhere: not reached
+  std::vector<DiagramNumber> toward;  ///< next voxel; itself at a vertex
+  std::vector<double> width;          ///< 4 c^2 / s^2 of the way
+  std::vector<float> distance;        ///< voxels
+};
+DiagramFlood flood_from(const DiagramCurves& curves, std::span<const DiagramNumber> vertices);
+
+}  // namespace ridgeway::detail
