@@ -110,8 +110,19 @@ void draw_diagram(Canvas& canvas, const std::vector<DiagramDot>& dots, const Ran
   }
 }
 
+/// Smaller dots where vertices stand closer, so that the diagram shows between them.
+double vertex_size(const SparseGraph& graph, const MapFrame& frame) {
+  std::vector<double> lengths;
+  for (const Edge& edge : graph.edges) lengths.push_back(edge.length);
+  if (lengths.empty()) return 5.0 * frame.unit;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return std::clamp(0.2 * *middle * frame.scale, 2.6 * frame.unit, 6.0 * frame.unit);
+}
+
 void draw_graph(Canvas& canvas, const SparseGraph& graph, const MapFrame& frame) {
   cairo_t* cairo = canvas.cairo();
+  const double dot = vertex_size(graph, frame);
   for (const Edge& edge : graph.edges) {
     const Point& a = graph.vertices[number(edge.from)].position;
     const Point& b = graph.vertices[number(edge.to)].position;
@@ -119,14 +130,10 @@ void draw_graph(Canvas& canvas, const SparseGraph& graph, const MapFrame& frame)
     cairo_line_to(cairo, frame.x(b), frame.y(b));
   }
   canvas.set_colour(ink::kGraph, 0.7);
-  canvas.set_line(1.2 * frame.unit);
+  canvas.set_line(std::min(1.2 * frame.unit, 0.3 * dot));
   cairo_stroke(cairo);
-  const auto add_vertices = [&] {
-    for (const Vertex& v : graph.vertices)
-      add_dot(canvas, frame.x(v.position), frame.y(v.position));
-  };
-  add_vertices();
-  canvas.set_line(5.0 * frame.unit);
+  for (const Vertex& v : graph.vertices) add_dot(canvas, frame.x(v.position), frame.y(v.position));
+  canvas.set_line(dot);
   canvas.set_colour(ink::kGraph);
   cairo_stroke(cairo);
 }
@@ -213,7 +220,7 @@ struct Page {
   int height = 0;
 };
 
-constexpr double kMargin = 36.0, kLeft = 78.0, kTitle = 96.0, kAxis = 46.0, kScaleBar = 330.0;
+constexpr double kMargin = 36.0, kLeft = 78.0, kTitle = 96.0, kAxis = 46.0, kScaleBar = 300.0;
 
 Page lay_out_page(const FloorRaster& raster, double voxel_size, std::span<const LegendItem> items,
                   const PictureConfig& config) {
@@ -285,7 +292,7 @@ void draw_floor_plan(const Roadmap& roadmap, std::span<const Point> path,
   draw_title(canvas, title_of(roadmap, config), subtitle_of(roadmap, path, raster), config,
              frame.unit);
   draw_scale_bar(canvas, frame, kLeft * frame.unit, page.legend_top,
-                 (kScaleBar - 90.0) * frame.unit);
+                 (kScaleBar - 80.0) * frame.unit);
   draw_legend(canvas, items, page.legend, page.legend_left, page.legend_top, frame.unit);
   canvas.finish();
 }

@@ -13,11 +13,11 @@ namespace {
 
 constexpr double kSwatch = 34.0;   // width of a mark in the legend, units
 constexpr double kMarkGap = 9.0;   // between a mark and its text
-constexpr double kItemGap = 34.0;  // between items
+constexpr double kItemGap = 25.0;  // between items
 constexpr double kLegendFont = 16.0;
 
 double mark_width(LegendItem::Mark mark, double unit) {
-  return (mark == LegendItem::Mark::kDiagram ? 3.2 : 1.0) * kSwatch * unit;
+  return (mark == LegendItem::Mark::kDiagram ? 2.6 : 1.0) * kSwatch * unit;
 }
 
 void draw_swatch(Canvas& canvas, double x, double y, double unit, const Colour& colour) {
@@ -196,7 +196,7 @@ void draw_border(Canvas& canvas, const MapFrame& frame) {
     canvas.set_colour(ink::kFrame);
     draw_line(canvas, x, bottom, x, bottom + tick);
     canvas.set_colour(ink::kFaint);
-    if (x > right - 24.0 * u) continue;  // the axis' name stands there
+    if (x > right - 64.0 * u) continue;  // the axis' name stands there
     canvas.draw_text(x, bottom + tick + 15.0 * u, short_number(k * step, 6),
                      Canvas::Align::kMiddle);
   }
