@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "ridgeway/common/progress.hpp"
+#include "ridgeway/planning/plan.hpp"
+
+namespace ridgeway {
+
+struct CheckConfig {
+  std::size_t queries = 0;
+  std::uint64_t seed = 1;
+};
+
+struct Spread {
+  double median = 0.0, p95 = 0.0, p99 = 0.0, max = 0.0;
+};
+
+/// One query of a check and the path that the roadmap answered with, for independent checkers.
+struct CheckedPath {
+  double radius = 0.0;
+  std::vector<Point> waypoints;
+};
+
+struct CheckReport {
+  std::size_t edges = 0;
+  std::size_t edges_below_clearance = 0;
+  std::size_t components = 0;              ///< of the graph
+  std::size_t queries = 0;
+  std::size_t graph_ok = 0;                ///< queries that the roadmap answered with a path
+  std::size_t esdf_ok = 0;                 ///< queries that A* through the ESDF answered so
+  std::size_t disagreements = 0;           ///< one of them only
+  std::size_t paths_below_clearance = 0;
+  std::size_t fallbacks = 0;               ///< answered beyond the graph
+  Spread length_ratio;                     ///< over the better of it and the ESDF's shortened
+  Spread microseconds;                     ///< shortened queries over the roadmap
+  Spread raw_microseconds;                 ///< the same queries not shortened
+  Spread esdf_milliseconds;
+  std::vector<CheckedPath> paths;
+
+  bool is_clean() const {
+    return edges_below_clearance == 0 && disagreements == 0 && paths_below_clearance == 0;
+  }
+};
+
+/// Verifies the contract of a roadmap: the clearance of every edge, measured anew, and random
+/// queries against A* through the ESDF: start and goal anywhere in the traversable voxels, radius
+/// 1, 1.25, 1.5 or 2 times the smallest. Queries run on all threads; the times are of one query
+/// alone on its thread.
+CheckReport check_roadmap(const Roadmap& roadmap, const CheckConfig& config = {},
+                          const Progress& progress = {});
+
+}  // namespace ridgeway

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/planning/check.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/common/parallel.hpp"
+#include "ridgeway/esdf/free_space.hpp"
+
+namespace ridgeway {
+namespace {
+
+constexpr std::array<double, 4> kRadiusFactors{1.0, 1.25, 1.5, 2.0};
+constexpr std::size_t kBatch = 64;  // queries between two reports of progress
+
+struct Query {
+  Point start, goal;
+  double radius;
+};
+
+struct Outcome {
+  PlanResult roadmap, raw, esdf;
+};
+
+/// Places anywhere in traversable voxels that fit the radius; queries whose radius no voxel fits
+/// keep the smallest.
+std::vector<Query> draw_queries(const Roadmap& roadmap, const CheckConfig& config) {
+  const EsdfMap& esdf = roadmap.esdf;
+  std::array<std::vector<VoxelId>, kRadiusFactors.size()> places;
+  for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id) {
+    if (esdf.state[id] != VoxelState::kFree) continue;
+    for (std::size_t k = 0; k < places.size(); ++k)
+      if (esdf.squared[id] >=
+          squared_threshold(kRadiusFactors[k] * roadmap.min_clearance, esdf.voxel_size))
+        places[k].push_back(id);
+  }
+  std::mt19937_64 random(config.seed);
+  std::vector<Query> queries(places[0].empty() ? 0 : config.queries);
+  for (Query& query : queries) {
+    std::size_t k = random() % places.size();
+    if (places[k].empty()) k = 0;
+    query.radius = kRadiusFactors[k] * roadmap.min_clearance;
+    for (Point* point : {&query.start, &query.goal}) {
+      const VoxelIndex v = esdf.layout.index_of(places[k][random() % places[k].size()]);
+      // Off the centre, but not so far that the place might not fit.
+      const auto off = [&] { return 0.2 * (static_cast<double>(random() % 1001) / 1000.0 - 0.5); };
+      *point = centre_of(v, esdf.voxel_size) + Point(off(), off(), off()) * esdf.voxel_size;
+    }
+  }
+  return queries;
+}
+
+/// All segments once more, and the stated clearance, by the predicate.
+bool holds_clearance(const FreeSpace& space, const PlanResult& result, double radius) {
+  for (std::size_t i = 1; i < result.waypoints.size(); ++i)
+    if (!space.is_free(result.waypoints[i - 1], result.waypoints[i], radius)) return false;
+  return result.clearance >= radius * (1.0 - 1e-9);
+}
+
+Spread spread_of(std::vector<double> values) {
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share) {
+    return values[std::min(values.size() - 1,
+                           static_cast<std::size_t>(share * static_cast<double>(values.size())))];
+  };
+  return {at(0.5), at(0.95), at(0.99), values.back()};
+}
+
+void summarise(const Roadmap& roadmap, const std::vector<Query>& queries,
+               std::vector<Outcome>& outcomes, CheckReport& report) {
+  const FreeSpace space(roadmap.esdf);
+  std::vector<double> ratios, microseconds, raw, esdf;
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    Outcome& o = outcomes[i];
+    report.graph_ok += o.roadmap.ok();
+    report.esdf_ok += o.esdf.ok();
+    report.disagreements += o.roadmap.status != o.esdf.status || o.raw.status != o.esdf.status;
+    report.fallbacks += o.roadmap.ok() && o.roadmap.answered_by != Planner::kGraph;
+    microseconds.push_back(o.roadmap.seconds.total * 1e6);
+    raw.push_back(o.raw.seconds.total * 1e6);
+    esdf.push_back(o.esdf.seconds.total * 1e3);
+    if (!o.roadmap.ok()) continue;
+    for (const PlanResult* path : {&o.roadmap, &o.raw, &o.esdf})
+      report.paths_below_clearance += path->ok() && !holds_clearance(space, *path, queries[i].radius);
+    if (o.esdf.ok() && o.roadmap.length > 0.0)
+      ratios.push_back(o.roadmap.length / std::min(o.roadmap.length, o.esdf.length));
+    report.paths.push_back({queries[i].radius, std::move(o.roadmap.waypoints)});
+  }
+  report.length_ratio = spread_of(std::move(ratios));
+  report.microseconds = spread_of(std::move(microseconds));
+  report.raw_microseconds = spread_of(std::move(raw));
+  report.esdf_milliseconds = spread_of(std::move(esdf));
+}
+
+}  // namespace
+
+CheckReport check_roadmap(const Roadmap& roadmap, const CheckConfig& config,
+                          const Progress& progress) {
+  CheckReport report;
+  const FreeSpace space(roadmap.esdf);
+  const SparseGraph& graph = roadmap.graph;
+  report.edges = graph.edges.size();
+  report.components = connected_components(graph).count;
+  for (const Edge& edge : graph.edges) {
+    const Point& a = graph.vertices[number(edge.from)].position;
+    const Point& b = graph.vertices[number(edge.to)].position;
+    const double least = roadmap.min_clearance * (1.0 - 1e-9);
+    report.edges_below_clearance += edge.clearance < least || space.clearance(a, b) < least;
+  }
+  const std::vector<Query> queries = draw_queries(roadmap, config);
+  report.queries = queries.size();
+  std::vector<Outcome> outcomes(queries.size());
+  for (std::size_t first = 0; first < queries.size(); first += kBatch) {
+    if (progress && !progress("check", static_cast<double>(first) /
+                                           static_cast<double>(queries.size())))
+      throw Cancelled();
+    parallel_for_each_index(std::min(kBatch, queries.size() - first), [&](std::size_t k) {
+      const Query& q = queries[first + k];
+      Outcome& o = outcomes[first + k];
+      PlanConfig plan_config{.radius = q.radius};
+      o.roadmap = plan(roadmap, q.start, q.goal, plan_config);
+      plan_config.shorten = false;
+      o.raw = plan(roadmap, q.start, q.goal, plan_config);
+      plan_config.shorten = true;
+      plan_config.planner = Planner::kEsdf;
+      o.esdf = plan(roadmap, q.start, q.goal, plan_config);
+    });
+  }
+  summarise(roadmap, queries, outcomes, report);
+  return report;
+}
+
+}  // namespace ridgeway

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "endpoint.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace ridgeway::detail {
+namespace {
+
+bool is_inside_blocks(const BlockLayout& layout, const VoxelIndex& voxel) {
+  BlockIndex low = layout.block(0), high = low;
+  for (const BlockIndex& b : layout.blocks()) {
+    low = {std::min(low.x, b.x), std::min(low.y, b.y), std::min(low.z, b.z)};
+    high = {std::max(high.x, b.x), std::max(high.y, b.y), std::max(high.z, b.z)};
+  }
+  const BlockIndex b = block_of(voxel);
+  return b.x >= low.x && b.x <= high.x && b.y >= low.y && b.y <= high.y && b.z >= low.z &&
+         b.z <= high.z;
+}
+
+}  // namespace
+
+Endpoint find_endpoint(const EsdfMap& esdf, const Point& point, double radius) {
+  constexpr double kFarthest = 1e9;  // voxels; beyond it indices would overflow
+  if ((point.array().abs() > kFarthest * esdf.voxel_size).any()) return {};
+  const VoxelIndex voxel = voxel_at(point, esdf.voxel_size);
+  const VoxelId home = esdf.layout.find(voxel);
+  if (home == kNoVoxel)
+    return {is_inside_blocks(esdf.layout, voxel) ? EndpointStatus::kUnknown
+                                                 : EndpointStatus::kOutsideMap,
+            kNoVoxel};
+  if (esdf.state[home] == VoxelState::kUnknown) return {EndpointStatus::kUnknown, kNoVoxel};
+  const FreeSpace space(esdf);
+  if (!space.is_free(point, radius)) return {EndpointStatus::kInCollision, kNoVoxel};
+
+  struct Candidate {
+    double distance;
+    int direction;
+  };
+  std::array<Candidate, 27> candidates;
+  for (int d = 0; d < 27; ++d) {
+    const VoxelIndex o = offset_of(d);
+    candidates[static_cast<std::size_t>(d)] = {
+        (centre_of(voxel + o, esdf.voxel_size) - point).squaredNorm(), d};
+  }
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.direction < b.direction;
+  });
+  const double threshold = squared_threshold(radius, esdf.voxel_size);
+  for (const Candidate& candidate : candidates) {
+    const VoxelId id = esdf.layout.neighbour(home, candidate.direction);
+    if (id == kNoVoxel || esdf.state[id] != VoxelState::kFree || esdf.squared[id] < threshold)
+      continue;
+    if (space.is_free(point, centre_of(esdf.layout.index_of(id), esdf.voxel_size), radius))
+      return {EndpointStatus::kOk, id};
+  }
+  return {EndpointStatus::kInCollision, kNoVoxel};
+}
+
+}  // namespace ridgeway::detail

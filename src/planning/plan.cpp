@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/planning/plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "deadline.hpp"
+#include "endpoint.hpp"
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/esdf/free_space.hpp"
+#include "route.hpp"
+#include "shorten.hpp"
+
+namespace ridgeway {
+namespace {
+
+using detail::Deadline;
+using detail::EndpointStatus;
+using detail::Route;
+using detail::seconds_now;
+
+PlanStatus status_of(EndpointStatus status, bool is_start) {
+  switch (status) {
+    case EndpointStatus::kOutsideMap:
+      return is_start ? PlanStatus::kStartOutsideMap : PlanStatus::kGoalOutsideMap;
+    case EndpointStatus::kUnknown:
+      return is_start ? PlanStatus::kStartUnknown : PlanStatus::kGoalUnknown;
+    case EndpointStatus::kInCollision:
+      return is_start ? PlanStatus::kStartInCollision : PlanStatus::kGoalInCollision;
+    case EndpointStatus::kOk: break;
+  }
+  return PlanStatus::kOk;
+}
+
+void require_finite(const Point& p, const char* name) {
+  if (!p.allFinite())
+    throw InputError(name, "is not a finite point", "give three finite coordinates in metres");
+}
+
+/// Length, clearance and the share that borders the unknown.
+void describe(const EsdfMap& esdf, const FreeSpace& space, PlanResult& result) {
+  result.length = detail::length_of(result.waypoints);
+  result.clearance = space.distance(result.waypoints.front());
+  double bordering = 0.0;
+  for (std::size_t i = 1; i < result.waypoints.size(); ++i) {
+    const Point& a = result.waypoints[i - 1];
+    const Point& b = result.waypoints[i];
+    result.clearance = std::min(result.clearance, space.clearance(a, b));
+    const double length = (b - a).norm();
+    const int pieces = std::max(1, static_cast<int>(length / esdf.voxel_size));
+    int unknown = 0;
+    for (int k = 0; k < pieces; ++k) {
+      const VoxelIndex v = voxel_at(a + (b - a) * ((k + 0.5) / pieces), esdf.voxel_size);
+      const VoxelId id = esdf.layout.find(v);
+      if (id == kNoVoxel || esdf.squared[id] == kNoSite) continue;
+      const SiteOffset o = esdf.site[id];
+      const VoxelId site = esdf.layout.find(v + VoxelIndex{o.x, o.y, o.z});
+      unknown += site == kNoVoxel || esdf.state[site] == VoxelState::kUnknown;
+    }
+    bordering += length * unknown / pieces;
+  }
+  result.unknown_share = result.length > 0.0 ? bordering / result.length : 0.0;
+}
+
+/// No path leaves unverified: every segment once more by the predicate.
+bool is_verified(const FreeSpace& space, const std::vector<Point>& path, double radius) {
+  for (std::size_t i = 1; i < path.size(); ++i)
+    if (!space.is_free(path[i - 1], path[i], radius)) return false;
+  return !path.empty() && space.is_free(path.front(), radius);
+}
+
+}  // namespace
+
+std::string_view name_of(PlanStatus status) {
+  constexpr std::array<std::string_view, 10> kNames{
+      "ok",           "start_outside_map", "start_unknown",     "start_in_collision",
+      "goal_outside_map", "goal_unknown",  "goal_in_collision", "no_route",
+      "radius_too_small", "timeout"};
+  return kNames[static_cast<std::size_t>(status)];
+}
+
+std::string_view name_of(Planner planner) {
+  constexpr std::array<std::string_view, 3> kNames{"graph", "diagram", "esdf"};
+  return kNames[static_cast<std::size_t>(planner)];
+}
+
+void PlanConfig::validate() const {
+  if (radius && !(*radius > 0.0 && std::isfinite(*radius)))
+    throw InputError("radius", "is " + std::to_string(*radius),
+                     "give the robot's radius in metres, above 0");
+  if (!(time_limit > 0.0))
+    throw InputError("time_limit", "is " + std::to_string(time_limit),
+                     "give seconds above 0, or leave it out for no limit");
+}
+
+PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
+                const PlanConfig& config) {
+  config.validate();
+  require_finite(start, "start");
+  require_finite(goal, "goal");
+  const EsdfMap& esdf = roadmap.esdf;
+  const double radius = config.radius.value_or(roadmap.min_clearance);
+  if (radius > esdf.max_distance - 2.0 * esdf.voxel_size)
+    throw InputError("radius " + std::to_string(radius),
+                     "is beyond the distances that the map holds",
+                     "build the map with a larger --max-distance, or without one");
+  const Deadline deadline(config.time_limit);
+  const double began = seconds_now();
+  PlanResult result;
+  const auto finish = [&](PlanStatus status) {
+    result.status = status;
+    result.seconds.total = seconds_now() - began;
+    return result;
+  };
+  if (radius < roadmap.min_clearance * (1.0 - 1e-9)) return finish(PlanStatus::kRadiusTooSmall);
+  const detail::Endpoint from = detail::find_endpoint(esdf, start, radius);
+  if (from.status != EndpointStatus::kOk) return finish(status_of(from.status, true));
+  const detail::Endpoint to = detail::find_endpoint(esdf, goal, radius);
+  if (to.status != EndpointStatus::kOk) return finish(status_of(to.status, false));
+
+  const FreeSpace space(esdf);
+  const detail::RouteQuery query{from.voxel, to.voxel, start, goal, radius, config.shorten};
+  detail::RouteResult found = detail::find_routes(roadmap, query, config.planner, deadline);
+  result.seconds.attach = found.attach_seconds;
+  result.seconds.search = found.search_seconds;
+  result.answered_by = found.answered_by;
+  if (found.status == detail::SearchStatus::kTimeout) return finish(PlanStatus::kTimeout);
+  const double shortening = seconds_now();
+  if (found.status == detail::SearchStatus::kNoRoute) {
+    // The lattice knows no way, but a straight look may slip through what it cannot resolve.
+    if (!space.is_free(start, goal, radius)) return finish(PlanStatus::kNoRoute);
+    result.waypoints = {start, goal};
+  } else {
+    result.waypoints = config.shorten
+                           ? detail::shortest_of(space, found.routes, radius, deadline)
+                           : std::move(found.routes.front());
+  }
+  result.seconds.shorten = seconds_now() - shortening;
+  if (!is_verified(space, result.waypoints, radius)) {
+    result.waypoints.clear();
+    return finish(PlanStatus::kNoRoute);
+  }
+  finish(PlanStatus::kOk);
+  describe(esdf, space, result);
+  return result;
+}
+
+}  // namespace ridgeway

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "route.hpp"
+
+#include <algorithm>
+
+#include "attach_way.hpp"
+#include "graph_search.hpp"
+#include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/roadmap/build_graph.hpp"
+#include "shorten.hpp"
+
+namespace ridgeway::detail {
+namespace {
+
+constexpr std::size_t kRoutes = 3;
+constexpr float kPenalty = 1.6f;          // on edges that an earlier route took
+constexpr double kNearlyStraight = 1.01;  // over the straight line: not worth another route
+
+/// Start, the lattice voxels (bends only), goal.
+Route route_over_voxels(const EsdfMap& esdf, const RouteQuery& query,
+                        const std::vector<VoxelId>& voxels) {
+  Route route{query.start};
+  VoxelIndex last_step{};
+  for (std::size_t i = 0; i < voxels.size(); ++i) {
+    const VoxelIndex here = esdf.layout.index_of(voxels[i]);
+    const VoxelIndex step =
+        i + 1 < voxels.size() ? esdf.layout.index_of(voxels[i + 1]) - here : VoxelIndex{};
+    if (i == 0 || i + 1 == voxels.size() || step != last_step)
+      route.push_back(centre_of(here, esdf.voxel_size));
+    last_step = step;
+  }
+  route.push_back(query.goal);
+  return route;
+}
+
+/// Joins two ways that end on the same voxel at the first voxel that they share.
+std::vector<VoxelId> join_ways(std::vector<VoxelId> a, std::vector<VoxelId> b) {
+  while (a.size() > 1 && b.size() > 1 && a[a.size() - 2] == b[b.size() - 2]) {
+    a.pop_back();
+    b.pop_back();
+  }
+  b.pop_back();
+  a.insert(a.end(), b.rbegin(), b.rend());
+  return a;
+}
+
+Route route_over_vertices(const Roadmap& roadmap, const RouteQuery& query, const AttachWay& from,
+                          const AttachWay& to, const std::vector<VertexId>& vertices) {
+  RouteQuery leg = query;
+  Route route = route_over_voxels(roadmap.esdf, leg, from.voxels);
+  route.pop_back();  // the goal
+  for (std::size_t i = 1; i + 1 < vertices.size(); ++i)
+    route.push_back(roadmap.graph.vertices[number(vertices[i])].position);
+  std::swap(leg.start, leg.goal);
+  Route back = route_over_voxels(roadmap.esdf, leg, to.voxels);
+  back.pop_back();
+  route.insert(route.end(), back.rbegin(), back.rend() - 1);
+  route.push_back(query.goal);
+  return route;
+}
+
+/// Up to kRoutes routes over the graph: each further one shuns the edges of those before.
+std::vector<Route> routes_over_graph(const Roadmap& roadmap, const RouteQuery& query,
+                                     const AttachWay& from, const AttachWay& to) {
+  std::vector<Route> routes;
+  std::vector<float> penalty;
+  std::vector<std::vector<VertexId>> taken;
+  const std::size_t wanted = query.want_several ? kRoutes : 1;
+  for (std::size_t k = 0; k < wanted; ++k) {
+    std::vector<VertexId> vertices =
+        search_graph(roadmap.graph, from.vertex, to.vertex, query.radius,
+                     k == 0 ? nullptr : &penalty);
+    if (vertices.empty()) break;
+    if (k == 0) penalty.assign(roadmap.graph.edges.size(), 1.0f);
+    for (std::size_t i = 1; i < vertices.size(); ++i)
+      penalty[number(edge_between(roadmap.graph, vertices[i - 1], vertices[i]))] *= kPenalty;
+    if (std::find(taken.begin(), taken.end(), vertices) != taken.end()) continue;
+    routes.push_back(route_over_vertices(roadmap, query, from, to, vertices));
+    taken.push_back(std::move(vertices));
+  }
+  return routes;
+}
+
+/// What following the attach field from both ends shows before any search.
+enum class Reach { kJoined, kApart, kSearch, kUnclear };
+
+Reach compare_ways(const Roadmap& roadmap, const RouteQuery& query, const AttachWay& from,
+                   const AttachWay& to) {
+  if (from.voxels.back() == to.voxels.back()) return Reach::kJoined;
+  if (from.reached() && to.reached()) {
+    const double widest = widest_way(roadmap.graph, roadmap.tree, from.vertex, to.vertex);
+    return widest >= query.radius * (1.0 - 1e-9) ? Reach::kSearch : Reach::kApart;
+  }
+  // A way that stops before it meets the diagram stops at the end of all that its voxel can
+  // reach at this radius, and that end is the same for all voxels of such a region.
+  const bool from_is_pocket = !from.reached() && !from.met_diagram;
+  const bool to_is_pocket = !to.reached() && !to.met_diagram;
+  return from_is_pocket || to_is_pocket ? Reach::kApart : Reach::kUnclear;
+}
+
+void search_voxels(const Roadmap& roadmap, const RouteQuery& query, const VoxelMask* within,
+                   const Deadline& deadline, RouteResult& result) {
+  result.answered_by = within != nullptr ? Planner::kDiagram : Planner::kEsdf;
+  LatticePath path =
+      search_lattice(roadmap.esdf, query.from, query.to, query.radius, within, deadline);
+  result.status = path.status;
+  if (path.status == SearchStatus::kFound)
+    result.routes = {route_over_voxels(roadmap.esdf, query, path.voxels)};
+}
+
+/// A* along the diagram between the places where the two ways meet it.
+void search_diagram(const Roadmap& roadmap, const RouteQuery& query, AttachWay from, AttachWay to,
+                    const Deadline& deadline, RouteResult& result) {
+  const auto cut_at_diagram = [&](std::vector<VoxelId>& way) {
+    const auto first = std::find_if(way.begin(), way.end(), [&](VoxelId id) {
+      return roadmap.diagram.voxels.test(id);
+    });
+    if (first != way.end()) way.erase(first + 1, way.end());
+  };
+  cut_at_diagram(from.voxels);
+  cut_at_diagram(to.voxels);
+  LatticePath path = search_lattice(roadmap.esdf, from.voxels.back(), to.voxels.back(),
+                                    query.radius, &roadmap.diagram.voxels, deadline);
+  result.answered_by = Planner::kDiagram;
+  result.status = path.status;
+  if (path.status != SearchStatus::kFound) return;
+  std::vector<VoxelId> voxels = std::move(from.voxels);
+  voxels.insert(voxels.end(), path.voxels.begin() + 1, path.voxels.end());
+  voxels.insert(voxels.end(), to.voxels.rbegin() + 1, to.voxels.rend());
+  result.routes = {route_over_voxels(roadmap.esdf, query, voxels)};
+}
+
+}  // namespace
+
+RouteResult find_routes(const Roadmap& roadmap, const RouteQuery& query, Planner planner,
+                        const Deadline& deadline) {
+  RouteResult result;
+  const double began = seconds_now();
+  if (planner == Planner::kEsdf) {
+    search_voxels(roadmap, query, nullptr, deadline, result);
+    result.search_seconds = seconds_now() - began;
+    return result;
+  }
+  AttachWay from = follow_attach(roadmap, query.from, query.radius);
+  AttachWay to = follow_attach(roadmap, query.to, query.radius);
+  const Reach reach = compare_ways(roadmap, query, from, to);
+  const double attached = seconds_now();
+  result.attach_seconds = attached - began;
+  if (reach == Reach::kJoined) {
+    result.status = SearchStatus::kFound;
+    result.routes = {
+        route_over_voxels(roadmap.esdf, query, join_ways(from.voxels, to.voxels))};
+  } else if (reach != Reach::kApart) {
+    if (reach == Reach::kSearch && planner == Planner::kGraph) {
+      result.routes = routes_over_graph(roadmap, query, from, to);
+      if (!result.routes.empty()) result.status = SearchStatus::kFound;
+    }
+    if (result.status == SearchStatus::kNoRoute && from.met_diagram && to.met_diagram)
+      search_diagram(roadmap, query, std::move(from), std::move(to), deadline, result);
+    if (result.status == SearchStatus::kNoRoute)
+      search_voxels(roadmap, query, nullptr, deadline, result);
+  }
+  result.search_seconds = seconds_now() - attached;
+  return result;
+}
+
+Route shortest_of(const FreeSpace& space, const std::vector<Route>& routes, double radius,
+                  const Deadline& deadline) {
+  const Point& start = routes.front().front();
+  const Point& goal = routes.front().back();
+  if (space.is_free(start, goal, radius)) return {start, goal};
+  const double straight = (goal - start).norm();
+  Route best;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Route& route : routes) {
+    Route candidate = shorten(space, route, radius, deadline);
+    const double length = length_of(candidate);
+    if (length < shortest) {
+      shortest = length;
+      best = std::move(candidate);
+    }
+    if (shortest <= kNearlyStraight * straight || deadline.has_passed()) break;
+  }
+  return best;
+}
+
+}  // namespace ridgeway::detail

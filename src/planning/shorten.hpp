@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <vector>
+
+#include "deadline.hpp"
+#include "ridgeway/esdf/free_space.hpp"
+
+namespace ridgeway::detail {
+
+double length_of(const std::vector<Point>& path);
+
+/// Pulls a free path tight: greedily skips waypoints while the straight segment is free, then
+/// draws each remaining corner towards the line between its neighbours as far as it stays free,
+/// until that gains less than a thousandth. Every segment of the result is free at the radius.
+std::vector<Point> shorten(const FreeSpace& space, std::vector<Point> path, double radius,
+                           const Deadline& deadline);
+
+}  // namespace ridgeway::detail

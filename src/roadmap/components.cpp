@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/roadmap/components.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "ridgeway/skeleton/basins.hpp"
+#include "ridgeway/skeleton/gvd.hpp"
+#include "ridgeway/voxel/disjoint_sets.hpp"
+
+namespace ridgeway {
+namespace {
+
+constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+/// Sets of basins as the level sinks through the passes, widest first.
+class SinkingLevel {
+ public:
+  explicit SinkingLevel(const Basins& basins) : basins_(basins), sets_(basins.peaks.size()) {}
+
+  std::uint32_t set_of(VoxelId id) { return sets_.find(basins_.basin[id]); }
+
+  /// Joins over all passes at or above a level.
+  void sink_to(double level) {
+    for (; next_ < basins_.passes.size() && basins_.passes[next_].level >= level; ++next_)
+      sets_.join(set_of(basins_.passes[next_].from), set_of(basins_.passes[next_].to));
+  }
+  const Pass* next_pass() const {
+    return next_ < basins_.passes.size() ? &basins_.passes[next_] : nullptr;
+  }
+  std::uint32_t join_next() {
+    const Pass& pass = basins_.passes[next_++];
+    return sets_.join(set_of(pass.from), set_of(pass.to));
+  }
+
+ private:
+  const Basins& basins_;
+  DisjointSets sets_;
+  std::size_t next_ = 0;
+};
+
+/// Components by set, largest first; fills `component_of` a set.
+std::vector<Component> count_components(const EsdfMap& esdf, const VoxelMask& traversable,
+                                        SinkingLevel& level,
+                                        std::vector<std::size_t>& component_of) {
+  std::vector<std::size_t> voxels(component_of.size(), 0);
+  std::vector<VoxelId> widest(component_of.size(), kNoVoxel);
+  for (const VoxelId id : traversable.members()) {
+    const std::uint32_t set = level.set_of(id);
+    ++voxels[set];
+    if (widest[set] == kNoVoxel || esdf.squared[id] > esdf.squared[widest[set]]) widest[set] = id;
+  }
+  std::vector<std::size_t> sets;
+  for (std::size_t set = 0; set < voxels.size(); ++set)
+    if (voxels[set] > 0) sets.push_back(set);
+  std::stable_sort(sets.begin(), sets.end(),
+                   [&](std::size_t a, std::size_t b) { return voxels[a] > voxels[b]; });
+  std::vector<Component> components;
+  for (const std::size_t set : sets) {
+    component_of[set] = components.size();
+    components.push_back({voxels[set],
+                          static_cast<double>(voxels[set]) * std::pow(esdf.voxel_size, 3),
+                          centre_of(esdf.layout.index_of(widest[set]), esdf.voxel_size),
+                          esdf.distance(widest[set])});
+  }
+  return components;
+}
+
+}  // namespace
+
+ComponentReport report_components(const Roadmap& roadmap) {
+  const EsdfMap& esdf = roadmap.esdf;
+  const VoxelMask all_free = traversable_voxels(esdf, 0.25 * esdf.voxel_size);
+  const Basins basins = find_basins(esdf, all_free);
+  SinkingLevel level(basins);
+  level.sink_to(squared_threshold(roadmap.min_clearance, esdf.voxel_size));
+  std::vector<std::size_t> component_of(basins.peaks.size(), kNone);  // by set
+  ComponentReport report;
+  report.components = count_components(
+      esdf, traversable_voxels(esdf, roadmap.min_clearance), level, component_of);
+  while (const Pass* pass = level.next_pass()) {
+    const std::size_t a = component_of[level.set_of(pass->from)];
+    const std::size_t b = component_of[level.set_of(pass->to)];
+    const VoxelId narrow =
+        esdf.squared[pass->from] <= esdf.squared[pass->to] ? pass->from : pass->to;
+    if (a != kNone && b != kNone && a != b)
+      report.joins.push_back({std::min(a, b), std::max(a, b),
+                              0.5 * esdf.voxel_size * std::sqrt(pass->level),
+                              centre_of(esdf.layout.index_of(narrow), esdf.voxel_size)});
+    component_of[level.join_next()] = std::min(a, b);  // kNone is the largest
+  }
+  return report;
+}
+
+}  // namespace ridgeway
