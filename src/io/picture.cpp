@@ -117,7 +117,7 @@ double vertex_size(const SparseGraph& graph, const MapFrame& frame) {
   if (lengths.empty()) return 5.0 * frame.unit;
   const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
   std::nth_element(lengths.begin(), middle, lengths.end());
-  return std::clamp(0.2 * *middle * frame.scale, 2.6 * frame.unit, 6.0 * frame.unit);
+  return std::clamp(0.2 * *middle * frame.scale, 1.4 * frame.unit, 6.0 * frame.unit);
 }
 
 void draw_graph(Canvas& canvas, const SparseGraph& graph, const MapFrame& frame) {

@@ -6,6 +6,7 @@
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "ridgeway/roadmap/build_roadmap.hpp"
 #include "synthetic_roadmap.hpp"
 #include "temporary_folder.hpp"
 
@@ -63,6 +64,19 @@ TEST(RidgeFile, EveryFieldComesBack) {
       save_roadmap(roadmap, folder / "map.ridge");
       expect_same(load_roadmap(folder / "map.ridge"), roadmap);
     }
+  }
+}
+
+TEST(RidgeFile, ABuiltRoadmapComesBack) {
+  const TemporaryFolder folder;
+  for (const auto unknown : {UnknownPolicy::kObstacle, UnknownPolicy::kIgnore}) {
+    BuildConfig config;
+    config.min_clearance = 0.3;
+    config.unknown = unknown;
+    const Roadmap roadmap = build_roadmap(synthetic_map({}), config).roadmap;
+    ASSERT_FALSE(roadmap.graph.edges.empty());
+    save_roadmap(roadmap, folder / "map.ridge");
+    expect_same(load_roadmap(folder / "map.ridge"), roadmap);
   }
 }
 
