@@ -19,10 +19,12 @@ bool is_length(double value) { return std::isfinite(value) && value >= 0.0; }
 bool is_clearance(double value) { return value >= 0.0; }
 
 Defect find_vertex_defect(const Roadmap& roadmap) {
+  VoxelId last = kNoVoxel;
   for (const Vertex& v : roadmap.graph.vertices) {
-    if (roadmap.esdf.layout.find(v.voxel) == kNoVoxel) {
-      return RoadmapDefect{"vertices", "has a vertex outside the map"};
-    }
+    const VoxelId id = roadmap.esdf.layout.find(v.voxel);
+    if (id == kNoVoxel) return RoadmapDefect{"vertices", "has a vertex outside the map"};
+    if (last != kNoVoxel && id <= last) return RoadmapDefect{"vertices", "is not in order"};
+    last = id;
     if (!is_clearance(v.clearance)) {
       return RoadmapDefect{"vertices", "has a clearance that is no distance"};
     }
@@ -96,6 +98,25 @@ bool ways_stay_inside(const Roadmap& roadmap, std::uint32_t slot) {
   return true;
 }
 
+/// Whether every way ends: each voxel is walked from once, up to the first known good one.
+bool ways_end(const Roadmap& roadmap) {
+  const BlockLayout& layout = roadmap.esdf.layout;
+  const VoxelField<Direction>& next = roadmap.attach.next;
+  VoxelMask good(layout);
+  std::vector<VoxelId> way;
+  for (VoxelId start = 0; start < next.size(); ++start) {
+    if (next[start] == AttachField::kNotTraversable || good.test(start)) continue;
+    way.clear();
+    for (VoxelId id = start; !good.test(id); id = layout.neighbour(id, next[id])) {
+      way.push_back(id);
+      if (next[id] == AttachField::kHere) break;
+      if (way.size() > next.size()) return false;
+    }
+    for (const VoxelId id : way) good.set(id);
+  }
+  return true;
+}
+
 }  // namespace
 
 Defect find_size_defect(const Roadmap& roadmap) {
@@ -137,8 +158,9 @@ Defect find_attach_defect(const Roadmap& roadmap) {
         if (!ways_stay_inside(roadmap, static_cast<std::uint32_t>(slot))) good = false;
       },
       64);
-  if (good) return {};
-  return RoadmapDefect{"attach", "leaves traversable space"};
+  if (!good) return RoadmapDefect{"attach", "leaves traversable space"};
+  if (!ways_end(roadmap)) return RoadmapDefect{"attach", "goes in a circle"};
+  return {};
 }
 
 }  // namespace ridgeway

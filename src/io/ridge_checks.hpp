@@ -20,7 +20,7 @@ std::optional<RoadmapDefect> find_size_defect(const Roadmap& roadmap);
 
 /// Looks for indices out of range, numbers that are not finite, edges out of order, a vertex or a
 /// narrowest place in no allocated block, a clearance tree that goes in circles, a way of the
-/// attach field that leaves traversable space. The links need not be there yet.
+/// attach field that leaves traversable space or never ends. The links need not be there yet.
 std::optional<RoadmapDefect> find_graph_defect(const Roadmap& roadmap);
 std::optional<RoadmapDefect> find_attach_defect(const Roadmap& roadmap);
 

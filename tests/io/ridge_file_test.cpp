@@ -134,6 +134,14 @@ TEST(RidgeFile, PartsThatDoNotFitAreNotSaved) {
   refused([](Roadmap& r) { r.tree.parent.pop_back(); });
   refused([](Roadmap& r) { r.graph.edges[0].to = VertexId{1000}; });
   refused([](Roadmap& r) { r.esdf.voxel_size = 0.0; });
+  refused([](Roadmap& r) { std::swap(r.graph.vertices[0], r.graph.vertices[1]); });
+  refused([](Roadmap& r) {  // a vertex's way to its neighbour, whose way leads to the vertex
+    const VoxelId vertex = r.esdf.layout.find(r.graph.vertices[0].voxel);
+    for (int d = 0; d < 27; ++d) {
+      const VoxelId n = r.esdf.layout.neighbour(vertex, d);
+      if (r.attach.next[n] == opposite(d)) r.attach.next[vertex] = static_cast<Direction>(d);
+    }
+  });
 }
 
 }  // namespace
