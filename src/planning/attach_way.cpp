@@ -31,8 +31,9 @@ AttachWay follow_attach(const Roadmap& roadmap, VoxelId from, double radius) {
       way.vertex = vertex_at(roadmap.graph, esdf.layout.index_of(id));
       return way;
     }
+    if (next == AttachField::kNotTraversable) return way;
     const VoxelId to = esdf.layout.neighbour(id, next);
-    if (!space.move_is_free(id, to, next, threshold)) return way;
+    if (to == kNoVoxel || !space.move_is_free(id, to, next, threshold)) return way;
     id = to;
   }
 }

@@ -95,7 +95,7 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
   clock.end(report.seconds.thin);
 
   clock.begin("kernel");
-  Basins basins = find_basins(esdf, traversable);
+  Basins basins = find_basins(esdf, traversable, config.min_clearance);
   report.traversable_components = basins.components();
   VoxelMask kernel = compute_kernel(esdf, traversable, basins);
   report.kernel_voxels = kernel.count();

@@ -72,8 +72,8 @@ std::vector<Component> count_components(const EsdfMap& esdf, const VoxelMask& tr
 
 ComponentReport report_components(const Roadmap& roadmap) {
   const EsdfMap& esdf = roadmap.esdf;
-  const VoxelMask all_free = traversable_voxels(esdf, 0.25 * esdf.voxel_size);
-  const Basins basins = find_basins(esdf, all_free);
+  const double smallest = 0.25 * esdf.voxel_size;  // any free voxel
+  const Basins basins = find_basins(esdf, traversable_voxels(esdf, smallest), smallest);
   SinkingLevel level(basins);
   level.sink_to(squared_threshold(roadmap.min_clearance, esdf.voxel_size));
   std::vector<std::size_t> component_of(basins.peaks.size(), kNone);  // by set

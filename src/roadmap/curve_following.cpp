@@ -94,7 +94,7 @@ std::vector<Curve> follow_curves(const DiagramCurves& curves, const std::vector<
       const Curve right = way_to_vertex(flood, meeting.b);
       std::reverse(left.begin(), left.end());
       if (pair.first == pair.second) {
-        result.push_back(left);
+        if (left.size() > 1) result.push_back(left);
         left = {meeting.a};
       }
       left.insert(left.end(), right.begin(), right.end());

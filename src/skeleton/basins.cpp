@@ -152,8 +152,8 @@ void label_basins(const EsdfMap& esdf, const VoxelMask& traversable, Landscape& 
 /// waits until the level has sunk to it.
 class PassFinder {
  public:
-  PassFinder(const EsdfMap& esdf, const VoxelMask& traversable, Basins& basins)
-      : esdf_(esdf), traversable_(traversable), basins_(basins), sets_(basins.peaks.size()),
+  PassFinder(const EsdfMap& esdf, const VoxelMask& traversable, double threshold, Basins& basins)
+      : esdf_(esdf), traversable_(traversable), threshold_(threshold), basins_(basins), sets_(basins.peaks.size()),
         space_(esdf) {
     basins_.dynamics.assign(basins_.peaks.size(), std::numeric_limits<double>::infinity());
     highest_.resize(basins_.peaks.size());
@@ -210,7 +210,7 @@ class PassFinder {
     }
     if (widest.level >= own) {
       join(widest);
-    } else if (widest.level > 0.0) {
+    } else if (widest.level >= threshold_) {
       waiting_.push(widest);
     }
   }
@@ -241,6 +241,7 @@ class PassFinder {
 
   const EsdfMap& esdf_;
   const VoxelMask& traversable_;
+  const double threshold_;  // of the narrowest pass that counts
   Basins& basins_;
   DisjointSets sets_;
   FreeSpace space_;
@@ -250,10 +251,11 @@ class PassFinder {
 
 }  // namespace
 
-Basins find_basins(const EsdfMap& esdf, const VoxelMask& traversable) {
+Basins find_basins(const EsdfMap& esdf, const VoxelMask& traversable, double radius) {
   Landscape land = climb(esdf, traversable);
   label_basins(esdf, traversable, land);
-  PassFinder(esdf, traversable, land.basins).run(std::move(land.critical));
+  const double threshold = squared_threshold(radius, esdf.voxel_size);
+  PassFinder(esdf, traversable, threshold, land.basins).run(std::move(land.critical));
   return std::move(land.basins);
 }
 

@@ -36,6 +36,7 @@ struct Basins {
   std::size_t components() const { return peaks.size() - passes.size(); }
 };
 
-Basins find_basins(const EsdfMap& esdf, const VoxelMask& traversable);
+/// `traversable`: the voxels free at `radius`; only moves that are free at it count.
+Basins find_basins(const EsdfMap& esdf, const VoxelMask& traversable, double radius);
 
 }  // namespace ridgeway
