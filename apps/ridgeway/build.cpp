@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arguments.hpp"
+#include "commands.hpp"
+#include "console.hpp"
+#include "ridgeway/io/load_map.hpp"
+#include "ridgeway/io/ridge_file.hpp"
+#include "ridgeway/roadmap/build_roadmap.hpp"
+
+namespace ridgeway::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string map, output;
+  std::optional<double> voxel_size;
+  std::string unknown = "obstacle", diagram = "full";
+  std::string bounds, transform;
+  std::vector<std::string> exclude;
+  int isolated = 0;
+  int repeat = 1;
+  BuildConfig build;
+};
+
+LoadConfig load_config(const Options& options) {
+  LoadConfig config;
+  config.voxel_size = options.voxel_size;
+  if (!options.bounds.empty()) config.bounds = parse_box(options.bounds, "--bounds");
+  for (const std::string& box : options.exclude)
+    config.exclude.push_back(parse_box(box, "--exclude"));
+  if (!options.transform.empty())
+    config.transform = parse_transform(options.transform, "--transform");
+  config.isolated_below = options.isolated;
+  config.validate();
+  return config;
+}
+
+BuildConfig build_config(const Options& options) {
+  BuildConfig config = options.build;
+  if (options.unknown == "ignore") config.unknown = UnknownPolicy::kIgnore;
+  config.paper_diagram = options.diagram == "paper";
+  config.validate();
+  return config;
+}
+
+/// Everything that shapes the roadmap, as it is kept in the file.
+std::string config_text(const Options& options, double voxel_size) {
+  const BuildConfig& build = options.build;
+  Json json = {{"voxel_size", voxel_size},
+               {"min_clearance", build.min_clearance},
+               {"max_distance", build.max_distance},
+               {"unknown", options.unknown},
+               {"theta", build.theta},
+               {"prune_radius", build.prune_radius},
+               {"split_deviation", build.split_deviation},
+               {"diagram", options.diagram}};
+  if (!options.bounds.empty()) json["bounds"] = options.bounds;
+  if (!options.exclude.empty()) json["exclude"] = options.exclude;
+  if (!options.transform.empty()) json["transform"] = options.transform;
+  if (options.isolated > 0) json["isolated"] = options.isolated;
+  return json.dump();
+}
+
+struct Stage {
+  const char* name;
+  double BuildSeconds::*seconds;
+};
+constexpr Stage kStages[] = {{"esdf", &BuildSeconds::esdf},     {"gvd", &BuildSeconds::gvd},
+                             {"edges", &BuildSeconds::edges},   {"thin", &BuildSeconds::thin},
+                             {"kernel", &BuildSeconds::kernel}, {"graph", &BuildSeconds::graph},
+                             {"attach", &BuildSeconds::attach}, {"total", &BuildSeconds::total}};
+
+/// Builds `repeat` times; the times of the stages are then medians.
+BuildResult build_repeatedly(OccupancyMap map, const BuildConfig& config, int repeat,
+                             const Progress& progress) {
+  std::vector<BuildSeconds> runs;
+  for (int i = 1; i < repeat; ++i)
+    runs.push_back(build_roadmap(map, config, progress).report.seconds);
+  BuildResult result = build_roadmap(std::move(map), config, progress);
+  if (runs.empty()) return result;
+  runs.push_back(result.report.seconds);
+  for (const Stage& stage : kStages) {
+    const auto middle = runs.begin() + static_cast<std::ptrdiff_t>(runs.size() / 2);
+    std::nth_element(runs.begin(), middle, runs.end(), [&](const auto& a, const auto& b) {
+      return a.*stage.seconds < b.*stage.seconds;
+    });
+    result.report.seconds.*stage.seconds = (*middle).*stage.seconds;
+  }
+  return result;
+}
+
+struct Outcome {
+  BuildResult built;
+  double load_seconds = 0.0, save_seconds = 0.0;
+  std::uint64_t file_bytes = 0;
+  double total_seconds() const { return load_seconds + built.report.seconds.total + save_seconds; }
+};
+
+Json json_of(const Options& options, const Outcome& outcome) {
+  const Roadmap& roadmap = outcome.built.roadmap;
+  const BuildReport& report = outcome.built.report;
+  Json seconds = {{"load", outcome.load_seconds}};
+  for (const Stage& stage : kStages) seconds[stage.name] = report.seconds.*stage.seconds;
+  seconds.erase("total");
+  seconds["save"] = outcome.save_seconds;
+  seconds["total"] = outcome.total_seconds();
+  return {{"map", options.map},
+          {"output", options.output},
+          {"voxel_size", roadmap.esdf.voxel_size},
+          {"unknown_policy", options.unknown},
+          {"voxels",
+           {{"free", report.voxels.free},
+            {"occupied", report.voxels.occupied},
+            {"unknown", report.voxels.unknown}}},
+          {"allocated_voxels", report.allocated_voxels},
+          {"traversable",
+           {{"voxels", report.traversable_voxels}, {"components", report.traversable_components}}},
+          {"gvd_voxels", report.gvd_voxels},
+          {"edge_voxels", report.edge_voxels},
+          {"kernel_voxels", report.kernel_voxels},
+          {"diagram_voxels", report.diagram_voxels},
+          {"graph",
+           {{"vertices", roadmap.graph.vertices.size()},
+            {"edges", roadmap.graph.edges.size()},
+            {"components", report.graph_components},
+            {"min_clearance", roadmap.graph.min_clearance}}},
+          {"seconds", seconds},
+          {"repeat", options.repeat},
+          {"file_bytes", outcome.file_bytes},
+          {"peak_memory_bytes", peak_memory_bytes()}};
+}
+
+void print_summary(const Options& options, const Outcome& outcome) {
+  const Roadmap& roadmap = outcome.built.roadmap;
+  const BuildReport& report = outcome.built.report;
+  print_row("voxel size", text_of(roadmap.esdf.voxel_size, 6) + " m");
+  print_row("voxels", count_text(report.voxels.free) + " free, " +
+                          count_text(report.voxels.occupied) + " occupied");
+  print_row("traversable", count_text(report.traversable_voxels) + " voxels at a radius of " +
+                               text_of(roadmap.min_clearance) + " m, in " +
+                               count_text(report.traversable_components) + " components");
+  print_row("diagram", count_text(report.diagram_voxels) + " voxels");
+  print_row("graph", count_text(roadmap.graph.vertices.size()) + " vertices, " +
+                         count_text(roadmap.graph.edges.size()) + " edges, " +
+                         count_text(report.graph_components) + " components");
+  std::string stages = "load " + seconds_text(outcome.load_seconds);
+  for (const Stage& stage : kStages)
+    if (stage.seconds != &BuildSeconds::total)
+      stages += std::string(", ") + stage.name + " " + seconds_text(report.seconds.*stage.seconds);
+  stages += ", save " + seconds_text(outcome.save_seconds);
+  print_row("time", seconds_text(outcome.total_seconds()));
+  print_row("", stages);
+  print_row("memory", bytes_text(peak_memory_bytes()) + " at the peak");
+  print_row("file", options.output + ", " + bytes_text(outcome.file_bytes));
+}
+
+int run(const Options& options, const Globals& globals) {
+  const LoadConfig loading = load_config(options);
+  const BuildConfig building = build_config(options);
+  require_writable(options.output);
+
+  Outcome outcome;
+  ProgressBar bar(globals);
+  bar.show("load", 0.0);
+  LoadNotes notes;
+  const Stopwatch load_watch;
+  OccupancyMap map = load_map(options.map, loading, &notes);
+  outcome.load_seconds = load_watch.seconds();
+  bar.clear();
+  for (const std::string& text : notes.notes) note(globals, text);
+  if (building.min_clearance < 2.0 * map.voxel_size)
+    warn(globals, "--min-clearance " + text_of(building.min_clearance) +
+                      " m is less than two voxels of " + text_of(map.voxel_size, 6) +
+                      " m: passages are found only as well as the voxels show them");
+  const std::string config = config_text(options, map.voxel_size);
+
+  outcome.built = build_repeatedly(std::move(map), building, options.repeat, bar.callback());
+  Roadmap& roadmap = outcome.built.roadmap;
+  roadmap.source = std::filesystem::path(options.map).filename().string();
+  roadmap.config = config;
+  bar.show("save", 1.0);
+  const Stopwatch save_watch;
+  save_roadmap(roadmap, options.output);
+  outcome.save_seconds = save_watch.seconds();
+  outcome.file_bytes = std::filesystem::file_size(options.output);
+  bar.clear();
+
+  if (globals.json)
+    print_json(json_of(options, outcome));
+  else
+    print_summary(options, outcome);
+  return kExitDone;
+}
+
+}  // namespace
+
+void add_build_command(CLI::App& app, const Globals& globals, Command& chosen) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("build", "Build a roadmap from a map");
+  command
+      ->add_option("map", options->map,
+                   "Map: OctoMap .bt, .ot; point cloud .pcd, .ply, .xyz; .3dmap")
+      ->required();
+  command->add_option("-o,--output", options->output, "Roadmap to write, .ridge")->required();
+  command->add_option("--voxel-size", options->voxel_size,
+                      "Metres; required for point clouds, otherwise not finer than the map's own");
+  BuildConfig& build = options->build;
+  command
+      ->add_option("--min-clearance", build.min_clearance,
+                   "Smallest robot radius that the roadmap is for, metres")
+      ->capture_default_str();
+  command->add_option("--max-distance", build.max_distance,
+                      "Distances to obstacles are known up to here, metres (default: no limit)");
+  command
+      ->add_option("--unknown", options->unknown,
+                   "Unknown space is an obstacle, or is kept out of without a distance to it")
+      ->check(CLI::IsMember({"obstacle", "ignore"}))
+      ->capture_default_str();
+  command
+      ->add_option("--theta", build.theta,
+                   "Least angle between the directions to two obstacles, radians")
+      ->capture_default_str();
+  command
+      ->add_option("--prune-radius", build.prune_radius,
+                   "Vertices nearer than this along the diagram become one, metres")
+      ->capture_default_str();
+  command
+      ->add_option("--split-deviation", build.split_deviation,
+                   "Greatest distance of an edge from its diagram, metres; 0 for two voxels")
+      ->capture_default_str();
+  command
+      ->add_option("--diagram", options->diagram,
+                   "The full diagram, or the paper's thinned edges alone for comparison")
+      ->check(CLI::IsMember({"full", "paper"}))
+      ->capture_default_str();
+  command->add_option("--bounds", options->bounds,
+                      "Flight volume x0,y0,z0,x1,y1,z1, metres; required for point clouds");
+  command
+      ->add_option("--exclude", options->exclude,
+                   "No-fly box x0,y0,z0,x1,y1,z1, metres; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--transform", options->transform,
+                      "From the file's frame to the map's (z up): x,y,z,roll,pitch,yaw in metres "
+                      "and degrees, 16 numbers of a matrix row by row, camera (x right, y down, "
+                      "z forward) or y-up");
+  command
+      ->add_option("--isolated", options->isolated,
+                   "Take clusters of fewer occupied voxels as free; removes thin obstacles too")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--repeat", options->repeat,
+                   "Build this many times and report the medians of the times")
+      ->check(CLI::Range(1, 10000));
+  command->footer(
+      "Examples:\n"
+      "  ridgeway build data/fr_079.bt -o office.ridge --min-clearance 0.3\n"
+      "  ridgeway build mine.pcd -o mine.ridge --voxel-size 0.2 --bounds -50,-20,0,80,40,12");
+  command->callback([options, &globals, &chosen] {
+    chosen = [options, &globals] { return run(*options, globals); };
+  });
+}
+
+}  // namespace ridgeway::cli

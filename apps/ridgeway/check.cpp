@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/planning/check.hpp"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "arguments.hpp"
+#include "commands.hpp"
+#include "console.hpp"
+#include "ridgeway/io/atomic_file.hpp"
+#include "ridgeway/io/ridge_file.hpp"
+
+namespace ridgeway::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string file, paths;
+  CheckConfig check{.queries = 200};
+};
+
+Json json_of(const Spread& spread) {
+  return {{"median", spread.median}, {"p95", spread.p95}, {"p99", spread.p99}, {"max", spread.max}};
+}
+
+Json json_of(const CheckReport& report) {
+  return {{"edges", report.edges},
+          {"edges_below_clearance", report.edges_below_clearance},
+          {"components", report.components},
+          {"queries", report.queries},
+          {"graph_ok", report.graph_ok},
+          {"esdf_ok", report.esdf_ok},
+          {"disagreements", report.disagreements},
+          {"paths_below_clearance", report.paths_below_clearance},
+          {"length_ratio", json_of(report.length_ratio)},
+          {"microseconds", json_of(report.microseconds)},
+          {"raw_microseconds", json_of(report.raw_microseconds)},
+          {"esdf_milliseconds", json_of(report.esdf_milliseconds)},
+          {"fallbacks", report.fallbacks},
+          {"clean", report.is_clean()}};
+}
+
+Json paths_json(const CheckReport& report) {
+  Json paths = Json::array();
+  for (const CheckedPath& path : report.paths) {
+    Json waypoints = Json::array();
+    for (const Point& p : path.waypoints) waypoints.push_back(cli::json_of(p));
+    paths.push_back({{"radius", path.radius}, {"waypoints", std::move(waypoints)}});
+  }
+  return paths;
+}
+
+std::string spread_text(const Spread& spread, int decimals, const std::string& unit) {
+  return "median " + text_of(spread.median, decimals) + unit + ", p95 " +
+         text_of(spread.p95, decimals) + unit + ", p99 " + text_of(spread.p99, decimals) + unit +
+         ", max " + text_of(spread.max, decimals) + unit;
+}
+
+void print_summary(const CheckReport& report) {
+  print_row("edges", count_text(report.edges) + ", " + count_text(report.edges_below_clearance) +
+                         " below the clearance");
+  print_row("components", count_text(report.components));
+  print_row("queries", count_text(report.queries) + ": solved by the roadmap " +
+                           count_text(report.graph_ok) + ", by A* in the ESDF " +
+                           count_text(report.esdf_ok) + ", disagreements " +
+                           count_text(report.disagreements));
+  if (report.queries > 0) {
+    print_row("paths", count_text(report.paths_below_clearance) + " below the clearance, " +
+                           count_text(report.fallbacks) + " answered beyond the graph");
+    print_row("length ratio", spread_text(report.length_ratio, 3, ""));
+    print_row("query time", spread_text(report.microseconds, 0, " us"));
+    print_row("unshortened", spread_text(report.raw_microseconds, 0, " us"));
+    print_row("ESDF A*", spread_text(report.esdf_milliseconds, 2, " ms"));
+  }
+  print_row("result", report.is_clean() ? "clean" : "NOT clean: the roadmap breaks its contract");
+}
+
+int run(const Options& options, const Globals& globals) {
+  if (!options.paths.empty()) require_writable(options.paths);
+  const Roadmap roadmap = load_roadmap(options.file);
+  ProgressBar bar(globals);
+  const CheckReport report = check_roadmap(roadmap, options.check, bar.callback());
+  bar.clear();
+  if (!options.paths.empty()) write_text_file(options.paths, paths_json(report).dump() + "\n");
+  if (globals.json)
+    print_json(json_of(report));
+  else
+    print_summary(report);
+  return report.is_clean() ? kExitDone : kExitBadInput;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, const Globals& globals, Command& chosen) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("check", "Verify the contract of a roadmap against the map itself");
+  command->add_option("roadmap", options->file, "Roadmap, .ridge")->required();
+  command->add_option("--queries", options->check.queries, "Random queries to compare with A*")
+      ->check(CLI::Range(0, 100000000))
+      ->capture_default_str();
+  command->add_option("--seed", options->check.seed, "Of the random queries")
+      ->capture_default_str();
+  command->add_option("--paths", options->paths,
+                      "File to write the checked paths to, as JSON, for other checkers");
+  command->footer(
+      "Exit code 1 when something is not as it must be.\n"
+      "Example:\n"
+      "  ridgeway check office.ridge --queries 1000 --seed 1");
+  command->callback([options, &globals, &chosen] {
+    chosen = [options, &globals] { return run(*options, globals); };
+  });
+}
+
+}  // namespace ridgeway::cli

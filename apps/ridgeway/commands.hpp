@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace ridgeway::cli {
+
+inline constexpr int kExitDone = 0;
+inline constexpr int kExitBadInput = 1;
+inline constexpr int kExitNoPlan = 2;
+
+/// Options that every subcommand has.
+struct Globals {
+  bool json = false;   ///< stdout is exactly one JSON object
+  bool quiet = false;  ///< neither notes nor warnings nor progress
+  int threads = 0;     ///< 0: all of the machine's
+};
+
+/// What was asked for, run once the command line has been understood; returns the exit code.
+using Command = std::function<int()>;
+
+/// Each adds a subcommand to `app` that, when given, puts itself into `chosen`.
+void add_build_command(CLI::App& app, const Globals& globals, Command& chosen);
+void add_plan_command(CLI::App& app, const Globals& globals, Command& chosen);
+void add_check_command(CLI::App& app, const Globals& globals, Command& chosen);
+void add_info_command(CLI::App& app, const Globals& globals, Command& chosen);
+void add_export_command(CLI::App& app, const Globals& globals, Command& chosen);
+
+}  // namespace ridgeway::cli

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+
+#include "commands.hpp"
+#include "ridgeway/common/progress.hpp"
+#include "ridgeway/mapping/occupancy_map.hpp"
+
+namespace ridgeway::cli {
+
+// Results, on stdout.
+void print_json(const nlohmann::ordered_json& json);
+void print_row(std::string_view label, const std::string& value);
+
+// For a person, on stderr.
+void note(const Globals& globals, const std::string& text);
+void warn(const Globals& globals, const std::string& text);
+
+// Numbers as a person reads them.
+std::string text_of(double value, int decimals = 3);  ///< without trailing zeros
+std::string count_text(std::uint64_t count);          ///< 1,234,567
+std::string bytes_text(std::uint64_t bytes);          ///< 1.2 MB
+std::string seconds_text(double seconds);             ///< 1.23 s, 4.5 ms
+std::string point_text(const Point& p);               ///< 1,-2.5,0.7
+
+nlohmann::ordered_json json_of(const Point& p);
+nlohmann::ordered_json json_of(const Box& box);
+
+/// One line of progress on stderr, if that is a terminal and nobody asked for quiet.
+class ProgressBar {
+ public:
+  explicit ProgressBar(const Globals& globals);
+  ~ProgressBar() { clear(); }
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  void show(std::string_view stage, double share);
+  void clear();
+  /// For the stages of the library; the bar must outlive it.
+  Progress callback();
+
+ private:
+  bool enabled_;
+  bool visible_ = false;
+};
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+std::uint64_t peak_memory_bytes();
+
+}  // namespace ridgeway::cli

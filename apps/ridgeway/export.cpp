@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "arguments.hpp"
+#include "commands.hpp"
+#include "console.hpp"
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/io/graph_export.hpp"
+#include "ridgeway/io/path_io.hpp"
+#include "ridgeway/io/picture.hpp"
+#include "ridgeway/io/ridge_file.hpp"
+
+namespace ridgeway::cli {
+namespace {
+
+struct Options {
+  std::string file, json_graph, picture, path, what = "graph";
+  std::vector<std::string> outputs;
+};
+
+bool is_picture(const std::filesystem::path& file) {
+  return file.extension() == ".png" || file.extension() == ".svg";
+}
+
+void require_format(const std::filesystem::path& file, const std::string& what) {
+  const auto extension = file.extension();
+  const bool known = what == "diagram"
+                         ? extension == ".ply"
+                         : extension == ".json" || extension == ".graphml" || extension == ".ply";
+  if (!known && !is_picture(file))
+    throw InputError(file.string(), "names no format that a " + what + " can be written in",
+                     what == "diagram" ? "use .ply, or .png or .svg for a picture"
+                                       : "use .json, .graphml, .ply, .png or .svg");
+}
+
+/// All that is to be written; problems are found before anything is.
+std::vector<std::filesystem::path> list_outputs(const Options& options) {
+  std::vector<std::filesystem::path> files(options.outputs.begin(), options.outputs.end());
+  for (const auto& file : files) require_format(file, options.what);
+  if (!options.picture.empty()) {
+    files.emplace_back(options.picture);
+    if (!is_picture(files.back()))
+      throw InputError(options.picture, "names no format of pictures", "use .png or .svg");
+  }
+  if (!options.json_graph.empty()) files.emplace_back(options.json_graph);
+  if (files.empty())
+    throw InputError("export", "nothing to write was asked for",
+                     "give -o FILE, --json-graph FILE or --picture FILE");
+  for (const auto& file : files) require_writable(file);
+  return files;
+}
+
+void write(const Roadmap& roadmap, const std::vector<Point>& path, const Options& options,
+           const std::filesystem::path& file) {
+  if (file == options.json_graph)
+    write_graph_json(roadmap.graph, file);
+  else if (is_picture(file))
+    draw_floor_plan(roadmap, path, file);
+  else if (options.what == "diagram")
+    write_diagram_ply(roadmap, file);
+  else
+    write_graph(roadmap.graph, file);
+}
+
+int run(const Options& options, const Globals& globals) {
+  const std::vector<std::filesystem::path> files = list_outputs(options);
+  const std::vector<Point> path =
+      options.path.empty() ? std::vector<Point>{} : read_path(options.path);
+  const Roadmap roadmap = load_roadmap(options.file);
+  nlohmann::ordered_json written = nlohmann::ordered_json::array();
+  for (const auto& file : files) {
+    write(roadmap, path, options, file);
+    const auto bytes = std::filesystem::file_size(file);
+    written.push_back({{"file", file.string()}, {"bytes", bytes}});
+    if (!globals.json) print_row("written", file.string() + ", " + bytes_text(bytes));
+  }
+  if (globals.json) print_json({{"written", written}});
+  return kExitDone;
+}
+
+}  // namespace
+
+void add_export_command(CLI::App& app, const Globals& globals, Command& chosen) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("export", "Write a roadmap in other formats");
+  command->add_option("roadmap", options->file, "Roadmap, .ridge")->required();
+  command
+      ->add_option("-o,--output", options->outputs,
+                   "File to write, by its extension: .json, .graphml, .ply, .png, .svg; "
+                   "may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--what", options->what, "What a .ply file is to hold")
+      ->check(CLI::IsMember({"graph", "diagram"}))
+      ->capture_default_str();
+  command->add_option("--json-graph", options->json_graph, "Graph as JSON, for networkx");
+  command->add_option("--picture", options->picture,
+                      "Map, graph and path from above, .png or .svg");
+  command->add_option("--path", options->path, "Path to draw over pictures, .json or .csv of plan");
+  command->footer(
+      "Examples:\n"
+      "  ridgeway export office.ridge --picture office.png --path path.json\n"
+      "  ridgeway export office.ridge -o graph.graphml -o graph.ply");
+  command->callback([options, &globals, &chosen] {
+    chosen = [options, &globals] { return run(*options, globals); };
+  });
+}
+
+}  // namespace ridgeway::cli

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "console.hpp"
+#include "ridgeway/io/ridge_file.hpp"
+#include "ridgeway/roadmap/components.hpp"
+#include "roadmap_facts.hpp"
+#include "source_facts.hpp"
+
+namespace ridgeway::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kShownComponents = 10;
+
+struct Options {
+  std::string file;
+};
+
+struct Memory {
+  const char* part;
+  std::size_t bytes;
+};
+
+template <typename Value>
+std::size_t bytes_of(const std::vector<Value>& values) {
+  return values.capacity() * sizeof(Value);
+}
+
+std::vector<Memory> memory_of(const Roadmap& roadmap) {
+  const EsdfMap& esdf = roadmap.esdf;
+  const SparseGraph& graph = roadmap.graph;
+  const ClearanceTree& tree = roadmap.tree;
+  return {{"esdf", esdf.layout.memory_bytes() + esdf.state.memory_bytes() +
+                       esdf.squared.memory_bytes() + esdf.site.memory_bytes() +
+                       esdf.obstacle.memory_bytes()},
+          {"diagram", roadmap.diagram.voxels.memory_bytes()},
+          {"graph", bytes_of(graph.vertices) + bytes_of(graph.edges) + bytes_of(graph.first_link) +
+                        bytes_of(graph.links)},
+          {"attach", roadmap.attach.next.memory_bytes()},
+          {"tree", bytes_of(tree.parent) + bytes_of(tree.clearance) + bytes_of(tree.place)}};
+}
+
+const char* policy_name(UnknownPolicy policy) {
+  return policy == UnknownPolicy::kObstacle ? "obstacle" : "ignore";
+}
+
+Json json_of(const ComponentReport& report) {
+  Json components = Json::array(), joins = Json::array();
+  for (const Component& c : report.components)
+    components.push_back({{"voxels", c.voxels},
+                          {"volume", c.volume},
+                          {"widest", cli::json_of(c.widest)},
+                          {"clearance", c.clearance}});
+  for (const ComponentJoin& j : report.joins)
+    joins.push_back(
+        {{"a", j.a}, {"b", j.b}, {"radius", j.radius}, {"place", cli::json_of(j.place)}});
+  return {{"components", std::move(components)}, {"joins", std::move(joins)}};
+}
+
+Json roadmap_json(const Options& options, const Roadmap& roadmap, const RidgeInfo& file) {
+  const OccupancyMap occupancy = occupancy_of(roadmap.esdf);
+  const VoxelCounts counts = count_voxels(occupancy);
+  Json json = {{"file", options.file},
+               {"format", "ridge"},
+               {"version", file.version},
+               {"file_bytes", std::filesystem::file_size(options.file)},
+               {"source", roadmap.source},
+               {"voxel_size", roadmap.esdf.voxel_size},
+               {"unknown_policy", policy_name(roadmap.esdf.unknown)},
+               {"max_distance", roadmap.esdf.max_distance},
+               {"min_clearance", roadmap.min_clearance}};
+  if (const auto bounds = known_bounds(occupancy)) json["bounds"] = cli::json_of(*bounds);
+  json["voxels"] = {
+      {"free", counts.free}, {"occupied", counts.occupied}, {"unknown", counts.unknown}};
+  json["allocated_voxels"] = roadmap.esdf.layout.voxel_count();
+  json["diagram_voxels"] = roadmap.diagram.voxels.count();
+  json["graph"] = {{"vertices", roadmap.graph.vertices.size()},
+                   {"edges", roadmap.graph.edges.size()},
+                   {"components", connected_components(roadmap.graph).count},
+                   {"min_clearance", roadmap.graph.min_clearance}};
+  json["config"] = Json::parse(roadmap.config, nullptr, false);
+  if (json["config"].is_discarded()) json["config"] = roadmap.config;
+  std::size_t total = 0;
+  for (const Memory& memory : memory_of(roadmap)) {
+    json["memory_bytes"][memory.part] = memory.bytes;
+    total += memory.bytes;
+  }
+  json["memory_bytes"]["total"] = total;
+  for (const RidgeSection& section : file.sections)
+    json["sections"].push_back({{"name", section.name},
+                                {"raw_bytes", section.raw_bytes},
+                                {"compressed_bytes", section.compressed_bytes}});
+  return json;
+}
+
+void print_components(const ComponentReport& report) {
+  const std::size_t shown = std::min(report.components.size(), kShownComponents);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const Component& c = report.components[i];
+    print_row("component " + std::to_string(i + 1),
+              text_of(c.volume) + " m3, " + count_text(c.voxels) + " voxels, widest " +
+                  text_of(c.clearance) + " m at " + point_text(c.widest));
+  }
+  if (shown < report.components.size())
+    print_row("", "and " + count_text(report.components.size() - shown) + " smaller ones");
+  std::size_t left_out = 0;
+  for (const ComponentJoin& j : report.joins) {
+    if (j.a >= shown || j.b >= shown) {
+      ++left_out;
+      continue;
+    }
+    print_row("would join", "components " + std::to_string(std::min(j.a, j.b) + 1) + " and " +
+                                std::to_string(std::max(j.a, j.b) + 1) + " at a radius of " +
+                                text_of(j.radius) + " m, narrowest at " + point_text(j.place));
+  }
+  if (left_out > 0)
+    print_row("", "and " + count_text(left_out) + " joins of smaller components (see --json)");
+}
+
+void print_roadmap(const Json& json) {
+  print_row("roadmap", json["file"].get<std::string>() + ", version " +
+                           std::to_string(json["version"].get<unsigned>()) + ", " +
+                           bytes_text(json["file_bytes"].get<std::uint64_t>()));
+  print_row("source", json["source"].get<std::string>());
+  print_row("voxel size", text_of(json["voxel_size"].get<double>(), 6) + " m");
+  print_row("built for",
+            "a radius of " + text_of(json["min_clearance"].get<double>()) +
+                " m and more; unknown space: " + json["unknown_policy"].get<std::string>());
+  if (json.contains("bounds")) print_row("bounds", bounds_text(json["bounds"]));
+  print_row("voxels", count_text(json["voxels"]["free"].get<std::uint64_t>()) + " free, " +
+                          count_text(json["voxels"]["occupied"].get<std::uint64_t>()) +
+                          " occupied");
+  print_row("diagram", count_text(json["diagram_voxels"].get<std::uint64_t>()) + " voxels");
+  print_row("graph", count_text(json["graph"]["vertices"].get<std::uint64_t>()) + " vertices, " +
+                         count_text(json["graph"]["edges"].get<std::uint64_t>()) + " edges, " +
+                         count_text(json["graph"]["components"].get<std::uint64_t>()) +
+                         " components");
+  print_row("memory", bytes_text(json["memory_bytes"]["total"].get<std::uint64_t>()));
+  print_row("config", json["config"].dump());
+}
+
+int run_roadmap(const Options& options, const Globals& globals) {
+  const Roadmap roadmap = load_roadmap(options.file);
+  Json json = roadmap_json(options, roadmap, read_ridge_info(options.file));
+  const ComponentReport report = report_components(roadmap);
+  if (globals.json) {
+    json.update(json_of(report));
+    print_json(json);
+  } else {
+    print_roadmap(json);
+    print_components(report);
+  }
+  return kExitDone;
+}
+
+int run(const Options& options, const Globals& globals) {
+  if (is_roadmap_file(options.file)) return run_roadmap(options, globals);
+  const Json json = describe_source(options.file, globals);
+  if (globals.json)
+    print_json(json);
+  else
+    print_source(json);
+  return kExitDone;
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app, const Globals& globals, Command& chosen) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("info", "Tell what a roadmap or a map holds");
+  command->add_option("file", options->file, "Roadmap .ridge, or a map that build reads")
+      ->required();
+  command->footer(
+      "For a roadmap also its components: how large, how wide, and where a smaller robot would\n"
+      "find them joined.\n"
+      "Example:\n"
+      "  ridgeway info office.ridge");
+  command->callback([options, &globals, &chosen] {
+    chosen = [options, &globals] { return run(*options, globals); };
+  });
+}
+
+}  // namespace ridgeway::cli
