@@ -67,21 +67,25 @@ class SegmentMarch {
   }
 
   /// Whether D^2 >= limit on all of the segment.
-  bool stays_above(double limit) const {
+  bool stays_above(double limit) const { return first_doubt(limit) > length_; }
+
+  /// Where, in voxels from the start, a stretch of at most a voxel begins on which D^2 falls below
+  /// the limit; beyond the length if there is none.
+  double first_doubt(double limit) const {
     const double radius = std::sqrt(limit);
     for (double t = 0.0; t <= length_;) {
       const double step = safe_step(at(t), radius);
-      if (step < 0.0) return false;
+      if (step < 0.0) return t;
       if (step > 0.0) {
         t += step;
         continue;
       }
       const double end = std::min(t + kCloseStep, length_);
-      if (!close_stays_above(t, end, limit)) return false;
+      if (!close_stays_above(t, end, limit)) return t;
       if (end >= length_) break;
       t = end;
     }
-    return true;
+    return kInfinity;
   }
 
   /// min D^2 along the segment, if below `best`, else `best`.
@@ -187,6 +191,17 @@ bool FreeSpace::is_free(const Point& a, const Point& b, double radius) const {
   if (!a.allFinite() || !b.allFinite()) return false;
   if (esdf_.unknown == UnknownPolicy::kIgnore && !is_known_free(a, b)) return false;
   return SegmentMarch(esdf_, a / s, b / s).stays_above(squared_limit(radius, s));
+}
+
+double FreeSpace::free_length(const Point& a, const Point& b, double radius) const {
+  const double s = esdf_.voxel_size;
+  const double length = (b - a).norm();
+  double free = std::min(
+      length, s * SegmentMarch(esdf_, a / s, b / s).first_doubt(squared_limit(radius, s)));
+  if (esdf_.unknown == UnknownPolicy::kIgnore)
+    while (free > 0.0 && !is_known_free(a, a + (b - a) * (free / length)))
+      free = free > s ? 0.5 * free : 0.0;
+  return free;
 }
 
 bool FreeSpace::is_known_free(const Point& a, const Point& b) const {

@@ -135,7 +135,7 @@ PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
     result.waypoints = {start, goal};
   } else {
     result.waypoints = config.shorten
-                           ? detail::shortest_of(space, found.routes, radius, deadline)
+                           ? detail::shortest_of(esdf, space, found.routes, radius, deadline)
                            : std::move(found.routes.front());
   }
   result.seconds.shorten = seconds_now() - shortening;

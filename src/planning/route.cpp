@@ -165,7 +165,7 @@ RouteResult find_routes(const Roadmap& roadmap, const RouteQuery& query, Planner
   return result;
 }
 
-Route shortest_of(const FreeSpace& space, const std::vector<Route>& routes, double radius,
+Route shortest_of(const EsdfMap& esdf, const FreeSpace& space, const std::vector<Route>& routes, double radius,
                   const Deadline& deadline) {
   const Point& start = routes.front().front();
   const Point& goal = routes.front().back();
@@ -182,6 +182,8 @@ Route shortest_of(const FreeSpace& space, const std::vector<Route>& routes, doub
     }
     if (shortest <= kNearlyStraight * straight || deadline.has_passed()) break;
   }
+  if (shortest > kNearlyStraight * straight && best.size() > 2)
+    best = shorten(space, redirect(esdf, space, best, radius, deadline), radius, deadline);
   return best;
 }
 

@@ -35,7 +35,7 @@ RouteResult find_routes(const Roadmap& roadmap, const RouteQuery& query, Planner
                         const Deadline& deadline);
 
 /// Shortens the routes, most promising first, and returns the shortest result.
-Route shortest_of(const FreeSpace& space, const std::vector<Route>& routes, double radius,
-                  const Deadline& deadline);
+Route shortest_of(const EsdfMap& esdf, const FreeSpace& space, const std::vector<Route>& routes,
+                  double radius, const Deadline& deadline);
 
 }  // namespace ridgeway::detail

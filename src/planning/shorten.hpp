@@ -17,4 +17,10 @@ double length_of(const std::vector<Point>& path);
 std::vector<Point> shorten(const FreeSpace& space, std::vector<Point> path, double radius,
                            const Deadline& deadline);
 
+/// Looks past the corners of a shortened path: where a stretch of it is much longer than the
+/// straight line, tries ways on other sides of what blocks the line, and keeps those that are
+/// shorter.
+std::vector<Point> redirect(const EsdfMap& esdf, const FreeSpace& space, std::vector<Point> path,
+                            double radius, const Deadline& deadline);
+
 }  // namespace ridgeway::detail

@@ -33,6 +33,10 @@ class FreeSpace {
   /// Whether a sphere of a radius can move along a segment.
   bool is_free(const Point& a, const Point& b, double radius) const;
 
+  /// How far from `a` towards `b` a sphere of a radius can certainly move: |b - a| if all the way.
+  /// Exact where it says that all is free, up to a voxel short where it is not.
+  double free_length(const Point& a, const Point& b, double radius) const;
+
   /// Whether all of a segment lies in known-free voxels.
   bool is_known_free(const Point& a, const Point& b) const;
 

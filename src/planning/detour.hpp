@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <vector>
+
+#include "ridgeway/esdf/free_space.hpp"
+
+namespace ridgeway::detail {
+
+/// Looks for a way from a to b with few corners beside the obstacle that blocks the straight line:
+/// rays fan out from the blocked place, across the line, to the nearest points where the robot
+/// fits. `budget`: only ways shorter than this, metres, are of interest; `corners`: how many there
+/// may be. The interior corners of the best way found; nothing is found where the line is free.
+struct Detour {
+  std::vector<Point> corners;
+  double length = 0.0;  ///< from a over the corners to b
+  bool found() const { return !corners.empty(); }
+};
+Detour find_detour(const EsdfMap& esdf, const FreeSpace& space, const Point& a, const Point& b,
+                   double radius, double budget, int corners);
+
+}  // namespace ridgeway::detail
