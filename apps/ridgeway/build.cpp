@@ -14,9 +14,11 @@
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/io/load_map.hpp"
 #include "ridgeway/io/ridge_file.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
+#include "source_facts.hpp"
 
 namespace ridgeway::cli {
 namespace {
@@ -169,6 +171,9 @@ void print_summary(const Options& options, const Outcome& outcome) {
 int run(const Options& options, const Globals& globals) {
   const LoadConfig loading = load_config(options);
   const BuildConfig building = build_config(options);
+  if (is_roadmap_file(options.map))
+    throw InputError(options.map, "is a roadmap already",
+                     "give the map that it was built from, or plan on it");
   require_writable(options.output);
 
   Outcome outcome;

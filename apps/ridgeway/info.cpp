@@ -2,12 +2,9 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -124,7 +121,8 @@ void print_components(const ComponentReport& report) {
     }
     print_row("would join", "components " + std::to_string(std::min(j.a, j.b) + 1) + " and " +
                                 std::to_string(std::max(j.a, j.b) + 1) + " at a radius of " +
-                                text_of(j.radius) + " m, narrowest at " + point_text(j.place));
+                                text_of(rounded_down(j.radius)) + " m, narrowest at " +
+                                point_text(j.place));
   }
   if (left_out > 0)
     print_row("", "and " + count_text(left_out) + " joins of smaller components (see --json)");

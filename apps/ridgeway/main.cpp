@@ -27,13 +27,16 @@ void add_commands(CLI::App& app, Globals& globals, Command& chosen) {
   app.add_flag("--quiet", globals.quiet, "No notes, warnings and progress on stderr");
   app.add_option("--threads", globals.threads, "Threads to use, 0 for all of the machine's")
       ->check(CLI::Range(0, kMostThreads));
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   app.fallthrough();
   add_build_command(app, globals, chosen);
   add_plan_command(app, globals, chosen);
   add_check_command(app, globals, chosen);
   add_info_command(app, globals, chosen);
   add_export_command(app, globals, chosen);
+  for (CLI::App* command : app.get_subcommands({}))
+    command->footer("Every command has --json, --quiet and --threads N: see ridgeway --help.\n" +
+                    command->get_footer());
   app.footer(
       "Exit codes: 0 done, 1 bad usage or input, 2 no plan.\n"
       "Example:\n"
@@ -47,6 +50,12 @@ int fail(bool json, const std::string& message) {
   return kExitBadInput;
 }
 
+/// Where to read on after a mistake on the command line.
+std::string help_command(const CLI::App& app) {
+  const std::vector<CLI::App*> used = app.get_subcommands();
+  return used.empty() ? "ridgeway --help" : "ridgeway " + used.front()->get_name() + " --help";
+}
+
 int run(std::vector<std::string> words) {
   CLI::App app("Turns 3D voxel maps into a sparse planning graph, and plans on it", "ridgeway");
   Globals globals;
@@ -58,8 +67,9 @@ int run(std::vector<std::string> words) {
     app.parse(std::move(words));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // help and version
-    return fail(json, std::string(error.what()) + " (see ridgeway --help)");
+    return fail(json, std::string(error.what()) + " (see " + help_command(app) + ")");
   }
+  if (!chosen) return fail(json, "no command was given (see ridgeway --help)");
   try {
     const int code = with_threads(globals.threads, chosen);
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)

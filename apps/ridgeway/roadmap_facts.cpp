@@ -2,8 +2,6 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "roadmap_facts.hpp"
 
-#include <cmath>
-
 #include "console.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 
@@ -12,10 +10,8 @@ namespace {
 
 std::string metres(double value) { return text_of(value) + " m"; }
 
-/// One more metre than text_of shows would be too much: rounded down to what it shows.
-std::string metres_at_most(double value) {
-  return metres(std::floor(value * 1000.0 + 1e-6) / 1000.0);
-}
+/// A radius that fits must fit as it is printed.
+std::string metres_at_most(double value) { return metres(rounded_down(value)); }
 
 std::string explain_collision(const Roadmap& roadmap, const Query& query, const Point& place) {
   const double distance = FreeSpace(roadmap.esdf).distance(place);
@@ -67,8 +63,10 @@ OccupancyMap occupancy_of(const EsdfMap& esdf) {
 
 std::optional<double> connecting_radius(const Roadmap& roadmap, const Query& query) {
   constexpr int kSteps = 10;
+  constexpr double kPatience = 0.5;  // seconds a query; too slow counts as not connected
   const auto is_connected = [&](double radius) {
-    return plan(roadmap, query.start, query.goal, {.radius = radius, .shorten = false}).ok();
+    const PlanConfig config{.radius = radius, .shorten = false, .time_limit = kPatience};
+    return plan(roadmap, query.start, query.goal, config).ok();
   };
   double low = roadmap.min_clearance, high = query.radius;
   if (high <= low || !is_connected(low)) return std::nullopt;

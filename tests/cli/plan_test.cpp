@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "program.hpp"
+
+namespace ridgeway {
+namespace {
+
+using CliPlan = Program;
+
+TEST_F(CliPlan, JsonHasTheKeysThatScriptsRelyOn) {
+  const Outcome planned = run({"--json", "plan", rooms(), "--from", "-2,1.5,1", "--to", "2,1.5,1"});
+  ASSERT_EQ(planned.code, 0) << planned.err;
+  const Json json = planned.json();
+  EXPECT_EQ(json["status"], "ok");
+  EXPECT_EQ(json["answered_by"], "graph");
+  EXPECT_GT(json["length"].get<double>(), 4.0);
+  EXPECT_GE(json["clearance"].get<double>(), 0.3 * (1 - 1e-9));
+  EXPECT_EQ(json["waypoints"].front(), Json({-2.0, 1.5, 1.0}));
+  EXPECT_EQ(json["waypoints"].back(), Json({2.0, 1.5, 1.0}));
+  for (const char* key : {"attach", "search", "shorten", "total"})
+    EXPECT_GE(json["seconds"][key].get<double>(), 0.0) << key;
+}
+
+TEST_F(CliPlan, EveryPlannerAnswers) {
+  const std::string map = rooms();
+  for (const char* planner : {"graph", "diagram", "esdf"}) {
+    const Json json = run({"plan", map, "--from", "-2,1.5,1", "--to", "2,1.5,1", "--planner",
+                           planner, "--raw", "--json"})
+                          .json();
+    EXPECT_EQ(json["answered_by"], planner);
+    EXPECT_EQ(json["status"], "ok");
+  }
+}
+
+TEST_F(CliPlan, WritesPathsThatExportDraws) {
+  const std::string map = rooms();
+  for (const char* name : {"path.csv", "path.json"}) {
+    ASSERT_EQ(run({"plan", map, "--from=-2,1.5,1", "--to", "2,1.5,1", "-o", path(name)}).code, 0);
+    EXPECT_EQ(run({"export", map, "--picture", path("map.png"), "--path", path(name)}).code, 0);
+    EXPECT_TRUE(exists("map.png"));
+  }
+}
+
+TEST_F(CliPlan, SaysWhyThereIsNoPathAndWhatToDo) {
+  struct Case {
+    std::string from, to, radius, status, reason;
+  };
+  const std::vector<Case> cases = {
+      {"-20,0,1", "2,1,1", "0.3", "start_outside_map", "-3,-2,0 and 3,2,2"},
+      {"-2,1,1", "2,0,9", "0.3", "goal_outside_map", "the goal 2,0,9"},
+      {"-2,1.9,1", "2,1,1", "0.3", "start_in_collision", "0.1 m from the nearest obstacle"},
+      {"-2,1,1", "2,1.65,1", "0.4", "goal_in_collision", "--radius of at most 0.35 m"},
+      {"-2,1,1", "2,1,1", "0.7", "no_route", "give that --radius"},
+      {"-2,1,1", "2,1,1", "0.2", "radius_too_small", "--min-clearance"},
+  };
+  const std::string map = rooms();
+  for (const Case& c : cases) {
+    const std::vector<std::string> query = {"plan", map,  "--from",   c.from,
+                                            "--to", c.to, "--radius", c.radius};
+    const Outcome person = run(query);
+    EXPECT_EQ(person.code, 2) << person.err;
+    EXPECT_NE(person.out.find(c.status), std::string::npos) << person.out;
+    EXPECT_NE(person.out.find(c.reason), std::string::npos) << person.out;
+
+    std::vector<std::string> more = query;
+    more.insert(more.end(), {"--json", "-o", path("none.json")});
+    const Outcome script = run(more);
+    EXPECT_EQ(script.code, 2);
+    EXPECT_EQ(script.json()["status"], c.status);
+    EXPECT_FALSE(exists("none.json"));
+  }
+}
+
+TEST_F(CliPlan, SaysWhenAPlaceIsUnknown) {
+  // The flight volume leaves out a corner of the block that it ends in.
+  const std::string map = rooms();
+  const Outcome planned = run({"plan", map, "--from", "3.1,0,1", "--to", "2,1,1", "--json"});
+  EXPECT_EQ(planned.code, 2);
+  EXPECT_EQ(planned.json()["status"], "start_unknown");
+  EXPECT_NE(planned.json()["reason"].get<std::string>().find("does not know"), std::string::npos);
+}
+
+TEST_F(CliPlan, PointsToInfoWhereNoRadiusHelps) {
+  const Outcome built = build_rooms("shut.ridge", {"--exclude", "0,-2,0,0.1,2,2"});
+  ASSERT_EQ(built.code, 0) << built.err;
+  const Outcome planned = run({"plan", path("shut.ridge"), "--from", "-2,0,1", "--to", "2,0,1"});
+  EXPECT_EQ(planned.code, 2);
+  EXPECT_NE(planned.out.find("ridgeway info"), std::string::npos) << planned.out;
+}
+
+TEST_F(CliPlan, AnswersAFileOfQueries) {
+  const std::string map = rooms();
+  write_whole(folder_ / "queries.csv",
+              "x0,y0,z0,x1,y1,z1,radius\n-2,1.5,1,2,1.5,1\n# a comment\n\n-2,1,1,2,1,1,0.5\n");
+  const Outcome batch = run({"plan", map, "--queries", path("queries.csv"), "--json"});
+  EXPECT_EQ(batch.code, 0) << batch.err;
+  EXPECT_EQ(batch.json()["solved"], 2);
+  EXPECT_EQ(batch.json()["results"].size(), 2u);
+  EXPECT_DOUBLE_EQ(batch.json()["results"][1]["radius"], 0.5);
+
+  write_whole(folder_ / "queries.csv", "-2,1.5,1,2,1.5,1\n-2,1,1,2,1,9\n");
+  EXPECT_EQ(run({"plan", map, "--queries", path("queries.csv")}).code, 2);
+  write_whole(folder_ / "queries.csv", "-2,1.5,1,2,1.5,1\n-2,1,1,2\n");
+  expect_refused({"plan", map, "--queries", path("queries.csv")}, {"line 2"});
+}
+
+}  // namespace
+}  // namespace ridgeway

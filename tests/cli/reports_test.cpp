@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "program.hpp"
+
+namespace ridgeway {
+namespace {
+
+using CliCheck = Program;
+using CliInfo = Program;
+using CliExport = Program;
+using CliProgram = Program;
+
+TEST_F(CliCheck, JsonHasTheKeysThatScriptsRelyOn) {
+  const Outcome checked = run({"check", rooms(), "--queries", "20", "--seed", "3", "--json",
+                               "--paths", path("paths.json")});
+  ASSERT_EQ(checked.code, 0) << checked.out;
+  const Json json = checked.json();
+  EXPECT_EQ(json["queries"], 20);
+  EXPECT_EQ(json["graph_ok"], json["esdf_ok"]);
+  for (const char* key : {"edges_below_clearance", "disagreements", "paths_below_clearance"})
+    EXPECT_EQ(json[key], 0) << key;
+  for (const char* key : {"edges", "components"}) EXPECT_GT(json[key].get<int>(), 0) << key;
+  for (const char* key : {"median", "p95", "p99", "max"}) {
+    EXPECT_GE(json["length_ratio"][key].get<double>(), 1.0) << key;
+    EXPECT_GT(json["microseconds"][key].get<double>(), 0.0) << key;
+    EXPECT_GT(json["raw_microseconds"][key].get<double>(), 0.0) << key;
+    EXPECT_GT(json["esdf_milliseconds"][key].get<double>(), 0.0) << key;
+  }
+  EXPECT_TRUE(json["fallbacks"].is_number_unsigned());
+
+  const Json paths = Json::parse(read_whole(folder_ / "paths.json"));
+  ASSERT_EQ(paths.size(), json["graph_ok"].get<std::size_t>());
+  EXPECT_GE(paths[0]["radius"].get<double>(), 0.3);
+  EXPECT_EQ(paths[0]["waypoints"][0].size(), 3u);
+}
+
+TEST_F(CliInfo, TellsOfARoadmap) {
+  const std::string map = rooms();
+  const Outcome told = run({"info", map, "--json"});
+  ASSERT_EQ(told.code, 0) << told.err;
+  const Json json = told.json();
+  EXPECT_EQ(json["format"], "ridge");
+  EXPECT_DOUBLE_EQ(json["voxel_size"], 0.1);
+  EXPECT_EQ(json["unknown_policy"], "obstacle");
+  EXPECT_NEAR(json["bounds"]["max"][0].get<double>(), 3.0, 1e-9);
+  EXPECT_EQ(json["graph"]["components"], 1);
+  ASSERT_EQ(json["components"].size(), 1u);
+  EXPECT_GT(json["components"][0]["clearance"].get<double>(), 0.9);
+  EXPECT_GT(json["memory_bytes"]["total"].get<std::size_t>(), 0u);
+  EXPECT_NE(run({"info", map}).out.find("component 1"), std::string::npos);
+}
+
+TEST_F(CliInfo, TellsWhereASmallerRobotWouldFindPartsJoined) {
+  const Outcome built =
+      build_rooms("tight.ridge", {"--exclude", "0,-2,0,0.1,0,2", "--exclude", "0,0.5,0,0.1,2,2"});
+  ASSERT_EQ(built.code, 0) << built.err;
+  const Json json = run({"info", path("tight.ridge"), "--json"}).json();
+  ASSERT_EQ(json["components"].size(), 2u);
+  ASSERT_EQ(json["joins"].size(), 1u);
+  EXPECT_LT(json["joins"][0]["radius"].get<double>(), 0.3);
+  EXPECT_NEAR(json["joins"][0]["place"][1].get<double>(), 0.25, 0.06);
+  EXPECT_NE(run({"info", path("tight.ridge")}).out.find("would join"), std::string::npos);
+}
+
+TEST_F(CliInfo, TellsOfMapsWithoutBuilding) {
+  const Json scan = run({"info", kScan, "--json"}).json();
+  EXPECT_EQ(scan["format"], "octomap_bt");
+  EXPECT_DOUBLE_EQ(scan["voxel_size"], 0.05);
+  EXPECT_EQ(scan["voxels"]["free"], 4807673);
+
+  const Json cloud = run({"info", two_rooms(), "--json"}).json();
+  EXPECT_EQ(cloud["format"], "xyz");
+  EXPECT_EQ(cloud["points"], 28 * 20);
+  EXPECT_DOUBLE_EQ(cloud["bounds"]["min"][1], -1.95);
+
+  write_whole(folder_ / "small.3dmap", "voxel 4 4 4\n1 1 1\n");
+  const Json grid = run({"info", path("small.3dmap"), "--json"}).json();
+  EXPECT_EQ(grid["format"], "3dmap");
+  EXPECT_EQ(grid["voxels"]["free"], 63);
+}
+
+TEST_F(CliExport, WritesEveryFormat) {
+  const Outcome exported = run({"export", rooms(), "-o", path("g.json"), "-o", path("g.graphml"),
+                                "-o", path("g.ply"), "-o", path("g.svg"), "--json-graph",
+                                path("links"), "--picture", path("g.png"), "--json"});
+  ASSERT_EQ(exported.code, 0) << exported.err;
+  EXPECT_EQ(exported.json()["written"].size(), 6u);
+  for (const char* name : {"g.json", "g.graphml", "g.ply", "g.svg", "links", "g.png"})
+    EXPECT_TRUE(exists(name)) << name;
+  EXPECT_EQ(read_whole(folder_ / "g.json"), read_whole(folder_ / "links"));
+  ASSERT_EQ(run({"export", path("rooms.ridge"), "--what", "diagram", "-o", path("d.ply")}).code, 0);
+  EXPECT_NE(read_whole(folder_ / "d.ply"), read_whole(folder_ / "g.ply"));
+}
+
+TEST_F(CliExport, RefusesWhatItCannotWriteBeforeAnyFile) {
+  const std::string map = rooms();
+  expect_refused({"export", map}, {"--picture"});
+  expect_refused({"export", map, "-o", path("a.ply"), "-o", path("b.obj")}, {"b.obj", ".graphml"});
+  expect_refused({"export", map, "--what", "diagram", "-o", path("a.json")}, {"a.json", ".ply"});
+  expect_refused({"export", map, "--picture", path("a.ply")}, {"a.ply", ".png"});
+  expect_refused({"export", map, "--picture", path("a.png"), "--path", path("none.json")},
+                 {"none.json"});
+}
+
+TEST_F(CliProgram, HelpHasAnExampleForEveryCommand) {
+  for (const char* command : {"build", "plan", "check", "info", "export"}) {
+    const Outcome help = run({command, "--help"});
+    EXPECT_EQ(help.code, 0);
+    EXPECT_NE(help.out.find(std::string("  ridgeway ") + command), std::string::npos) << help.out;
+  }
+  EXPECT_EQ(run({"--version"}).code, 0);
+}
+
+TEST_F(CliProgram, BadUsageIsExitCodeOneAndOneLine) {
+  expect_refused({}, {"no command"});
+  expect_refused({"frobnicate"}, {"frobnicate"});
+  expect_refused({"build"}, {"ridgeway build --help"});
+  expect_refused({"build", kScan, "-o", path("x.ridge"), "--unknown", "maybe"}, {"maybe"});
+  expect_refused({"info", kScan, "--threads", "-1"}, {"--threads"});
+  expect_refused({"plan", kScan, "--from", "0,0,0"}, {"--to"});
+}
+
+TEST_F(CliProgram, ErrorsAreJsonTooWhenAskedFor) {
+  const Outcome refused = run({"info", path("none.bt"), "--json"});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_NE(refused.json()["error"].get<std::string>().find("none.bt"), std::string::npos);
+  EXPECT_TRUE(refused.err.starts_with("ridgeway: error: "));
+  EXPECT_TRUE(run({"--json", "build"}).json().contains("error"));
+}
+
+TEST_F(CliProgram, ResultThatCannotBeWrittenIsAnError) {
+  const Outcome full = run({"info", kScan}, "> /dev/full");
+  EXPECT_EQ(full.code, 1);
+  EXPECT_NE(full.err.find("stdout"), std::string::npos) << full.err;
+}
+
+}  // namespace
+}  // namespace ridgeway
