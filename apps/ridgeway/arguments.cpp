@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <numbers>
+#include <system_error>
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/io/atomic_file.hpp"
@@ -40,8 +41,8 @@ Eigen::Isometry3d from_position_and_angles(const std::vector<double>& v) {
   return transform;
 }
 
-bool begins_negative_number(std::string_view text) {
-  return text.size() >= 2 && text[0] == '-' &&
+bool is_negative_list(std::string_view text) {
+  return text.size() >= 2 && text[0] == '-' && text.find(',') != std::string_view::npos &&
          ((text[1] >= '0' && text[1] <= '9') || text[1] == '.' || text.substr(1, 3) == "inf" ||
           text.substr(1, 3) == "nan");
 }
@@ -108,7 +109,10 @@ Eigen::Isometry3d parse_transform(std::string_view text, const std::string& opti
   return transform;
 }
 
-void require_writable(const std::filesystem::path& file) {
+void require_writable(const std::filesystem::path& file, const std::filesystem::path& input) {
+  std::error_code absent;
+  if (std::filesystem::equivalent(file, input, absent))
+    throw InputError(file.string(), "is the file that is read", "give another one to write to");
   const AtomicFile probe(file);  // without commit it leaves nothing behind
 }
 
@@ -118,7 +122,7 @@ std::vector<std::string> join_negative_values(int argc, const char* const* argv)
     const std::string word = argv[i];
     const bool continues = !joined.empty() && joined.back().starts_with("--") &&
                            joined.back().size() > 2 && joined.back().find('=') == std::string::npos;
-    if (continues && begins_negative_number(word))
+    if (continues && is_negative_list(word))
       joined.back().append("=").append(word);
     else
       joined.push_back(word);

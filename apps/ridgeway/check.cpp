@@ -80,7 +80,7 @@ void print_summary(const CheckReport& report) {
 }
 
 int run(const Options& options, const Globals& globals) {
-  if (!options.paths.empty()) require_writable(options.paths);
+  if (!options.paths.empty()) require_writable(options.paths, options.file);
   const Roadmap roadmap = load_roadmap(options.file);
   ProgressBar bar(globals);
   const CheckReport report = check_roadmap(roadmap, options.check, bar.callback());

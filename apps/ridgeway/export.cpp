@@ -52,7 +52,7 @@ std::vector<std::filesystem::path> list_outputs(const Options& options) {
   if (files.empty())
     throw InputError("export", "nothing to write was asked for",
                      "give -o FILE, --json-graph FILE or --picture FILE");
-  for (const auto& file : files) require_writable(file);
+  for (const auto& file : files) require_writable(file, options.file);
   return files;
 }
 

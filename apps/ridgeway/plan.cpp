@@ -172,7 +172,7 @@ int run(const Options& options, const Globals& globals) {
     parse_point(options.from, "--from");
     parse_point(options.to, "--to");
   }
-  if (!options.output.empty()) require_writable(options.output);
+  if (!options.output.empty()) require_writable(options.output, options.file);
   const Roadmap roadmap = load_roadmap(options.file);
   return batch ? run_batch(options, roadmap, config, globals)
                : run_one(options, roadmap, config, globals);

@@ -161,6 +161,17 @@ TEST_F(CliBadInput, DamagedRoadmap) {
   }
 }
 
+TEST_F(CliBadInput, OutputThatIsTheInput) {
+  const std::string cloud = two_rooms(), before = read_whole(folder_ / "rooms.xyz");
+  std::vector<std::string> arguments = {"build", cloud, "-o", path("./rooms.xyz")};
+  for (const std::string& option : room_options()) arguments.push_back(option);
+  expect_refused(arguments, {"rooms.xyz", "is read"});
+  EXPECT_EQ(read_whole(folder_ / "rooms.xyz"), before);
+  const std::string map = rooms();
+  expect_refused({"check", map, "--paths", map}, {"is read"});
+  expect_refused({"export", map, "--json-graph", map}, {"is read"});
+}
+
 TEST_F(CliBadInput, KeepsAnOlderFileWhenABuildFails) {
   write_whole(folder_ / "old.ridge", "as it was");
   EXPECT_EQ(run({"build", write_occupied_octomap(), "-o", path("old.ridge")}).code, 1);
