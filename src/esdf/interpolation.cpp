@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/esdf/interpolation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace ridgeway {
+namespace {
+
+/// Distance, voxels, from a centre to the cube at an offset.
+double distance_to_cube(int dx, int dy, int dz) {
+  return 0.5 * std::sqrt(static_cast<double>(quarter_squared(dx) + quarter_squared(dy) +
+                                             quarter_squared(dz)));
+}
+
+/// Distance, voxels, from an obstacle voxel's centre to the nearest cube that is no obstacle, at
+/// most `deepest`: shell by shell outward, until no nearer cube can come.
+double depth(const EsdfMap& esdf, const VoxelIndex& voxel, double deepest) {
+  double best = deepest;
+  for (int shell = 1; shell - 0.5 < best; ++shell)
+    for (int dz = -shell; dz <= shell; ++dz)
+      for (int dy = -shell; dy <= shell; ++dy) {
+        const bool face = std::abs(dz) == shell || std::abs(dy) == shell;
+        for (int dx = -shell; dx <= shell; dx += face ? 1 : 2 * shell) {
+          const double distance = distance_to_cube(dx, dy, dz);
+          if (distance < best && !esdf.is_obstacle(esdf.layout.find(voxel + VoxelIndex{dx, dy, dz})))
+            best = distance;
+        }
+      }
+  return best;
+}
+
+}  // namespace
+
+double signed_distance(const EsdfMap& esdf, const VoxelIndex& voxel, double deepest) {
+  const double s = esdf.voxel_size;
+  const double far = std::min(esdf.max_distance, kFarthestSite * s);
+  const VoxelId id = esdf.layout.find(voxel);
+  if (esdf.is_obstacle(id)) return -s * depth(esdf, voxel, deepest / s);
+  return id == kNoVoxel ? far : std::min(esdf.distance(id), far);
+}
+
+DistanceAndGradient interpolate_distance(const EsdfMap& esdf, const Point& point) {
+  const double s = esdf.voxel_size;
+  const Point shifted = point / s - Point::Constant(0.5);
+  const VoxelIndex base = voxel_at(shifted, 1.0);
+  const Point t = shifted - Point(base.x, base.y, base.z);
+  std::array<double, 8> d;  // bit 0: x, bit 1: y, bit 2: z
+  for (int i = 0; i < 8; ++i)
+    d[static_cast<std::size_t>(i)] =
+        signed_distance(esdf, base + VoxelIndex{i & 1, i >> 1 & 1, i >> 2});
+  const auto mix = [](double a, double b, double share) { return a + share * (b - a); };
+  const double x00 = mix(d[0], d[1], t.x()), x10 = mix(d[2], d[3], t.x());
+  const double x01 = mix(d[4], d[5], t.x()), x11 = mix(d[6], d[7], t.x());
+  const double y0 = mix(x00, x10, t.y()), y1 = mix(x01, x11, t.y());
+  DistanceAndGradient result;
+  result.distance = mix(y0, y1, t.z());
+  result.gradient.x() = mix(mix(d[1] - d[0], d[3] - d[2], t.y()),
+                            mix(d[5] - d[4], d[7] - d[6], t.y()), t.z());
+  result.gradient.y() = mix(x10 - x00, x11 - x01, t.z());
+  result.gradient.z() = y1 - y0;
+  result.gradient /= s;
+  return result;
+}
+
+}  // namespace ridgeway

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/esdf/interpolation.hpp"
+
+#include <gtest/gtest.h>
+
+#include "ridgeway/esdf/esdf.hpp"
+#include "support/brute_force.hpp"
+#include "support/random_maps.hpp"
+
+namespace ridgeway {
+namespace {
+
+TEST(SignedDistance, IsExactInsideObstaclesToo) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const OccupancyMap map = testing::random_map(seed, 16);
+    for (const auto policy : {UnknownPolicy::kObstacle, UnknownPolicy::kIgnore}) {
+      const EsdfMap esdf = compute_esdf(map, {.unknown = policy});
+      std::vector<VoxelIndex> open;  // what is no obstacle
+      for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
+        if (!esdf.obstacle.test(id)) open.push_back(esdf.layout.index_of(id));
+      for (VoxelId id = seed; id < esdf.layout.voxel_count(); id += 37) {
+        const VoxelIndex v = esdf.layout.index_of(id);
+        const double signed_value = signed_distance(esdf, v, 0.6);
+        if (!esdf.obstacle.test(id)) {
+          if (esdf.squared[id] != kNoSite) {
+            ASSERT_EQ(signed_value, esdf.distance(id));
+          }
+          continue;
+        }
+        const double brute = 0.1 * std::sqrt(testing::brute_squared_distance(
+                                       Eigen::Vector3d(v.x + 0.5, v.y + 0.5, v.z + 0.5), open));
+        // Where unknown is ignored, space that is not allocated is open as well and may be nearer.
+        if (policy == UnknownPolicy::kObstacle) {
+          ASSERT_NEAR(signed_value, -std::min(brute, 0.6), 1e-9);
+        } else {
+          ASSERT_GE(signed_value, -std::min(brute, 0.6) - 1e-9);
+        }
+      }
+    }
+  }
+}
+
+TEST(Interpolation, MeetsTheVoxelsAndItsGradientIsTheSlope) {
+  const EsdfMap esdf = compute_esdf(testing::random_map(4), {});
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> inside(0.05, 0.95);
+  int checked = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const VoxelId id = static_cast<VoxelId>(random() % esdf.layout.voxel_count());
+    const VoxelIndex v = esdf.layout.index_of(id);
+    const Point centre = centre_of(v, esdf.voxel_size);
+    ASSERT_NEAR(interpolate_distance(esdf, centre).distance, signed_distance(esdf, v), 1e-9);
+    const Point p = centre + Point(inside(random), inside(random), inside(random)) * 0.1;
+    const DistanceAndGradient at = interpolate_distance(esdf, p);
+    for (int axis = 0; axis < 3; ++axis) {
+      Point step = Point::Zero();
+      step[axis] = 1e-6;
+      const double slope = (interpolate_distance(esdf, p + step).distance -
+                            interpolate_distance(esdf, p - step).distance) / 2e-6;
+      ASSERT_NEAR(at.gradient[axis], slope, 1e-6);
+    }
+    ++checked;
+  }
+  EXPECT_EQ(checked, 4000);
+}
+
+}  // namespace
+}  // namespace ridgeway
