@@ -80,7 +80,7 @@ Box parse_box(std::string_view text, const std::string& option) {
   const std::vector<double> v = parse_numbers(text, option);
   const std::string name = option + " " + quoted(text);
   if (v.size() != 6) throw InputError(name, "is no box", "give six numbers: x0,y0,z0,x1,y1,z1");
-  const Box box = {Point(v[0], v[1], v[2]), Point(v[3], v[4], v[5])};
+  Box box = {Point(v[0], v[1], v[2]), Point(v[3], v[4], v[5])};
   validate_box(box, name);
   return box;
 }

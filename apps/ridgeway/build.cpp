@@ -186,9 +186,10 @@ int run(const Options& options, const Globals& globals) {
   bar.clear();
   for (const std::string& text : notes.notes) note(globals, text);
   if (building.min_clearance < 2.0 * map.voxel_size)
-    warn(globals, "--min-clearance " + text_of(building.min_clearance) +
-                      " m is less than two voxels of " + text_of(map.voxel_size, 6) +
-                      " m: passages are found only as well as the voxels show them");
+    warn(globals,
+         "--min-clearance " + text_of(building.min_clearance) + " m is less than two voxels of " +
+             text_of(map.voxel_size, 6) +
+             " m: whether narrow passages are open depends on how the walls fall on the voxels");
   const std::string config = config_text(options, map.voxel_size);
 
   outcome.built = build_repeatedly(std::move(map), building, options.repeat, bar.callback());

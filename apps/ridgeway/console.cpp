@@ -34,10 +34,12 @@ void warn(const Globals& globals, const std::string& text) {
 
 std::string text_of(double value, int decimals) {
   if (std::isinf(value)) return value > 0 ? "infinite" : "-infinite";
-  std::array<char, 400> buffer{};
-  const int length = std::snprintf(buffer.data(), buffer.size(), "%.*f", decimals, value);
+  constexpr double kReadable = 1e9;  // beyond it as 1.5e+12
+  std::array<char, 64> buffer{};
+  const char* format = std::abs(value) < kReadable ? "%.*f" : "%.*g";
+  const int length = std::snprintf(buffer.data(), buffer.size(), format, decimals, value);
   std::string text(buffer.data(), static_cast<std::size_t>(length));
-  if (text.find('.') != std::string::npos) {
+  if (text.find('e') == std::string::npos && text.find('.') != std::string::npos) {
     text.erase(text.find_last_not_of('0') + 1);
     if (text.back() == '.') text.pop_back();
   }
