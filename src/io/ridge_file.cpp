@@ -32,6 +32,7 @@ Roadmap load_roadmap(const std::filesystem::path& path) {
   Roadmap roadmap;
   roadmap.min_clearance = header.min_clearance;
   roadmap.graph.min_clearance = header.graph_min_clearance;
+  roadmap.diagram.complete = header.complete_diagram;
   roadmap.source = header.source;
   roadmap.config = header.config;
   roadmap.esdf.voxel_size = header.voxel_size;

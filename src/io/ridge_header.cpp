@@ -46,6 +46,7 @@ RidgeHeader header_from(const Json& json) {
   header.max_distance = get_number(json, "max_distance", kInfinity);
   header.min_clearance = get_number(json, "min_clearance", kInfinity);
   header.graph_min_clearance = get_number(json, "graph_min_clearance", kInfinity);
+  header.complete_diagram = json.at("complete_diagram").get<bool>();
   header.source = json.at("source").get<std::string>();
   header.config = json.at("config").get<std::string>();
   header.blocks = get_count(counts, "blocks");
@@ -67,6 +68,7 @@ RidgeHeader header_of(const Roadmap& roadmap) {
           roadmap.esdf.max_distance,
           roadmap.min_clearance,
           roadmap.graph.min_clearance,
+          roadmap.diagram.complete,
           roadmap.source,
           roadmap.config,
           roadmap.esdf.layout.block_count(),
@@ -82,6 +84,7 @@ std::string header_text(const RidgeHeader& header) {
   json["max_distance"] = number_or_null(header.max_distance);
   json["min_clearance"] = number_or_null(header.min_clearance);
   json["graph_min_clearance"] = number_or_null(header.graph_min_clearance);
+  json["complete_diagram"] = header.complete_diagram;
   json["source"] = header.source;
   json["config"] = header.config;
   json["counts"] = {

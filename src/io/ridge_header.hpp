@@ -17,6 +17,7 @@ struct RidgeHeader {
   double max_distance = 0.0;
   double min_clearance = 0.0;
   double graph_min_clearance = 0.0;
+  bool complete_diagram = true;
   std::string source;
   std::string config;
   std::uint32_t blocks = 0;

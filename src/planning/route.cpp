@@ -94,6 +94,7 @@ Reach compare_ways(const Roadmap& roadmap, const RouteQuery& query, const Attach
   }
   // A way that stops before it meets the diagram stops at the end of all that its voxel can
   // reach at this radius, and that end is the same for all voxels of such a region.
+  if (!roadmap.diagram.complete) return Reach::kUnclear;
   const bool from_is_pocket = !from.reached() && !from.met_diagram;
   const bool to_is_pocket = !to.reached() && !to.met_diagram;
   return from_is_pocket || to_is_pocket ? Reach::kApart : Reach::kUnclear;

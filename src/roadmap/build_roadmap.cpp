@@ -117,6 +117,7 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
   if (config.paper_diagram) diagram = edges;
   roadmap.attach = build_attach_field(esdf, diagram, roadmap.graph, std::move(basins));
   roadmap.diagram.voxels = std::move(diagram);
+  roadmap.diagram.complete = !config.paper_diagram;
   report.diagram_voxels = roadmap.diagram.voxels.count();
   clock.end(report.seconds.attach);
 

@@ -13,7 +13,8 @@ namespace ridgeway {
 
 /// The one-voxel-wide curves along the ridges of the distance field that the graph is fitted to.
 struct SkeletonDiagram {
-  VoxelMask voxels;  ///< on the ESDF's layout
+  VoxelMask voxels;      ///< on the ESDF's layout
+  bool complete = true;  ///< connected as space is; false for the paper's edges alone
 };
 
 /// Way of every traversable voxel to the graph, widest first: the direction of its next voxel, a

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/planning/plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <thread>
+
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/common/parallel.hpp"
+#include "ridgeway/planning/check.hpp"
+#include "ridgeway/roadmap/build_graph.hpp"
+#include "ridgeway/roadmap/build_roadmap.hpp"
+#include "ridgeway/roadmap/components.hpp"
+#include "support/brute_force.hpp"
+#include "support/flood.hpp"
+#include "support/random_maps.hpp"
+#include "support/shapes.hpp"
+
+namespace ridgeway {
+namespace {
+
+using testing::Shape;
+
+Roadmap build(const OccupancyMap& map, double min_clearance,
+              UnknownPolicy policy = UnknownPolicy::kObstacle) {
+  return build_roadmap(map, {.min_clearance = min_clearance, .unknown = policy}).roadmap;
+}
+
+Roadmap build_shape(const std::string& name) {
+  for (const Shape& shape : testing::test_shapes())
+    if (shape.name == name) return build(shape.map(), shape.min_clearance);
+  throw std::logic_error("no shape " + name);
+}
+
+/// Every point of a path, densely, by brute force against every obstacle voxel.
+void expect_brute_clearance(const OccupancyMap& map, UnknownPolicy policy, const PlanResult& result,
+                            double radius) {
+  const std::vector<VoxelIndex> obstacles = testing::all_obstacles(map, policy);
+  for (std::size_t i = 1; i < result.waypoints.size(); ++i) {
+    const Point a = result.waypoints[i - 1], b = result.waypoints[i];
+    const int pieces = static_cast<int>((b - a).norm() / (0.3 * map.voxel_size)) + 1;
+    for (int k = 0; k <= pieces; ++k) {
+      const Point p = a + (b - a) * k / pieces;
+      ASSERT_GE(map.voxel_size *
+                    std::sqrt(testing::brute_squared_distance(p / map.voxel_size, obstacles)),
+                radius * (1 - 1e-8));
+      if (policy == UnknownPolicy::kIgnore) {
+        ASSERT_NE(map.at(voxel_at(p, map.voxel_size)), VoxelState::kOccupied);
+      }
+    }
+  }
+}
+
+TEST(Plan, AnswersExactlyWhenFloodingDoesAndItsPathsHoldByBruteForce) {
+  int routes = 0, none = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
+    const OccupancyMap map = testing::random_map(seed, 22);
+    std::optional<Roadmap> roadmap;
+    try {
+      roadmap = build(map, 0.1, policy);
+    } catch (const InputError&) {
+      continue;  // no room in this one
+    }
+    const EsdfMap& esdf = roadmap->esdf;
+    std::mt19937 random(seed);
+    for (const double radius : {0.1, 0.125, 0.15, 0.2}) {
+      const testing::Regions regions = testing::regions_at(esdf, radius);
+      if (regions.voxels.empty()) continue;
+      for (int i = 0; i < 12; ++i) {
+        const VoxelId from = regions.voxels[random() % regions.voxels.size()];
+        const VoxelId to = regions.voxels[random() % regions.voxels.size()];
+        const Point start = centre_of(esdf.layout.index_of(from), esdf.voxel_size);
+        const Point goal = centre_of(esdf.layout.index_of(to), esdf.voxel_size);
+        const bool connected = regions.label.at(from) == regions.label.at(to);
+        for (const Planner planner : {Planner::kGraph, Planner::kDiagram, Planner::kEsdf})
+          for (const bool shorten : {true, false}) {
+            const PlanResult result = plan(
+                *roadmap, start, goal, {.planner = planner, .radius = radius, .shorten = shorten});
+            if (connected) {
+              ASSERT_TRUE(result.ok());
+              ASSERT_EQ(result.waypoints.front(), start);
+              ASSERT_EQ(result.waypoints.back(), goal);
+              ASSERT_GE(result.clearance, radius * (1 - 1e-9));
+              expect_brute_clearance(map, policy, result, radius);
+              if (HasFatalFailure()) return;
+            } else if (!result.ok()) {
+              ASSERT_EQ(result.status, PlanStatus::kNoRoute);
+            } else {  // only a straight look may know more than the lattice
+              ASSERT_EQ(result.waypoints.size(), 2u);
+            }
+          }
+        ++(connected ? routes : none);
+      }
+    }
+  }
+  EXPECT_GT(routes, 300);
+  EXPECT_GT(none, 50);
+}
+
+TEST(Plan, TestShapesHoldTheirContract) {
+  for (const Shape& shape : testing::test_shapes()) {
+    SCOPED_TRACE(shape.name);
+    const BuildResult built = build_roadmap(shape.map(), {.min_clearance = shape.min_clearance});
+    EXPECT_EQ(built.report.traversable_components, 1u);
+    EXPECT_EQ(built.report.graph_components, 1u);
+    const CheckReport report = check_roadmap(built.roadmap, {.queries = 60, .seed = 3});
+    EXPECT_TRUE(report.is_clean());
+    EXPECT_EQ(report.graph_ok, report.esdf_ok);
+    EXPECT_GT(report.graph_ok, 10u);
+    EXPECT_LE(report.length_ratio.max, 1.25);
+  }
+}
+
+TEST(Plan, PassesADoorOfExactlyTheRobotsWidthAndNoNarrower) {
+  // The door is 0.6 m: voxel centres of 0.25 .. 0.75 in y fit a radius of 0.3 with nothing to spare.
+  const Roadmap roadmap = build_shape("door_of_the_robots_width");
+  const Point start(1.05, 1.55, 0.55), goal(5.05, 1.55, 0.55);
+  const PlanResult fits = plan(roadmap, start, goal);
+  ASSERT_TRUE(fits.ok());
+  const PlanResult too_wide = plan(roadmap, start, goal, {.radius = 0.36});
+  EXPECT_EQ(too_wide.status, PlanStatus::kNoRoute);
+}
+
+TEST(Plan, FliesStraightWhereStartAndGoalSeeEachOther) {
+  const Roadmap roadmap = build_shape("in_sight_of_each_other");
+  const Point start(0.62, 0.55, 0.6), goal(4.4, 0.61, 0.58);
+  const PlanResult result = plan(roadmap, start, goal);
+  ASSERT_TRUE(result.ok());
+  EXPECT_EQ(result.waypoints.size(), 2u);
+  EXPECT_NEAR(result.length, (goal - start).norm(), 1e-12);
+}
+
+TEST(Plan, KnowsHallsLargerThanMaxDistance) {
+  const OccupancyMap hall = testing::make_map(0.1, {0, 0, 0}, {59, 59, 39}, [](const VoxelIndex& v) {
+    const bool wall = v.x == 0 || v.y == 0 || v.z == 0 || v.x == 59 || v.y == 59 || v.z == 39;
+    return wall ? VoxelState::kOccupied : VoxelState::kFree;
+  });
+  const BuildResult built = build_roadmap(hall, {.min_clearance = 0.3, .max_distance = 1.0});
+  EXPECT_EQ(built.report.graph_components, 1u);
+  const CheckReport report = check_roadmap(built.roadmap, {.queries = 100, .seed = 5});
+  EXPECT_TRUE(report.is_clean());
+  EXPECT_GT(report.graph_ok, 90u);  // a few start too close to a wall
+  EXPECT_THROW(plan(built.roadmap, Point(3, 3, 2), Point(1, 1, 1), {.radius = 0.9}), InputError);
+}
+
+TEST(Plan, GivesTheOneReasonWhyThereIsNoPath) {
+  const Roadmap roadmap = build_shape("floating_box");
+  const Point good(0.6, 0.6, 0.6);
+  const auto status = [&](const Point& a, const Point& b, double radius = 0.2) {
+    return name_of(plan(roadmap, a, b, {.radius = radius}).status);
+  };
+  EXPECT_EQ(status(Point(-50, 0, 0), good), "start_outside_map");
+  EXPECT_EQ(status(good, Point(1e300, 0, 0)), "goal_outside_map");
+  EXPECT_EQ(status(Point(2, 2, 1.5), good), "start_in_collision");  // in the box
+  EXPECT_EQ(status(good, Point(0.15, 2, 1)), "goal_in_collision");   // beside the wall
+  EXPECT_EQ(status(good, good, 0.1), "radius_too_small");
+  EXPECT_EQ(status(good, good), "ok");
+  EXPECT_THROW(status(Point(std::nan(""), 0, 0), good), InputError);
+  EXPECT_THROW(status(good, good, -0.3), InputError);
+  EXPECT_THROW(status(good, good, std::nan("")), InputError);
+  const OccupancyMap half = testing::make_map(0.1, {0, 0, 0}, {31, 15, 15}, [](const VoxelIndex& v) {
+    return v.x < 16 ? VoxelState::kFree : VoxelState::kUnknown;
+  });
+  const Roadmap half_known = build(half, 0.2);
+  EXPECT_EQ(plan(half_known, Point(0.8, 0.8, 0.8), Point(2.5, 0.8, 0.8)).status,
+            PlanStatus::kGoalUnknown);
+}
+
+TEST(Plan, IsSafeToCallFromManyThreadsAndRepeats) {
+  const Roadmap roadmap = build_shape("ring_in_a_room");
+  const auto work = [&](std::vector<PlanResult>& results) {
+    std::mt19937 random(9);
+    std::uniform_real_distribution<double> x(0.5, 3.9), z(0.4, 2.0);
+    for (int i = 0; i < 100; ++i)
+      results.push_back(plan(roadmap, Point(x(random), x(random), z(random)),
+                             Point(x(random), x(random), z(random))));
+  };
+  std::vector<std::vector<PlanResult>> results(4);
+  std::vector<std::thread> threads;
+  for (auto& mine : results) threads.emplace_back([&] { work(mine); });
+  for (std::thread& thread : threads) thread.join();
+  for (std::size_t t = 1; t < results.size(); ++t)
+    for (std::size_t i = 0; i < results[0].size(); ++i) {
+      ASSERT_EQ(results[t][i].status, results[0][i].status);
+      ASSERT_EQ(results[t][i].waypoints, results[0][i].waypoints);
+    }
+}
+
+TEST(Roadmap, EveryEdgeKeepsItsClearanceAndGraphAndTreeAreThoseOfSpace) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    const OccupancyMap map = testing::random_map(seed, 24);
+    std::optional<BuildResult> built;
+    try {
+      built = build_roadmap(map, {.min_clearance = 0.1});
+    } catch (const InputError&) {
+      continue;
+    }
+    const Roadmap& roadmap = built->roadmap;
+    const SparseGraph& graph = roadmap.graph;
+    const FreeSpace space(roadmap.esdf);
+    for (const Edge& edge : graph.edges) {
+      const Point& a = graph.vertices[number(edge.from)].position;
+      const Point& b = graph.vertices[number(edge.to)].position;
+      ASSERT_LT(edge.from, edge.to);
+      ASSERT_GE(edge.clearance, 0.1 * (1 - 1e-9));
+      ASSERT_NEAR(edge.clearance, space.clearance(a, b), 1e-12);
+      ASSERT_NEAR(edge.length, (a - b).norm(), 1e-12);
+    }
+    const testing::Regions regions = testing::regions_at(roadmap.esdf, 0.1);
+    EXPECT_EQ(built->report.traversable_components, regions.first.size());
+    EXPECT_EQ(built->report.graph_components, regions.first.size());
+    // The tree: connected at a radius exactly where flooding connects.
+    for (const double radius : {0.1, 0.15, 0.2, 0.25}) {
+      const testing::Regions wide = testing::regions_at(roadmap.esdf, radius);
+      for (std::uint32_t i = 0; i < graph.vertices.size(); ++i) {
+        const std::uint32_t j = (i * 7 + 3) % static_cast<std::uint32_t>(graph.vertices.size());
+        const VoxelId vi = roadmap.esdf.layout.find(graph.vertices[i].voxel);
+        const VoxelId vj = roadmap.esdf.layout.find(graph.vertices[j].voxel);
+        const bool connected = wide.label.contains(vi) && wide.label.contains(vj) &&
+                               wide.label.at(vi) == wide.label.at(vj);
+        ASSERT_EQ(widest_way(graph, roadmap.tree, VertexId{i}, VertexId{j}) >= radius * (1 - 1e-9),
+                  connected);
+      }
+    }
+  }
+}
+
+TEST(Roadmap, IsTheSameForAnyNumberOfThreads) {
+  for (unsigned seed = 0; seed < 8; ++seed) {
+    const OccupancyMap map = testing::random_map(seed, 50);
+    const auto run = [&] { return build(map, 0.1); };
+    const Roadmap one = with_threads(1, run), two = with_threads(2, run);
+    ASSERT_EQ(one.diagram.voxels, two.diagram.voxels);
+    ASSERT_EQ(one.attach.next.values(), two.attach.next.values());
+    ASSERT_EQ(one.graph.edges.size(), two.graph.edges.size());
+    for (std::size_t i = 0; i < one.graph.edges.size(); ++i) {
+      ASSERT_EQ(one.graph.edges[i].from, two.graph.edges[i].from);
+      ASSERT_EQ(one.graph.edges[i].to, two.graph.edges[i].to);
+      ASSERT_EQ(one.graph.edges[i].clearance, two.graph.edges[i].clearance);
+    }
+    ASSERT_EQ(one.tree.parent, two.tree.parent);
+  }
+}
+
+TEST(Roadmap, PaperDiagramStillAnswersExactly) {
+  for (unsigned seed = 0; seed < 25; ++seed) {
+    SCOPED_TRACE(seed);
+    const OccupancyMap map = testing::random_map(seed, 24);
+    try {
+      const Roadmap roadmap =
+          build_roadmap(map, {.min_clearance = 0.1, .paper_diagram = true}).roadmap;
+      const CheckReport report = check_roadmap(roadmap, {.queries = 60, .seed = seed});
+      EXPECT_TRUE(report.is_clean());
+    } catch (const InputError&) {
+    }
+  }
+}
+
+TEST(Components, TellAtWhichRadiusAndWhereTheyWouldJoin) {
+  // Two rooms joined by a window of 4 x 4 voxels: a robot of 0.2 fits, one of 0.3 does not.
+  const OccupancyMap map = testing::make_map(0.1, {0, 0, 0}, {61, 23, 23}, [](const VoxelIndex& v) {
+    const bool edge = v.x == 0 || v.y == 0 || v.z == 0 || v.x == 61 || v.y == 23 || v.z == 23;
+    const bool wall = v.x == 30 || v.x == 31;
+    const bool window = v.y >= 10 && v.y <= 13 && v.z >= 10 && v.z <= 13;
+    return edge || (wall && !window) ? VoxelState::kOccupied : VoxelState::kFree;
+  });
+  const ComponentReport report = report_components(build(map, 0.3));
+  ASSERT_EQ(report.components.size(), 2u);
+  EXPECT_GE(report.components[0].volume, report.components[1].volume);
+  ASSERT_EQ(report.joins.size(), 1u);
+  EXPECT_NEAR(report.joins[0].radius, 0.15, 1e-9);  // centres lie 0.15 m from the frame
+  EXPECT_NEAR(report.joins[0].place.x(), 3.1, 0.2);
+  EXPECT_EQ(report_components(build(map, 0.15)).components.size(), 1u);
+}
+
+}  // namespace
+}  // namespace ridgeway

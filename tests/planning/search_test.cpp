@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <gtest/gtest.h>
+
+#include "../src/planning/graph_search.hpp"
+#include "../src/planning/lattice_search.hpp"
+#include "ridgeway/roadmap/build_roadmap.hpp"
+#include "support/dijkstra.hpp"
+#include "support/random_maps.hpp"
+
+namespace ridgeway {
+namespace {
+
+using detail::Deadline;
+using detail::LatticePath;
+using detail::SearchStatus;
+
+const Deadline kNever(std::numeric_limits<double>::infinity());
+
+/// A roadmap of a random map; nothing where the map has no room for the robot.
+std::optional<Roadmap> random_roadmap(unsigned seed, double min_clearance, UnknownPolicy policy) {
+  const OccupancyMap map = testing::random_map(seed, 20);
+  BuildConfig config{.min_clearance = min_clearance, .unknown = policy};
+  try {
+    return build_roadmap(map, config).roadmap;
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+double lattice_length(const EsdfMap& esdf, const std::vector<VoxelId>& voxels) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < voxels.size(); ++i) {
+    const VoxelIndex o = esdf.layout.index_of(voxels[i]) - esdf.layout.index_of(voxels[i - 1]);
+    length += std::sqrt(static_cast<double>(o.x * o.x + o.y * o.y + o.z * o.z));
+  }
+  return length;
+}
+
+void expect_equals_dijkstra(const EsdfMap& esdf, const std::vector<VoxelId>& places, double radius,
+                            const VoxelMask* within, int& routes) {
+  if (places.empty()) return;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const VoxelId start = places[k * 7919 % places.size()];
+    const auto costs = testing::dijkstra_voxels(esdf, start, radius, within);
+    for (std::size_t j = 0; j < 12; ++j) {
+      const VoxelId goal = places[(k * 31 + j * 104729) % places.size()];
+      const LatticePath path = detail::search_lattice(esdf, start, goal, radius, within, kNever);
+      const auto cost = costs.find(goal);
+      ASSERT_EQ(path.status == SearchStatus::kFound, cost != costs.end());
+      if (path.status != SearchStatus::kFound) continue;
+      ++routes;
+      ASSERT_NEAR(path.cost, cost->second, 1e-9);
+      ASSERT_NEAR(lattice_length(esdf, path.voxels), cost->second, 1e-9);
+    }
+  }
+}
+
+std::vector<VoxelId> traversable_places(const EsdfMap& esdf, double radius, const VoxelMask* within) {
+  std::vector<VoxelId> places;
+  for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
+    if (esdf.state[id] == VoxelState::kFree &&
+        esdf.squared[id] >= squared_threshold(radius, esdf.voxel_size) &&
+        (within == nullptr || within->test(id)))
+      places.push_back(id);
+  return places;
+}
+
+TEST(AStar, ThroughEsdfDiagramAndGraphEqualsDijkstra) {
+  int esdf_routes = 0, diagram_routes = 0, graph_routes = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
+    const auto roadmap = random_roadmap(seed, 0.1, policy);
+    if (!roadmap) continue;
+    const EsdfMap& esdf = roadmap->esdf;
+    for (const double radius : {0.1, 0.125, 0.2}) {
+      const VoxelMask* diagram = &roadmap->diagram.voxels;
+      expect_equals_dijkstra(esdf, traversable_places(esdf, radius, nullptr), radius, nullptr,
+                             esdf_routes);
+      expect_equals_dijkstra(esdf, traversable_places(esdf, radius, diagram), radius, diagram,
+                             diagram_routes);
+      const SparseGraph& graph = roadmap->graph;
+      const VertexId start{static_cast<std::uint32_t>(seed % graph.vertices.size())};
+      const auto costs = testing::dijkstra_graph(graph, start, radius);
+      for (std::uint32_t v = 0; v < graph.vertices.size(); ++v) {
+        const auto route = detail::search_graph(graph, start, VertexId{v}, radius);
+        ASSERT_EQ(!route.empty(), costs.contains(VertexId{v}));
+        double length = 0.0;
+        for (std::size_t i = 1; i < route.size(); ++i)
+          length += graph.edges[number(detail::edge_between(graph, route[i - 1], route[i]))].length;
+        if (!route.empty()) {
+          ASSERT_NEAR(length, costs.at(VertexId{v}), 1e-9);
+        }
+        graph_routes += route.size() > 1;
+      }
+      if (HasFatalFailure()) return;
+    }
+  }
+  EXPECT_GT(esdf_routes, 500);
+  EXPECT_GT(diagram_routes, 500);
+  EXPECT_GT(graph_routes, 200);
+}
+
+TEST(AStar, StopsAtItsDeadline) {
+  const auto roadmap = random_roadmap(1, 0.05, UnknownPolicy::kObstacle);
+  ASSERT_TRUE(roadmap);
+  const OccupancyMap map = testing::make_map(0.05, {0, 0, 0}, {79, 79, 79}, [](const VoxelIndex& v) {
+    return v.x == 40 ? VoxelState::kOccupied : VoxelState::kFree;  // two rooms
+  });
+  const EsdfMap esdf = build_roadmap(map, {.min_clearance = 0.1}).roadmap.esdf;
+  const LatticePath path =
+      detail::search_lattice(esdf, esdf.layout.find({10, 40, 40}), esdf.layout.find({70, 40, 40}),
+                             0.1, nullptr, Deadline(0.0));
+  EXPECT_EQ(path.status, SearchStatus::kTimeout);
+}
+
+}  // namespace
+}  // namespace ridgeway
