@@ -122,8 +122,16 @@ PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
   if (to.status != EndpointStatus::kOk) return finish(status_of(to.status, false));
 
   const FreeSpace space(esdf);
-  const detail::RouteQuery query{from.voxel, to.voxel, start, goal, radius, config.shorten};
-  detail::RouteResult found = detail::find_routes(roadmap, query, config.planner, deadline);
+  if (config.shorten && space.is_free(start, goal, radius)) {  // nothing is shorter
+    result.answered_by = config.planner;
+    result.waypoints = {start, goal};
+    result.seconds.shorten = seconds_now() - began;
+    finish(PlanStatus::kOk);
+    describe(esdf, space, result);
+    return result;
+  }
+  const detail::RouteQuery query{from.voxel, to.voxel, start, goal, radius};
+  detail::RouteResult found = detail::find_route(roadmap, query, config.planner, deadline);
   result.seconds.attach = found.attach_seconds;
   result.seconds.search = found.search_seconds;
   result.answered_by = found.answered_by;
@@ -134,9 +142,8 @@ PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
     if (!space.is_free(start, goal, radius)) return finish(PlanStatus::kNoRoute);
     result.waypoints = {start, goal};
   } else {
-    result.waypoints = config.shorten
-                           ? detail::shortest_of(esdf, space, found.routes, radius, deadline)
-                           : std::move(found.routes.front());
+    result.waypoints = config.shorten ? detail::tightest(esdf, space, found, radius, deadline)
+                                      : std::move(found.route);
   }
   result.seconds.shorten = seconds_now() - shortening;
   if (!is_verified(space, result.waypoints, radius)) {

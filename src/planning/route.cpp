@@ -3,6 +3,7 @@
 #include "route.hpp"
 
 #include <algorithm>
+#include <memory>
 
 #include "attach_way.hpp"
 #include "graph_search.hpp"
@@ -13,9 +14,10 @@
 namespace ridgeway::detail {
 namespace {
 
-constexpr std::size_t kRoutes = 3;
+constexpr int kSearches = 3;
 constexpr float kPenalty = 1.6f;          // on edges that an earlier route took
 constexpr double kNearlyStraight = 1.01;  // over the straight line: not worth another route
+constexpr double kMostlyShrinksTo = 0.7;  // of its length a route seldom becomes shorter
 
 /// Start, the lattice voxels (bends only), goal.
 Route route_over_voxels(const EsdfMap& esdf, const RouteQuery& query,
@@ -60,27 +62,36 @@ Route route_over_vertices(const Roadmap& roadmap, const RouteQuery& query, const
   return route;
 }
 
-/// Up to kRoutes routes over the graph: each further one shuns the edges of those before.
-std::vector<Route> routes_over_graph(const Roadmap& roadmap, const RouteQuery& query,
-                                     const AttachWay& from, const AttachWay& to) {
-  std::vector<Route> routes;
-  std::vector<float> penalty;
-  std::vector<std::vector<VertexId>> taken;
-  const std::size_t wanted = query.want_several ? kRoutes : 1;
-  for (std::size_t k = 0; k < wanted; ++k) {
-    std::vector<VertexId> vertices =
-        search_graph(roadmap.graph, from.vertex, to.vertex, query.radius,
-                     k == 0 ? nullptr : &penalty);
-    if (vertices.empty()) break;
-    if (k == 0) penalty.assign(roadmap.graph.edges.size(), 1.0f);
-    for (std::size_t i = 1; i < vertices.size(); ++i)
-      penalty[number(edge_between(roadmap.graph, vertices[i - 1], vertices[i]))] *= kPenalty;
-    if (std::find(taken.begin(), taken.end(), vertices) != taken.end()) continue;
-    routes.push_back(route_over_vertices(roadmap, query, from, to, vertices));
-    taken.push_back(std::move(vertices));
+/// Routes over the graph, each further one shunning the edges of those before.
+class GraphRoutes {
+ public:
+  GraphRoutes(const Roadmap& roadmap, const RouteQuery& query, AttachWay from, AttachWay to)
+      : roadmap_(roadmap), query_(query), from_(std::move(from)), to_(std::move(to)) {}
+
+  std::optional<Route> next() {
+    while (searches_++ < kSearches) {
+      std::vector<VertexId> vertices =
+          search_graph(roadmap_.graph, from_.vertex, to_.vertex, query_.radius,
+                       penalty_.empty() ? nullptr : &penalty_);
+      if (vertices.empty()) return std::nullopt;
+      penalty_.resize(roadmap_.graph.edges.size(), 1.0f);
+      for (std::size_t i = 1; i < vertices.size(); ++i)
+        penalty_[number(edge_between(roadmap_.graph, vertices[i - 1], vertices[i]))] *= kPenalty;
+      if (std::find(taken_.begin(), taken_.end(), vertices) != taken_.end()) continue;
+      taken_.push_back(vertices);
+      return route_over_vertices(roadmap_, query_, from_, to_, vertices);
+    }
+    return std::nullopt;
   }
-  return routes;
-}
+
+ private:
+  const Roadmap& roadmap_;
+  const RouteQuery query_;
+  const AttachWay from_, to_;
+  int searches_ = 0;
+  std::vector<float> penalty_;  // by edge
+  std::vector<std::vector<VertexId>> taken_;
+};
 
 /// What following the attach field from both ends shows before any search.
 enum class Reach { kJoined, kApart, kSearch, kUnclear };
@@ -107,7 +118,7 @@ void search_voxels(const Roadmap& roadmap, const RouteQuery& query, const VoxelM
       search_lattice(roadmap.esdf, query.from, query.to, query.radius, within, deadline);
   result.status = path.status;
   if (path.status == SearchStatus::kFound)
-    result.routes = {route_over_voxels(roadmap.esdf, query, path.voxels)};
+    result.route = route_over_voxels(roadmap.esdf, query, path.voxels);
 }
 
 /// A* along the diagram between the places where the two ways meet it.
@@ -129,12 +140,12 @@ void search_diagram(const Roadmap& roadmap, const RouteQuery& query, AttachWay f
   std::vector<VoxelId> voxels = std::move(from.voxels);
   voxels.insert(voxels.end(), path.voxels.begin() + 1, path.voxels.end());
   voxels.insert(voxels.end(), to.voxels.rbegin() + 1, to.voxels.rend());
-  result.routes = {route_over_voxels(roadmap.esdf, query, voxels)};
+  result.route = route_over_voxels(roadmap.esdf, query, voxels);
 }
 
 }  // namespace
 
-RouteResult find_routes(const Roadmap& roadmap, const RouteQuery& query, Planner planner,
+RouteResult find_route(const Roadmap& roadmap, const RouteQuery& query, Planner planner,
                         const Deadline& deadline) {
   RouteResult result;
   const double began = seconds_now();
@@ -150,12 +161,15 @@ RouteResult find_routes(const Roadmap& roadmap, const RouteQuery& query, Planner
   result.attach_seconds = attached - began;
   if (reach == Reach::kJoined) {
     result.status = SearchStatus::kFound;
-    result.routes = {
-        route_over_voxels(roadmap.esdf, query, join_ways(from.voxels, to.voxels))};
+    result.route = route_over_voxels(roadmap.esdf, query, join_ways(from.voxels, to.voxels));
   } else if (reach != Reach::kApart) {
     if (reach == Reach::kSearch && planner == Planner::kGraph) {
-      result.routes = routes_over_graph(roadmap, query, from, to);
-      if (!result.routes.empty()) result.status = SearchStatus::kFound;
+      const auto routes = std::make_shared<GraphRoutes>(roadmap, query, from, to);
+      if (std::optional<Route> first = routes->next()) {
+        result.status = SearchStatus::kFound;
+        result.route = std::move(*first);
+        result.next_alternative = [routes] { return routes->next(); };
+      }
     }
     if (result.status == SearchStatus::kNoRoute && from.met_diagram && to.met_diagram)
       search_diagram(roadmap, query, std::move(from), std::move(to), deadline, result);
@@ -166,24 +180,22 @@ RouteResult find_routes(const Roadmap& roadmap, const RouteQuery& query, Planner
   return result;
 }
 
-Route shortest_of(const EsdfMap& esdf, const FreeSpace& space, const std::vector<Route>& routes, double radius,
-                  const Deadline& deadline) {
-  const Point& start = routes.front().front();
-  const Point& goal = routes.front().back();
-  if (space.is_free(start, goal, radius)) return {start, goal};
-  const double straight = (goal - start).norm();
-  Route best;
-  double shortest = std::numeric_limits<double>::infinity();
-  for (const Route& route : routes) {
-    Route candidate = shorten(space, route, radius, deadline);
+Route tightest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found, double radius,
+               const Deadline& deadline) {
+  Route best = shorten(space, found.route, radius, deadline);
+  double shortest = length_of(best);
+  const double enough = kNearlyStraight * (best.back() - best.front()).norm();
+  while (found.next_alternative && shortest > enough && !deadline.has_passed()) {
+    const std::optional<Route> route = found.next_alternative();
+    if (!route) break;
+    if (length_of(*route) * kMostlyShrinksTo > shortest) continue;
+    Route candidate = shorten(space, *route, radius, deadline);
     const double length = length_of(candidate);
-    if (length < shortest) {
-      shortest = length;
-      best = std::move(candidate);
-    }
-    if (shortest <= kNearlyStraight * straight || deadline.has_passed()) break;
+    if (length >= shortest) continue;
+    shortest = length;
+    best = std::move(candidate);
   }
-  if (shortest > kNearlyStraight * straight && best.size() > 2)
+  if (shortest > enough && best.size() > 2)
     best = shorten(space, redirect(esdf, space, best, radius, deadline), radius, deadline);
   return best;
 }

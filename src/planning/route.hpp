@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "deadline.hpp"
@@ -18,24 +20,27 @@ struct RouteQuery {
   VoxelId from, to;      ///< traversable voxels that start and goal join
   Point start, goal;
   double radius;
-  bool want_several;     ///< look for distinct routes, since the shortest may not stay it
 };
 
 struct RouteResult {
   SearchStatus status = SearchStatus::kNoRoute;
   Planner answered_by = Planner::kGraph;
-  std::vector<Route> routes;  ///< as searched; the first is the shortest of them
+  Route route;  ///< as searched: the shortest in the structure that answered
+  /// Another route each time, longer and over other edges; nothing when there are no more. Refers
+  /// to the roadmap. Null where the graph did not answer.
+  std::function<std::optional<Route>()> next_alternative;
   double attach_seconds = 0.0;
   double search_seconds = 0.0;
 };
 
 /// Searches with the asked planner, and where that structure is too coarse for the radius with
 /// the next finer one: graph, diagram, ESDF. Exact: no route means that there is none.
-RouteResult find_routes(const Roadmap& roadmap, const RouteQuery& query, Planner planner,
+RouteResult find_route(const Roadmap& roadmap, const RouteQuery& query, Planner planner,
                         const Deadline& deadline);
 
-/// Shortens the routes, most promising first, and returns the shortest result.
-Route shortest_of(const EsdfMap& esdf, const FreeSpace& space, const std::vector<Route>& routes,
-                  double radius, const Deadline& deadline);
+/// The route pulled tight; where that stays longer than the straight line, alternatives are tried
+/// as well, and ways past what blocks the line. Returns the shortest.
+Route tightest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found, double radius,
+               const Deadline& deadline);
 
 }  // namespace ridgeway::detail
