@@ -26,17 +26,20 @@ struct Outcome {
   PlanResult roadmap, raw, esdf;
 };
 
-/// Places anywhere in traversable voxels that fit the radius; queries whose radius no voxel fits
-/// keep the smallest.
+/// Places anywhere in traversable voxels that fit the radius; queries whose radius no voxel fits,
+/// or the distance field does not reach, keep the smallest.
 std::vector<Query> draw_queries(const Roadmap& roadmap, const CheckConfig& config) {
   const EsdfMap& esdf = roadmap.esdf;
   std::array<std::vector<VoxelId>, kRadiusFactors.size()> places;
+  const double largest = esdf.max_distance - 2.0 * esdf.voxel_size;
   for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id) {
     if (esdf.state[id] != VoxelState::kFree) continue;
-    for (std::size_t k = 0; k < places.size(); ++k)
-      if (esdf.squared[id] >=
-          squared_threshold(kRadiusFactors[k] * roadmap.min_clearance, esdf.voxel_size))
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const double radius = kRadiusFactors[k] * roadmap.min_clearance;
+      if ((k == 0 || radius <= largest) &&
+          esdf.squared[id] >= squared_threshold(radius, esdf.voxel_size))
         places[k].push_back(id);
+    }
   }
   std::mt19937_64 random(config.seed);
   std::vector<Query> queries(places[0].empty() ? 0 : config.queries);

@@ -58,6 +58,9 @@ void BuildConfig::validate() const {
 
 BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Progress& progress) {
   config.validate();
+  // Up to two voxels below max_distance radii are exact; at least the smallest must be.
+  require(config.max_distance >= config.min_clearance + 2.0 * map.voxel_size, "max_distance",
+          config.max_distance, "give at least min_clearance and two voxels, or leave it out");
   BuildResult result;
   BuildReport& report = result.report;
   Roadmap& roadmap = result.roadmap;

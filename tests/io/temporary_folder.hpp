@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
-#include <stdlib.h>
+#include <cstdlib>
 
 #include <filesystem>
 #include <fstream>

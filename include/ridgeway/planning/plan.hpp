@@ -34,7 +34,8 @@ std::string_view name_of(Planner planner);
 
 struct PlanConfig {
   Planner planner = Planner::kGraph;
-  std::optional<double> radius;  ///< metres; the roadmap's min_clearance when not given
+  /// Metres; the roadmap's min_clearance when not given.
+  std::optional<double> radius = std::nullopt;
   bool shorten = true;           ///< pull the path tight; otherwise as the search found it
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds
 
