@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <queue>
+#include <optional>
 
 #include "ridgeway/esdf/free_space.hpp"
 
@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kRoot2 = 1.41421356237309504880, kRoot3 = 1.73205080756887729352;
 constexpr std::array<double, 4> kLengths{0.0, 1.0, kRoot2, kRoot3};
+constexpr double kNoGain = 1e-9;  // voxels
 constexpr int kExpansionsBetweenLooksAtTheClock = 1024;
 
 /// Length of the shortest 26-path between two voxels of empty space.
@@ -30,7 +31,6 @@ class SearchMemory {
   struct Block {
     std::array<double, kBlockVoxels> cost;
     std::array<Direction, kBlockVoxels> from;  // direction back to the parent
-    std::array<bool, kBlockVoxels> closed{};
     Block() { cost.fill(std::numeric_limits<double>::infinity()); }
   };
 
@@ -46,15 +46,42 @@ class SearchMemory {
   std::vector<std::unique_ptr<Block>> blocks_;
 };
 
-struct OpenEntry {
-  double estimate;
-  double cost;
-  VoxelId voxel;
-  bool operator<(const OpenEntry& other) const {  // the queue's top is the best
-    if (estimate != other.estimate) return estimate > other.estimate;
-    if (cost != other.cost) return cost < other.cost;
-    return voxel > other.voxel;
+/// Open voxels in buckets of nearly equal estimates, which only grow: no heap to climb. Inside a
+/// bucket the order is free, so a voxel may be taken before its best cost is known and once more
+/// after; that is rare and costs less than sorting.
+class OpenBuckets {
+ public:
+  struct Entry {
+    double cost;
+    VoxelId voxel;
+  };
+
+  explicit OpenBuckets(double least_estimate) : least_(least_estimate) {}
+
+  void push(double estimate, const Entry& entry) {
+    const auto place = static_cast<std::size_t>(std::max(estimate - least_, 0.0) / kWidth);
+    if (place >= buckets_.size()) buckets_.resize(place + 1);
+    buckets_[std::max(place, current_)].push_back(entry);
   }
+
+  /// The next entry, none of a bucket whose estimates are all at or above `bound`.
+  std::optional<Entry> pop(double bound) {
+    while (current_ < buckets_.size() && buckets_[current_].empty()) {
+      buckets_[current_].shrink_to_fit();
+      ++current_;
+    }
+    if (current_ >= buckets_.size() || least_ + kWidth * static_cast<double>(current_) >= bound)
+      return std::nullopt;
+    const Entry entry = buckets_[current_].back();
+    buckets_[current_].pop_back();
+    return entry;
+  }
+
+ private:
+  static constexpr double kWidth = 0.25;  // voxels
+  const double least_;
+  std::size_t current_ = 0;
+  std::vector<std::vector<Entry>> buckets_;
 };
 
 std::vector<VoxelId> trace_back(const BlockLayout& layout, SearchMemory& memory, VoxelId start,
@@ -75,39 +102,36 @@ LatticePath search_lattice(const EsdfMap& esdf, VoxelId start, VoxelId goal, dou
   const double threshold = squared_threshold(radius, esdf.voxel_size);
   const FreeSpace space(esdf);
   const VoxelIndex target = esdf.layout.index_of(goal);
-  const auto heuristic = [&](VoxelId id) {
-    return lattice_distance(esdf.layout.index_of(id), target);
-  };
   SearchMemory memory(esdf.layout.block_count());
-  std::priority_queue<OpenEntry> open;
+  const double least = lattice_distance(esdf.layout.index_of(start), target);
+  OpenBuckets open(least);
   memory.block_of(start).cost[start % kBlockVoxels] = 0.0;
-  open.push({heuristic(start), 0.0, start});
-  for (int expansions = 1; !open.empty(); ++expansions) {
-    const OpenEntry best = open.top();
-    open.pop();
-    SearchMemory::Block& block = memory.block_of(best.voxel);
-    if (block.closed[best.voxel % kBlockVoxels]) continue;
-    block.closed[best.voxel % kBlockVoxels] = true;
-    if (best.voxel == goal)
-      return {SearchStatus::kFound, trace_back(esdf.layout, memory, start, goal), best.cost};
-    if (expansions % kExpansionsBetweenLooksAtTheClock == 0 && deadline.has_passed())
+  open.push(least, {0.0, start});
+  double& goal_cost = memory.block_of(goal).cost[goal % kBlockVoxels];
+  int expansions = 0;
+  while (const std::optional<OpenBuckets::Entry> best = open.pop(goal_cost)) {
+    if (best->cost > memory.block_of(best->voxel).cost[best->voxel % kBlockVoxels]) continue;
+    if (++expansions % kExpansionsBetweenLooksAtTheClock == 0 && deadline.has_passed())
       return {SearchStatus::kTimeout, {}};
+    const VoxelIndex here = esdf.layout.index_of(best->voxel);
     for (int d = 0; d < 27; ++d) {
-      const VoxelId next = esdf.layout.neighbour(best.voxel, d);
+      const VoxelId next = esdf.layout.neighbour(best->voxel, d);
       if (d == kCentre || next == kNoVoxel || esdf.squared[next] < threshold ||
           esdf.state[next] != VoxelState::kFree || (within != nullptr && !within->test(next)))
         continue;
       SearchMemory::Block& there = memory.block_of(next);
       const std::size_t place = next % kBlockVoxels;
-      const double cost = best.cost + kLengths[static_cast<std::size_t>(squared_length(d))];
-      if (there.closed[place] || cost >= there.cost[place]) continue;
-      if (!space.move_is_free(best.voxel, next, d, threshold)) continue;
+      const double cost = best->cost + kLengths[static_cast<std::size_t>(squared_length(d))];
+      // Sums of the same steps in another order may differ in the last digit: no improvement.
+      if (cost > there.cost[place] - kNoGain) continue;
+      if (!space.move_is_free(best->voxel, next, d, threshold)) continue;
       there.cost[place] = cost;
       there.from[place] = static_cast<Direction>(opposite(d));
-      open.push({cost + heuristic(next), cost, next});
+      open.push(cost + lattice_distance(here + offset_of(d), target), {cost, next});
     }
   }
-  return {SearchStatus::kNoRoute, {}};
+  if (std::isinf(goal_cost)) return {SearchStatus::kNoRoute, {}};
+  return {SearchStatus::kFound, trace_back(esdf.layout, memory, start, goal), goal_cost};
 }
 
 }  // namespace ridgeway::detail

@@ -20,7 +20,7 @@ struct LatticePath {
 };
 
 /// A* over legal 26-moves between voxels that are free at a radius, Euclidean costs, with the
-/// lattice's own distance as heuristic (consistent, so each voxel is expanded once). `within`:
+/// lattice's own distance as heuristic. Buckets instead of a heap. `within`:
 /// only voxels of this set, null for all. Start and goal must be traversable voxels.
 /// Memory follows the blocks that are visited.
 LatticePath search_lattice(const EsdfMap& esdf, VoxelId start, VoxelId goal, double radius,

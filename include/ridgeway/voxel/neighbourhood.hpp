@@ -19,8 +19,25 @@ inline constexpr Direction kCentre = 13;
 inline constexpr Cube27 kCentreBit = 1u << kCentre;
 inline constexpr Cube27 kAllCells = (1u << 27) - 1;
 
-constexpr VoxelIndex offset_of(int direction) {
-  return {direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1};
+namespace detail {
+inline constexpr std::array<VoxelIndex, 27> kOffsets = [] {
+  std::array<VoxelIndex, 27> offsets;
+  for (int d = 0; d < 27; ++d)
+    offsets[static_cast<std::size_t>(d)] = {d % 3 - 1, d / 3 % 3 - 1, d / 9 - 1};
+  return offsets;
+}();
+inline constexpr std::array<std::int8_t, 27> kSquaredLengths = [] {
+  std::array<std::int8_t, 27> lengths{};
+  for (std::size_t d = 0; d < 27; ++d) {
+    const VoxelIndex& o = kOffsets[d];
+    lengths[d] = static_cast<std::int8_t>(o.x * o.x + o.y * o.y + o.z * o.z);
+  }
+  return lengths;
+}();
+}  // namespace detail
+
+constexpr const VoxelIndex& offset_of(int direction) {
+  return detail::kOffsets[static_cast<std::size_t>(direction)];
 }
 
 constexpr int direction_of(const VoxelIndex& offset) {
@@ -31,8 +48,7 @@ constexpr int opposite(int direction) { return 26 - direction; }
 
 /// Squared length of the step in a direction, voxels: 0 to 3.
 constexpr int squared_length(int direction) {
-  const VoxelIndex o = offset_of(direction);
-  return o.x * o.x + o.y * o.y + o.z * o.z;
+  return detail::kSquaredLengths[static_cast<std::size_t>(direction)];
 }
 
 namespace detail {
