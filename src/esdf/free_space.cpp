@@ -3,6 +3,7 @@
 #include "ridgeway/esdf/free_space.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -67,10 +68,12 @@ class SegmentMarch {
   }
 
   /// Whether D^2 >= limit on all of the segment.
-  bool stays_above(double limit) const { return first_doubt(limit) > length_; }
+  bool stays_above(double limit) const { return first_doubt<true>(limit) > length_; }
+  bool stays_clearly_above(double limit) const { return first_doubt<false>(limit) > length_; }
 
   /// Where, in voxels from the start, a stretch of at most a voxel begins on which D^2 falls below
-  /// the limit; beyond the length if there is none.
+  /// the limit; beyond the length if there is none. Unless `exact`, also where it might.
+  template <bool exact>
   double first_doubt(double limit) const {
     const double radius = std::sqrt(limit);
     for (double t = 0.0; t <= length_;) {
@@ -81,21 +84,22 @@ class SegmentMarch {
         continue;
       }
       const double end = std::min(t + kCloseStep, length_);
-      if (!close_stays_above(t, end, limit)) return t;
+      if (!close_stays_above<exact>(t, end, limit)) return t;
       if (end >= length_) break;
       t = end;
     }
     return kInfinity;
   }
 
-  /// min D^2 along the segment, if below `best`, else `best`.
+  /// Upper bound of min D^2, from the sites of the voxels on the way; infinite where none has one.
+  double upper_bound() const {
+    double best = std::min(at_site(at(0.0)), at_site(at(length_)));
+    for (double t = 1.5; t < length_; t += 3.0) best = std::min(best, at_site(at(t)));
+    return best;
+  }
+
+  /// min D^2 along the segment, if below `best` (finite), else `best`.
   double minimum(double best) const {
-    best = std::min({best, at_site(at(0.0)), at_site(at(length_))});
-    for (double t = 0.5; t < length_; t += 1.0) best = std::min(best, at_site(at(t)));
-    if (std::isinf(best)) {  // no site near any of it: farther than max_distance, if that is finite
-      if (std::isinf(esdf_.max_distance)) return best;
-      best = far_;
-    }
     for (double t = 0.0; t <= length_;) {
       const double step = best > 0.0 ? safe_step(at(t), std::sqrt(best)) : 1.0;
       if (step > 0.0) {
@@ -147,7 +151,9 @@ class SegmentMarch {
     return 0.5 * (b0 + b1) - 0.25 * squared - (squared > 0.0 ? 0.25 * rise * rise / squared : 0.0);
   }
 
+  template <bool exact>
   bool close_stays_above(double t0, double t1, double limit) const {
+    if (!exact) return bound_between(t0, t1) >= limit;
     if (at_site(at(t0)) < limit || at_site(at(t1)) < limit) return false;
     if (bound_between(t0, t1) >= limit) return true;
     return detail::ObstacleScan(esdf_, at(t0), at(t1)).run(limit) >= limit;
@@ -179,9 +185,25 @@ bool touches_free(const EsdfMap& esdf, const Vector& p) {
 double FreeSpace::distance(const Point& p) const { return clearance(p, p); }
 
 double FreeSpace::clearance(const Point& a, const Point& b) const {
+  const std::array<Point, 2> path{a, b};
+  return clearance(path);
+}
+
+double FreeSpace::clearance(std::span<const Point> path) const {
   const double s = esdf_.voxel_size;
-  const double squared = SegmentMarch(esdf_, a / s, b / s).minimum(kInfinity);
-  return s * std::sqrt(squared);
+  const auto for_each_segment = [&](const auto& body) {
+    for (std::size_t i = path.size() == 1 ? 0 : 1; i < path.size(); ++i)
+      body(SegmentMarch(esdf_, path[i == 0 ? 0 : i - 1] / s, path[i] / s));
+  };
+  // A good bound first: then only the narrowest places are looked at closely.
+  double best = kInfinity;
+  for_each_segment([&](const SegmentMarch& m) { best = std::min(best, m.upper_bound()); });
+  if (std::isinf(best)) {  // no site near any of it: farther than max_distance, if that is finite
+    if (std::isinf(esdf_.max_distance)) return best;
+    best = squared_far(esdf_);
+  }
+  for_each_segment([&](const SegmentMarch& m) { best = m.minimum(best); });
+  return s * std::sqrt(best);
 }
 
 bool FreeSpace::is_free(const Point& p, double radius) const { return is_free(p, p, radius); }
@@ -193,11 +215,17 @@ bool FreeSpace::is_free(const Point& a, const Point& b, double radius) const {
   return SegmentMarch(esdf_, a / s, b / s).stays_above(squared_limit(radius, s));
 }
 
+bool FreeSpace::is_clearly_free(const Point& a, const Point& b, double radius) const {
+  const double s = esdf_.voxel_size;
+  if (esdf_.unknown == UnknownPolicy::kIgnore && !is_known_free(a, b)) return false;
+  return SegmentMarch(esdf_, a / s, b / s).stays_clearly_above(squared_limit(radius, s));
+}
+
 double FreeSpace::free_length(const Point& a, const Point& b, double radius) const {
   const double s = esdf_.voxel_size;
   const double length = (b - a).norm();
   double free = std::min(
-      length, s * SegmentMarch(esdf_, a / s, b / s).first_doubt(squared_limit(radius, s)));
+      length, s * SegmentMarch(esdf_, a / s, b / s).first_doubt<true>(squared_limit(radius, s)));
   if (esdf_.unknown == UnknownPolicy::kIgnore)
     while (free > 0.0 && !is_known_free(a, a + (b - a) * (free / length)))
       free = free > s ? 0.5 * free : 0.0;

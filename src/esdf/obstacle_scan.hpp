@@ -13,11 +13,18 @@ namespace ridgeway::detail {
 
 /// Smallest squared distance (voxel units) from a segment (voxel units, a == b for a point) to
 /// the obstacles, or `best` where none is nearer. Looks at every obstacle that could be nearer:
-/// whole blocks as one box where they are solid, rows of voxels otherwise.
+/// whole blocks as one box where they are solid, rows of voxels otherwise; none that lies inside
+/// the ball which the distance field keeps free around the middle of the segment.
 class ObstacleScan {
  public:
   ObstacleScan(const EsdfMap& esdf, const Eigen::Vector3d& a, const Eigen::Vector3d& b)
-      : esdf_(esdf), a_(a), b_(b), low_(a.cwiseMin(b)), high_(a.cwiseMax(b)) {}
+      : esdf_(esdf), a_(a), b_(b), low_(a.cwiseMin(b)), high_(a.cwiseMax(b)) {
+    const VoxelIndex middle = voxel_at(0.5 * (a + b), 1.0);
+    const VoxelId id = esdf.layout.find(middle);
+    if (id == kNoVoxel || esdf.squared[id] == kNoSite) return;
+    ball_centre_ = centre_of(middle, 1.0);
+    ball_squared_ = 0.25 * esdf.squared[id];
+  }
 
   double run(double best) {
     best_ = best;
@@ -25,8 +32,10 @@ class ObstacleScan {
     const BlockIndex first = block_at(low_ - Eigen::Vector3d::Constant(reach));
     const BlockIndex last = block_at(high_ + Eigen::Vector3d::Constant(reach));
     for (int z = first.z; z <= last.z; ++z)
-      for (int y = first.y; y <= last.y; ++y)
-        for (int x = first.x; x <= last.x; ++x) scan_block({x, y, z});
+      for (int y = first.y; y <= last.y; ++y) {
+        std::uint32_t before = BlockLayout::kNoBlock;  // slot of the block scanned last in this row
+        for (int x = first.x; x <= last.x; ++x) before = scan_block({x, y, z}, before);
+      }
     return best_;
   }
 
@@ -40,22 +49,42 @@ class ObstacleScan {
     return (box.min - high_).cwiseMax(low_ - box.max).cwiseMax(0.0).squaredNorm();
   }
 
+  /// Whether the field already says that nothing in a box is an obstacle.
+  bool is_in_free_ball(const VoxelBox& box) const {
+    return (ball_centre_ - box.min).cwiseMax(box.max - ball_centre_).squaredNorm() < ball_squared_;
+  }
+
   void consider(const VoxelBox& box) {
     if (bound(box) >= best_) return;
     best_ = std::min(best_, a_ == b_ ? squared_distance(a_, box) : squared_distance(a_, b_, box));
   }
 
-  void scan_block(const BlockIndex& index) {
+  /// Returns the block's slot, or kNoBlock where it was not even looked up.
+  std::uint32_t scan_block(const BlockIndex& index, std::uint32_t before) {
     const Eigen::Vector3d corner =
         Eigen::Vector3d(index.x, index.y, index.z) * static_cast<double>(kBlockSide);
     const VoxelBox whole{corner, corner + Eigen::Vector3d::Constant(kBlockSide)};
-    if (bound(whole) >= best_) return;
-    const std::uint32_t slot = esdf_.layout.find_block(index);
+    if (bound(whole) >= best_ || is_in_free_ball(whole)) return BlockLayout::kNoBlock;
+    constexpr int kNextAlongX = 14;
+    const std::uint32_t slot = before != BlockLayout::kNoBlock
+                                   ? esdf_.layout.neighbour_block(before, kNextAlongX)
+                                   : esdf_.layout.find_block(index);
     if (slot == BlockLayout::kNoBlock) {
       if (esdf_.unknown == UnknownPolicy::kObstacle) consider(whole);
-      return;
+      return slot;
     }
     const VoxelMask::Block& block = esdf_.obstacle.block(slot);
+    std::uint64_t all = ~std::uint64_t{0};
+    for (const std::uint64_t layer : block) all &= layer;
+    if (all == ~std::uint64_t{0}) {
+      consider(whole);
+      return slot;
+    }
+    scan_layers(block, corner);
+    return slot;
+  }
+
+  void scan_layers(const VoxelMask::Block& block, const Eigen::Vector3d& corner) {
     for (int z = 0; z < kBlockSide; ++z) {
       const std::uint64_t layer = block[static_cast<std::size_t>(z)];
       if (layer == 0) continue;
@@ -64,7 +93,10 @@ class ObstacleScan {
       if (dz * dz >= best_) continue;
       for (int y = 0; y < kBlockSide; ++y) {
         const auto row = static_cast<unsigned>(layer >> (8 * y) & 0xff);
-        if (row != 0) scan_row(row, {corner.x(), corner.y() + y, z0});
+        if (row == 0) continue;
+        const double y0 = corner.y() + y;
+        const double dy = std::max({y0 - high_.y(), low_.y() - y0 - 1.0, 0.0});
+        if (dy * dy + dz * dz < best_) scan_row(row, {corner.x(), y0, z0});
       }
     }
   }
@@ -81,6 +113,8 @@ class ObstacleScan {
 
   const EsdfMap& esdf_;
   const Eigen::Vector3d a_, b_, low_, high_;
+  Eigen::Vector3d ball_centre_ = Eigen::Vector3d::Zero();
+  double ball_squared_ = 0.0;  // its inside, without the border, is free
   double best_ = 0.0;
 };
 

@@ -35,6 +35,8 @@ PlanStatus status_of(EndpointStatus status, bool is_start) {
   return PlanStatus::kOk;
 }
 
+constexpr double kUnknownStep = 4.0;  // voxels between looks at what the path borders
+
 void require_finite(const Point& p, const char* name) {
   if (!p.allFinite())
     throw InputError(name, "is not a finite point", "give three finite coordinates in metres");
@@ -43,14 +45,13 @@ void require_finite(const Point& p, const char* name) {
 /// Length, clearance and the share that borders the unknown.
 void describe(const EsdfMap& esdf, const FreeSpace& space, PlanResult& result) {
   result.length = detail::length_of(result.waypoints);
-  result.clearance = space.distance(result.waypoints.front());
+  result.clearance = space.clearance(result.waypoints);
   double bordering = 0.0;
   for (std::size_t i = 1; i < result.waypoints.size(); ++i) {
     const Point& a = result.waypoints[i - 1];
     const Point& b = result.waypoints[i];
-    result.clearance = std::min(result.clearance, space.clearance(a, b));
     const double length = (b - a).norm();
-    const int pieces = std::max(1, static_cast<int>(length / esdf.voxel_size));
+    const int pieces = 1 + static_cast<int>(length / (kUnknownStep * esdf.voxel_size));
     int unknown = 0;
     for (int k = 0; k < pieces; ++k) {
       const VoxelIndex v = voxel_at(a + (b - a) * ((k + 0.5) / pieces), esdf.voxel_size);
@@ -65,11 +66,15 @@ void describe(const EsdfMap& esdf, const FreeSpace& space, PlanResult& result) {
   result.unknown_share = result.length > 0.0 ? bordering / result.length : 0.0;
 }
 
-/// No path leaves unverified: every segment once more by the predicate.
-bool is_verified(const FreeSpace& space, const std::vector<Point>& path, double radius) {
-  for (std::size_t i = 1; i < path.size(); ++i)
-    if (!space.is_free(path[i - 1], path[i], radius)) return false;
-  return !path.empty() && space.is_free(path.front(), radius);
+/// No path leaves unverified: its clearance, measured along every segment, must be the radius, and
+/// where unknown space is no obstacle it must keep to what is known.
+bool is_verified(const EsdfMap& esdf, const FreeSpace& space, const PlanResult& result,
+                 double radius) {
+  if (result.clearance < radius * (1.0 - 1e-9)) return false;
+  if (esdf.unknown == UnknownPolicy::kObstacle) return true;
+  for (std::size_t i = 1; i < result.waypoints.size(); ++i)
+    if (!space.is_known_free(result.waypoints[i - 1], result.waypoints[i])) return false;
+  return true;
 }
 
 }  // namespace
@@ -125,10 +130,8 @@ PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
   if (config.shorten && space.is_free(start, goal, radius)) {  // nothing is shorter
     result.answered_by = config.planner;
     result.waypoints = {start, goal};
-    result.seconds.shorten = seconds_now() - began;
-    finish(PlanStatus::kOk);
     describe(esdf, space, result);
-    return result;
+    return finish(PlanStatus::kOk);
   }
   const detail::RouteQuery query{from.voxel, to.voxel, start, goal, radius};
   detail::RouteResult found = detail::find_route(roadmap, query, config.planner, deadline);
@@ -146,13 +149,10 @@ PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
                                       : std::move(found.route);
   }
   result.seconds.shorten = seconds_now() - shortening;
-  if (!is_verified(space, result.waypoints, radius)) {
-    result.waypoints.clear();
-    return finish(PlanStatus::kNoRoute);
-  }
-  finish(PlanStatus::kOk);
   describe(esdf, space, result);
-  return result;
+  if (is_verified(esdf, space, result, radius)) return finish(PlanStatus::kOk);
+  result.waypoints.clear();
+  return finish(PlanStatus::kNoRoute);
 }
 
 }  // namespace ridgeway

@@ -73,10 +73,10 @@ bool draw_in(const FreeSpace& space, const Point& before, Point& corner, const P
   if (space.is_free(before, after, radius)) return true;
   // Along its own segments first: one of the two new segments is part of an old one.
   const double back = largest_free_share([&](double share) {
-    return space.is_free(corner + share * (before - corner), after, radius);
+    return space.is_clearly_free(corner + share * (before - corner), after, radius);
   });
   const double on = largest_free_share([&](double share) {
-    return space.is_free(before, corner + share * (after - corner), radius);
+    return space.is_clearly_free(before, corner + share * (after - corner), radius);
   });
   const Point backward = corner + back * (before - corner);
   const Point onward = corner + on * (after - corner);
@@ -89,7 +89,7 @@ bool draw_in(const FreeSpace& space, const Point& before, Point& corner, const P
   const Point target = before + t * along;
   const double in = largest_free_share([&](double share) {
     const Point p = corner + share * (target - corner);
-    return space.is_free(before, p, radius) && space.is_free(p, after, radius);
+    return space.is_clearly_free(before, p, radius) && space.is_clearly_free(p, after, radius);
   });
   corner += in * (target - corner);
   return false;
