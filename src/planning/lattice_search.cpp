@@ -85,10 +85,11 @@ class OpenBuckets {
 };
 
 std::vector<VoxelId> trace_back(const BlockLayout& layout, SearchMemory& memory, VoxelId start,
-                                VoxelId goal) {
+                                VoxelId goal, int stride) {
   std::vector<VoxelId> voxels{goal};
   for (VoxelId id = goal; id != start;) {
-    id = layout.neighbour(id, memory.block_of(id).from[id % kBlockVoxels]);
+    const VoxelIndex& o = offset_of(memory.block_of(id).from[id % kBlockVoxels]);
+    id = layout.step(id, stride * o.x, stride * o.y, stride * o.z);
     voxels.push_back(id);
   }
   std::reverse(voxels.begin(), voxels.end());
@@ -98,12 +99,18 @@ std::vector<VoxelId> trace_back(const BlockLayout& layout, SearchMemory& memory,
 }  // namespace
 
 LatticePath search_lattice(const EsdfMap& esdf, VoxelId start, VoxelId goal, double radius,
-                           const VoxelMask* within, const Deadline& deadline) {
+                           const LatticeOptions& options, const Deadline& deadline) {
   const double threshold = squared_threshold(radius, esdf.voxel_size);
   const FreeSpace space(esdf);
   const VoxelIndex target = esdf.layout.index_of(goal);
   SearchMemory memory(esdf.layout.block_count());
-  const double least = lattice_distance(esdf.layout.index_of(start), target);
+  const int stride = options.stride;
+  const auto move_is_free = [&](VoxelId from, VoxelId to, int d) {
+    if (stride == 1) return space.move_is_free(from, to, d, threshold);
+    return FreeSpace::move_bound(esdf.squared[from], esdf.squared[to],
+                                 squared_length(d) * stride * stride) >= threshold;
+  };
+  const double least = options.weight * lattice_distance(esdf.layout.index_of(start), target);
   OpenBuckets open(least);
   memory.block_of(start).cost[start % kBlockVoxels] = 0.0;
   open.push(least, {0.0, start});
@@ -111,27 +118,33 @@ LatticePath search_lattice(const EsdfMap& esdf, VoxelId start, VoxelId goal, dou
   int expansions = 0;
   while (const std::optional<OpenBuckets::Entry> best = open.pop(goal_cost)) {
     if (best->cost > memory.block_of(best->voxel).cost[best->voxel % kBlockVoxels]) continue;
-    if (++expansions % kExpansionsBetweenLooksAtTheClock == 0 && deadline.has_passed())
+    if (++expansions > options.most_expansions) break;
+    if (expansions % kExpansionsBetweenLooksAtTheClock == 0 && deadline.has_passed())
       return {SearchStatus::kTimeout, {}};
     const VoxelIndex here = esdf.layout.index_of(best->voxel);
     for (int d = 0; d < 27; ++d) {
-      const VoxelId next = esdf.layout.neighbour(best->voxel, d);
+      const VoxelIndex& o = offset_of(d);
+      const VoxelId next =
+          esdf.layout.step(best->voxel, stride * o.x, stride * o.y, stride * o.z);
       if (d == kCentre || next == kNoVoxel || esdf.squared[next] < threshold ||
-          esdf.state[next] != VoxelState::kFree || (within != nullptr && !within->test(next)))
+          esdf.state[next] != VoxelState::kFree || (options.within != nullptr && !options.within->test(next)))
         continue;
       SearchMemory::Block& there = memory.block_of(next);
       const std::size_t place = next % kBlockVoxels;
-      const double cost = best->cost + kLengths[static_cast<std::size_t>(squared_length(d))];
+      const double cost =
+          best->cost + stride * kLengths[static_cast<std::size_t>(squared_length(d))];
       // Sums of the same steps in another order may differ in the last digit: no improvement.
       if (cost > there.cost[place] - kNoGain) continue;
-      if (!space.move_is_free(best->voxel, next, d, threshold)) continue;
+      const VoxelIndex there_index = here + VoxelIndex{stride * o.x, stride * o.y, stride * o.z};
+      const double to_go = lattice_distance(there_index, target);
+      if (cost + to_go > options.longest || !move_is_free(best->voxel, next, d)) continue;
       there.cost[place] = cost;
       there.from[place] = static_cast<Direction>(opposite(d));
-      open.push(cost + lattice_distance(here + offset_of(d), target), {cost, next});
+      open.push(cost + options.weight * to_go, {cost, next});
     }
   }
   if (std::isinf(goal_cost)) return {SearchStatus::kNoRoute, {}};
-  return {SearchStatus::kFound, trace_back(esdf.layout, memory, start, goal), goal_cost};
+  return {SearchStatus::kFound, trace_back(esdf.layout, memory, start, goal, stride), goal_cost};
 }
 
 }  // namespace ridgeway::detail

@@ -17,6 +17,10 @@ namespace {
 constexpr int kSearches = 3;
 constexpr float kPenalty = 1.6f;          // on edges that an earlier route took
 constexpr double kNearlyStraight = 1.01;  // over the straight line: not worth another route
+constexpr double kSuspicious = 1.15;      // over the straight line: worth a second opinion
+constexpr double kCoarseWeight = 1.2;     // of that search's heuristic
+constexpr int kCoarseExpansions = 1500;   // well below a millisecond
+constexpr double kLatticeExcess = 1.05;   // by which a lattice path shrinks when it is shortened
 constexpr double kMostlyShrinksTo = 0.7;  // of its length a route seldom becomes shorter
 
 /// Start, the lattice voxels (bends only), goal.
@@ -115,7 +119,7 @@ void search_voxels(const Roadmap& roadmap, const RouteQuery& query, const VoxelM
                    const Deadline& deadline, RouteResult& result) {
   result.answered_by = within != nullptr ? Planner::kDiagram : Planner::kEsdf;
   LatticePath path =
-      search_lattice(roadmap.esdf, query.from, query.to, query.radius, within, deadline);
+      search_lattice(roadmap.esdf, query.from, query.to, query.radius, {.within = within}, deadline);
   result.status = path.status;
   if (path.status == SearchStatus::kFound)
     result.route = route_over_voxels(roadmap.esdf, query, path.voxels);
@@ -133,7 +137,7 @@ void search_diagram(const Roadmap& roadmap, const RouteQuery& query, AttachWay f
   cut_at_diagram(from.voxels);
   cut_at_diagram(to.voxels);
   LatticePath path = search_lattice(roadmap.esdf, from.voxels.back(), to.voxels.back(),
-                                    query.radius, &roadmap.diagram.voxels, deadline);
+                                    query.radius, {.within = &roadmap.diagram.voxels}, deadline);
   result.answered_by = Planner::kDiagram;
   result.status = path.status;
   if (path.status != SearchStatus::kFound) return;
@@ -180,6 +184,42 @@ RouteResult find_route(const Roadmap& roadmap, const RouteQuery& query, Planner 
   return result;
 }
 
+namespace {
+
+/// The nearest voxel with even coordinates that a point can move to.
+VoxelId even_voxel(const EsdfMap& esdf, const FreeSpace& space, const Point& p, double radius) {
+  const VoxelIndex v = voxel_at(p, esdf.voxel_size);
+  const double threshold = squared_threshold(radius, esdf.voxel_size);
+  for (int i = 0; i < 8; ++i) {
+    const auto even = [&](int at, int bit) { return (at & ~1) + 2 * (at & 1 & (i >> bit)); };
+    const VoxelIndex near{even(v.x, 0), even(v.y, 1), even(v.z, 2)};
+    const VoxelId id = esdf.layout.find(near);
+    if (id != kNoVoxel && esdf.state[id] == VoxelState::kFree && esdf.squared[id] >= threshold &&
+        space.is_free(p, centre_of(near, esdf.voxel_size), radius))
+      return id;
+  }
+  return kNoVoxel;
+}
+
+/// A second opinion on a path that stays long: a quick search over every second voxel for one
+/// that is shorter. Empty where it finds none in its small budget.
+Route search_coarsely(const EsdfMap& esdf, const FreeSpace& space, const Point& start,
+                      const Point& goal, double radius, double longest,
+                      const Deadline& deadline) {
+  const VoxelId from = even_voxel(esdf, space, start, radius);
+  const VoxelId to = even_voxel(esdf, space, goal, radius);
+  if (from == kNoVoxel || to == kNoVoxel) return {};
+  const LatticeOptions options{.stride = 2,
+                               .weight = kCoarseWeight,
+                               .longest = longest * kLatticeExcess / esdf.voxel_size,
+                               .most_expansions = kCoarseExpansions};
+  const LatticePath path = search_lattice(esdf, from, to, radius, options, deadline);
+  if (path.status != SearchStatus::kFound) return {};
+  return route_over_voxels(esdf, {from, to, start, goal, radius}, path.voxels);
+}
+
+}  // namespace
+
 Route tightest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found, double radius,
                const Deadline& deadline) {
   Route best = shorten(space, found.route, radius, deadline);
@@ -197,6 +237,13 @@ Route tightest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found, 
   }
   if (shortest > enough && best.size() > 2)
     best = shorten(space, redirect(esdf, space, best, radius, deadline), radius, deadline);
+  shortest = length_of(best);
+  if (shortest > kSuspicious * (best.back() - best.front()).norm() && !deadline.has_passed()) {
+    Route coarse =
+        search_coarsely(esdf, space, best.front(), best.back(), radius, shortest, deadline);
+    if (!coarse.empty()) coarse = shorten(space, std::move(coarse), radius, deadline);
+    if (!coarse.empty() && length_of(coarse) < shortest) best = std::move(coarse);
+  }
   return best;
 }
 

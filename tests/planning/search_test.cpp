@@ -45,7 +45,7 @@ void expect_equals_dijkstra(const EsdfMap& esdf, const std::vector<VoxelId>& pla
     const auto costs = testing::dijkstra_voxels(esdf, start, radius, within);
     for (std::size_t j = 0; j < 12; ++j) {
       const VoxelId goal = places[(k * 31 + j * 104729) % places.size()];
-      const LatticePath path = detail::search_lattice(esdf, start, goal, radius, within, kNever);
+      const LatticePath path = detail::search_lattice(esdf, start, goal, radius, {.within = within}, kNever);
       const auto cost = costs.find(goal);
       ASSERT_EQ(path.status == SearchStatus::kFound, cost != costs.end());
       if (path.status != SearchStatus::kFound) continue;
@@ -111,7 +111,7 @@ TEST(AStar, StopsAtItsDeadline) {
   const EsdfMap esdf = build_roadmap(map, {.min_clearance = 0.1}).roadmap.esdf;
   const LatticePath path =
       detail::search_lattice(esdf, esdf.layout.find({10, 40, 40}), esdf.layout.find({70, 40, 40}),
-                             0.1, nullptr, Deadline(0.0));
+                             0.1, {}, Deadline(0.0));
   EXPECT_EQ(path.status, SearchStatus::kTimeout);
 }
 

@@ -67,14 +67,14 @@ class FreeSpace {
     return slow_move_clearance(from, to, direction, low);
   }
 
- private:
-  /// Lower bound of 4 D^2 / s^2 on a move of squared length L2 between ends a and b: the minimum
-  /// over t of (1-t) a + t b - 4 t (1-t) L2.
+  /// Lower bound of 4 D^2 / s^2 on the segment between two voxel centres with these values of it,
+  /// L2 voxels^2 apart: the minimum over t of (1-t) a + t b - 4 t (1-t) L2; exact for L2 = 1.
   static double move_bound(double a, double b, int L2) {
     const double low = a < b ? a : b, rise = a < b ? b - a : a - b;
     if (L2 == 1 || rise >= 4.0 * L2) return low;
     return 0.5 * (a + b) - L2 - rise * rise / (16.0 * L2);
   }
+ private:
   double slow_move_clearance(VoxelId from, VoxelId to, int direction, double enough) const;
 
   const EsdfMap& esdf_;
