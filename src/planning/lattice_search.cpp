@@ -107,8 +107,12 @@ LatticePath search_lattice(const EsdfMap& esdf, VoxelId start, VoxelId goal, dou
   const int stride = options.stride;
   const auto move_is_free = [&](VoxelId from, VoxelId to, int d) {
     if (stride == 1) return space.move_is_free(from, to, d, threshold);
-    return FreeSpace::move_bound(esdf.squared[from], esdf.squared[to],
-                                 squared_length(d) * stride * stride) >= threshold;
+    if (FreeSpace::move_bound(esdf.squared[from], esdf.squared[to],
+                              squared_length(d) * stride * stride) < threshold)
+      return false;
+    return esdf.unknown == UnknownPolicy::kObstacle ||
+           space.is_known_free(centre_of(esdf.layout.index_of(from), esdf.voxel_size),
+                               centre_of(esdf.layout.index_of(to), esdf.voxel_size));
   };
   const double least = options.weight * lattice_distance(esdf.layout.index_of(start), target);
   OpenBuckets open(least);

@@ -145,12 +145,18 @@ PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
     if (!space.is_free(start, goal, radius)) return finish(PlanStatus::kNoRoute);
     result.waypoints = {start, goal};
   } else {
-    result.waypoints = config.shorten ? detail::tightest(esdf, space, found, radius, deadline)
-                                      : std::move(found.route);
+    result.waypoints =
+        config.shorten ? detail::tightest(esdf, space, found, radius, deadline) : found.route;
   }
   result.seconds.shorten = seconds_now() - shortening;
   describe(esdf, space, result);
   if (is_verified(esdf, space, result, radius)) return finish(PlanStatus::kOk);
+  // What the search found holds move by move, whatever became of it since.
+  result.waypoints = std::move(found.route);
+  if (!result.waypoints.empty()) {
+    describe(esdf, space, result);
+    if (is_verified(esdf, space, result, radius)) return finish(PlanStatus::kOk);
+  }
   result.waypoints.clear();
   return finish(PlanStatus::kNoRoute);
 }
