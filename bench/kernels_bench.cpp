@@ -40,9 +40,9 @@ const Pipeline& pipeline() {
 }
 
 void count_voxels_of(benchmark::State& state, std::size_t voxels) {
-  state.counters["voxels"] = benchmark::Counter(
-      static_cast<double>(voxels) * static_cast<double>(state.iterations()),
-      benchmark::Counter::kIsRate);
+  state.counters["voxels"] =
+      benchmark::Counter(static_cast<double>(voxels) * static_cast<double>(state.iterations()),
+                         benchmark::Counter::kIsRate);
 }
 
 void load(benchmark::State& state) {

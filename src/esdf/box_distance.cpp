@@ -36,8 +36,8 @@ double squared_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b, cons
       curvature += along[axis] * along[axis];
     }
     const double t = curvature > 0.0 ? std::clamp(t0 - slope / curvature, t0, t1) : t0;
-    best = std::min({best, squared_distance(a + t * along, box),
-                     squared_distance(a + t1 * along, box)});
+    best = std::min(
+        {best, squared_distance(a + t * along, box), squared_distance(a + t1 * along, box)});
   }
   return best;
 }

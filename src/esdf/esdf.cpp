@@ -75,7 +75,7 @@ class Sweeper {
  private:
   struct Scratch {
     detail::LineEnvelope envelope;
-    std::vector<SiteOffset> site;   // of the line before this sweep
+    std::vector<SiteOffset> site;  // of the line before this sweep
     std::vector<bool> is_obstacle;
   };
 
@@ -112,7 +112,8 @@ class Sweeper {
     if (envelope.empty()) return;
     envelope.for_each_winner(first, last, [&](int position, int winner) {
       SiteOffset offset{};
-      if (winner >= first && winner <= last) offset = scratch.site[static_cast<std::size_t>(winner)];
+      if (winner >= first && winner <= last)
+        offset = scratch.site[static_cast<std::size_t>(winner)];
       const auto along = static_cast<std::int16_t>(
           std::clamp(winner - position, -kFarthestSite - 1, kFarthestSite + 1));
       (axis == 0 ? offset.x : axis == 1 ? offset.y : offset.z) = along;

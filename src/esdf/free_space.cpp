@@ -29,8 +29,8 @@ double stored(const EsdfMap& esdf, VoxelId id, double far) {
 }
 
 double squared_far(const EsdfMap& esdf) {
-  const double far = std::min(esdf.max_distance / esdf.voxel_size,
-                              static_cast<double>(kFarthestSite));
+  const double far =
+      std::min(esdf.max_distance / esdf.voxel_size, static_cast<double>(kFarthestSite));
   return far * far;
 }
 
@@ -44,8 +44,8 @@ double lower_bound(const EsdfMap& esdf, const Vector& p, double far) {
   double sum = 0.0;
   for (int i = 0; i < 8; ++i) {
     const int dx = i & 1, dy = i >> 1 & 1, dz = i >> 2;
-    const double weight = (dx ? t.x() : 1.0 - t.x()) * (dy ? t.y() : 1.0 - t.y()) *
-                          (dz ? t.z() : 1.0 - t.z());
+    const double weight =
+        (dx ? t.x() : 1.0 - t.x()) * (dy ? t.y() : 1.0 - t.y()) * (dz ? t.z() : 1.0 - t.z());
     if (weight == 0.0) continue;
     const VoxelId id = corner != kNoVoxel ? esdf.layout.step(corner, dx, dy, dz)
                                           : esdf.layout.find(base + VoxelIndex{dx, dy, dz});
@@ -116,7 +116,7 @@ class SegmentMarch {
   }
 
  private:
-  static constexpr double kCloseStep = 1.0;    // voxels looked at closely at a time
+  static constexpr double kCloseStep = 1.0;     // voxels looked at closely at a time
   static constexpr double kSmallestStep = 0.5;  // a ball's step below this is not worth it
 
   Vector at(double t) const { return a_ + t * along_; }
@@ -243,8 +243,8 @@ bool FreeSpace::is_known_free(const Point& a, const Point& b) const {
     for (int axis = 0; axis < 3; ++axis) {
       if (along[axis] == 0.0) continue;
       const double here = from[axis] + t * along[axis];
-      double plane = along[axis] > 0.0 ? std::floor(here + 1e-9) + 1.0
-                                       : std::ceil(here - 1e-9) - 1.0;
+      double plane =
+          along[axis] > 0.0 ? std::floor(here + 1e-9) + 1.0 : std::ceil(here - 1e-9) - 1.0;
       next = std::min(next, (plane - from[axis]) / along[axis]);
     }
     if (!touches_free(esdf_, from + 0.5 * (t + next) * along) ||

@@ -25,7 +25,8 @@ double depth(const EsdfMap& esdf, const VoxelIndex& voxel, double deepest) {
         const bool face = std::abs(dz) == shell || std::abs(dy) == shell;
         for (int dx = -shell; dx <= shell; dx += face ? 1 : 2 * shell) {
           const double distance = distance_to_cube(dx, dy, dz);
-          if (distance < best && !esdf.is_obstacle(esdf.layout.find(voxel + VoxelIndex{dx, dy, dz})))
+          if (distance < best &&
+              !esdf.is_obstacle(esdf.layout.find(voxel + VoxelIndex{dx, dy, dz})))
             best = distance;
         }
       }
@@ -57,8 +58,8 @@ DistanceAndGradient interpolate_distance(const EsdfMap& esdf, const Point& point
   const double y0 = mix(x00, x10, t.y()), y1 = mix(x01, x11, t.y());
   DistanceAndGradient result;
   result.distance = mix(y0, y1, t.z());
-  result.gradient.x() = mix(mix(d[1] - d[0], d[3] - d[2], t.y()),
-                            mix(d[5] - d[4], d[7] - d[6], t.y()), t.z());
+  result.gradient.x() =
+      mix(mix(d[1] - d[0], d[3] - d[2], t.y()), mix(d[5] - d[4], d[7] - d[6], t.y()), t.z());
   result.gradient.y() = mix(x10 - x00, x11 - x01, t.z());
   result.gradient.z() = y1 - y0;
   result.gradient /= s;

@@ -40,9 +40,7 @@ class ObstacleScan {
   }
 
  private:
-  static BlockIndex block_at(const Eigen::Vector3d& p) {
-    return block_of(voxel_at(p, 1.0));
-  }
+  static BlockIndex block_at(const Eigen::Vector3d& p) { return block_of(voxel_at(p, 1.0)); }
 
   /// Squared distance between the segment's bounding box and a box: never too large.
   double bound(const VoxelBox& box) const {

@@ -10,9 +10,9 @@ namespace ridgeway::detail {
 
 /// The way of a voxel towards the graph, as far as it is free at a radius.
 struct AttachWay {
-  std::vector<VoxelId> voxels;   ///< from the voxel on; the last is where the way stops
-  VertexId vertex = kNoVertex;   ///< the vertex it reaches, if it does
-  bool met_diagram = false;      ///< whether one of the voxels is on the diagram
+  std::vector<VoxelId> voxels;  ///< from the voxel on; the last is where the way stops
+  VertexId vertex = kNoVertex;  ///< the vertex it reaches, if it does
+  bool met_diagram = false;     ///< whether one of the voxels is on the diagram
   bool reached() const { return vertex != kNoVertex; }
 };
 AttachWay follow_attach(const Roadmap& roadmap, VoxelId from, double radius);

@@ -89,7 +89,8 @@ void summarise(const Roadmap& roadmap, const std::vector<Query>& queries,
     esdf.push_back(o.esdf.seconds.total * 1e3);
     if (!o.roadmap.ok()) continue;
     for (const PlanResult* path : {&o.roadmap, &o.raw, &o.esdf})
-      report.paths_below_clearance += path->ok() && !holds_clearance(space, *path, queries[i].radius);
+      report.paths_below_clearance +=
+          path->ok() && !holds_clearance(space, *path, queries[i].radius);
     if (o.esdf.ok() && o.roadmap.length > 0.0)
       ratios.push_back(o.roadmap.length / std::min(o.roadmap.length, o.esdf.length));
     report.paths.push_back({queries[i].radius, std::move(o.roadmap.waypoints)});
@@ -119,8 +120,8 @@ CheckReport check_roadmap(const Roadmap& roadmap, const CheckConfig& config,
   report.queries = queries.size();
   std::vector<Outcome> outcomes(queries.size());
   for (std::size_t first = 0; first < queries.size(); first += kBatch) {
-    if (progress && !progress("check", static_cast<double>(first) /
-                                           static_cast<double>(queries.size())))
+    if (progress &&
+        !progress("check", static_cast<double>(first) / static_cast<double>(queries.size())))
       throw Cancelled();
     parallel_for_each_index(std::min(kBatch, queries.size() - first), [&](std::size_t k) {
       const Query& q = queries[first + k];

@@ -82,8 +82,7 @@ Detour find_detour(const EsdfMap& esdf, const FreeSpace& space, const Point& a, 
       Detour found;
       found.corners = std::move(way_left.corners);
       found.corners.push_back(p);
-      found.corners.insert(found.corners.end(), way_right.corners.begin(),
-                           way_right.corners.end());
+      found.corners.insert(found.corners.end(), way_right.corners.begin(), way_right.corners.end());
       Point last = a;
       for (const Point& corner : found.corners) {
         found.length += (corner - last).norm();

@@ -128,10 +128,10 @@ LatticePath search_lattice(const EsdfMap& esdf, VoxelId start, VoxelId goal, dou
     const VoxelIndex here = esdf.layout.index_of(best->voxel);
     for (int d = 0; d < 27; ++d) {
       const VoxelIndex& o = offset_of(d);
-      const VoxelId next =
-          esdf.layout.step(best->voxel, stride * o.x, stride * o.y, stride * o.z);
+      const VoxelId next = esdf.layout.step(best->voxel, stride * o.x, stride * o.y, stride * o.z);
       if (d == kCentre || next == kNoVoxel || esdf.squared[next] < threshold ||
-          esdf.state[next] != VoxelState::kFree || (options.within != nullptr && !options.within->test(next)))
+          esdf.state[next] != VoxelState::kFree ||
+          (options.within != nullptr && !options.within->test(next)))
         continue;
       SearchMemory::Block& there = memory.block_of(next);
       const std::size_t place = next % kBlockVoxels;

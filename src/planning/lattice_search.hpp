@@ -15,7 +15,7 @@ enum class SearchStatus : std::uint8_t { kFound, kNoRoute, kTimeout };
 
 struct LatticePath {
   SearchStatus status = SearchStatus::kNoRoute;
-  std::vector<VoxelId> voxels;  ///< start first, goal last
+  std::vector<VoxelId> voxels;                            ///< start first, goal last
   double cost = std::numeric_limits<double>::infinity();  ///< length, voxels
 };
 

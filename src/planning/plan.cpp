@@ -30,7 +30,8 @@ PlanStatus status_of(EndpointStatus status, bool is_start) {
       return is_start ? PlanStatus::kStartUnknown : PlanStatus::kGoalUnknown;
     case EndpointStatus::kInCollision:
       return is_start ? PlanStatus::kStartInCollision : PlanStatus::kGoalInCollision;
-    case EndpointStatus::kOk: break;
+    case EndpointStatus::kOk:
+      break;
   }
   return PlanStatus::kOk;
 }
@@ -80,10 +81,16 @@ bool is_verified(const EsdfMap& esdf, const FreeSpace& space, const PlanResult& 
 }  // namespace
 
 std::string_view name_of(PlanStatus status) {
-  constexpr std::array<std::string_view, 10> kNames{
-      "ok",           "start_outside_map", "start_unknown",     "start_in_collision",
-      "goal_outside_map", "goal_unknown",  "goal_in_collision", "no_route",
-      "radius_too_small", "timeout"};
+  constexpr std::array<std::string_view, 10> kNames{"ok",
+                                                    "start_outside_map",
+                                                    "start_unknown",
+                                                    "start_in_collision",
+                                                    "goal_outside_map",
+                                                    "goal_unknown",
+                                                    "goal_in_collision",
+                                                    "no_route",
+                                                    "radius_too_small",
+                                                    "timeout"};
   return kNames[static_cast<std::size_t>(status)];
 }
 

@@ -118,8 +118,8 @@ Reach compare_ways(const Roadmap& roadmap, const RouteQuery& query, const Attach
 void search_voxels(const Roadmap& roadmap, const RouteQuery& query, const VoxelMask* within,
                    const Deadline& deadline, RouteResult& result) {
   result.answered_by = within != nullptr ? Planner::kDiagram : Planner::kEsdf;
-  LatticePath path =
-      search_lattice(roadmap.esdf, query.from, query.to, query.radius, {.within = within}, deadline);
+  LatticePath path = search_lattice(roadmap.esdf, query.from, query.to, query.radius,
+                                    {.within = within}, deadline);
   result.status = path.status;
   if (path.status == SearchStatus::kFound)
     result.route = route_over_voxels(roadmap.esdf, query, path.voxels);
@@ -129,9 +129,8 @@ void search_voxels(const Roadmap& roadmap, const RouteQuery& query, const VoxelM
 void search_diagram(const Roadmap& roadmap, const RouteQuery& query, AttachWay from, AttachWay to,
                     const Deadline& deadline, RouteResult& result) {
   const auto cut_at_diagram = [&](std::vector<VoxelId>& way) {
-    const auto first = std::find_if(way.begin(), way.end(), [&](VoxelId id) {
-      return roadmap.diagram.voxels.test(id);
-    });
+    const auto first = std::find_if(way.begin(), way.end(),
+                                    [&](VoxelId id) { return roadmap.diagram.voxels.test(id); });
     if (first != way.end()) way.erase(first + 1, way.end());
   };
   cut_at_diagram(from.voxels);
@@ -150,7 +149,7 @@ void search_diagram(const Roadmap& roadmap, const RouteQuery& query, AttachWay f
 }  // namespace
 
 RouteResult find_route(const Roadmap& roadmap, const RouteQuery& query, Planner planner,
-                        const Deadline& deadline) {
+                       const Deadline& deadline) {
   RouteResult result;
   const double began = seconds_now();
   if (planner == Planner::kEsdf) {
@@ -204,8 +203,7 @@ VoxelId even_voxel(const EsdfMap& esdf, const FreeSpace& space, const Point& p, 
 /// A second opinion on a path that stays long: a quick search over every second voxel for one
 /// that is shorter. Empty where it finds none in its small budget.
 Route search_coarsely(const EsdfMap& esdf, const FreeSpace& space, const Point& start,
-                      const Point& goal, double radius, double longest,
-                      const Deadline& deadline) {
+                      const Point& goal, double radius, double longest, const Deadline& deadline) {
   const VoxelId from = even_voxel(esdf, space, start, radius);
   const VoxelId to = even_voxel(esdf, space, goal, radius);
   if (from == kNoVoxel || to == kNoVoxel) return {};

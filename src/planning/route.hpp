@@ -17,7 +17,7 @@ namespace ridgeway::detail {
 using Route = std::vector<Point>;
 
 struct RouteQuery {
-  VoxelId from, to;      ///< traversable voxels that start and goal join
+  VoxelId from, to;  ///< traversable voxels that start and goal join
   Point start, goal;
   double radius;
 };
@@ -36,7 +36,7 @@ struct RouteResult {
 /// Searches with the asked planner, and where that structure is too coarse for the radius with
 /// the next finer one: graph, diagram, ESDF. Exact: no route means that there is none.
 RouteResult find_route(const Roadmap& roadmap, const RouteQuery& query, Planner planner,
-                        const Deadline& deadline);
+                       const Deadline& deadline);
 
 /// The route pulled tight; where that stays longer than the straight line, alternatives are tried
 /// as well, and ways past what blocks the line. Returns the shortest.

@@ -30,8 +30,7 @@ std::vector<Point> skip_waypoints(const FreeSpace& space, const std::vector<Poin
       }
       seen = at + stride;
     }
-    if (blind == path.size() && seen + 1 < blind &&
-        space.is_free(path[at], path.back(), radius))
+    if (blind == path.size() && seen + 1 < blind && space.is_free(path[at], path.back(), radius))
       seen = path.size() - 1;
     while (seen + 1 < blind) {
       const std::size_t middle = (seen + blind) / 2;
@@ -84,8 +83,8 @@ bool draw_in(const FreeSpace& space, const Point& before, Point& corner, const P
   corner = length_over(backward) < length_over(onward) ? backward : onward;
   const Point along = after - before;
   const double squared = along.squaredNorm();
-  const double t = squared > 0.0 ? std::clamp((corner - before).dot(along) / squared, 0.0, 1.0)
-                                 : 0.0;
+  const double t =
+      squared > 0.0 ? std::clamp((corner - before).dot(along) / squared, 0.0, 1.0) : 0.0;
   const Point target = before + t * along;
   const double in = largest_free_share([&](double share) {
     const Point p = corner + share * (target - corner);

@@ -37,9 +37,10 @@ std::vector<Segment> fit_all(const EsdfMap& esdf, const DiagramCurves& diagram,
   const auto ends = [](const Segment& s) { return std::pair(s.from, s.to); };
   std::sort(segments.begin(), segments.end(),
             [&](const Segment& a, const Segment& b) { return ends(a) < ends(b); });
-  segments.erase(std::unique(segments.begin(), segments.end(),
-                             [&](const Segment& a, const Segment& b) { return ends(a) == ends(b); }),
-                 segments.end());
+  segments.erase(
+      std::unique(segments.begin(), segments.end(),
+                  [&](const Segment& a, const Segment& b) { return ends(a) == ends(b); }),
+      segments.end());
   return segments;
 }
 

@@ -19,8 +19,11 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 class TreeBuilder {
  public:
   TreeBuilder(const EsdfMap& esdf, const SparseGraph& graph, const Basins& basins)
-      : esdf_(esdf), basins_(basins), regions_(basins.peaks.size()),
-        root_(basins.peaks.size(), kNone), size_(graph.vertices.size(), 1) {
+      : esdf_(esdf),
+        basins_(basins),
+        regions_(basins.peaks.size()),
+        root_(basins.peaks.size(), kNone),
+        size_(graph.vertices.size(), 1) {
     tree_.parent.resize(graph.vertices.size());
     for (std::uint32_t v = 0; v < graph.vertices.size(); ++v) {
       tree_.parent[v] = VertexId{v};
@@ -57,10 +60,10 @@ class TreeBuilder {
     const std::uint32_t b = regions_.find(basins_.basin[pass.to]);
     if (a == b) return;
     const std::uint32_t ra = root_[a], rb = root_[b];
-    const VoxelId narrow =
-        esdf_.squared[pass.from] <= esdf_.squared[pass.to] ? pass.from : pass.to;
-    const std::uint32_t root =
-        ra == kNone ? rb : rb == kNone ? ra : link(ra, rb, pass.level, narrow);
+    const VoxelId narrow = esdf_.squared[pass.from] <= esdf_.squared[pass.to] ? pass.from : pass.to;
+    const std::uint32_t root = ra == kNone   ? rb
+                               : rb == kNone ? ra
+                                             : link(ra, rb, pass.level, narrow);
     root_[regions_.join(a, b)] = root;
   }
 
@@ -78,7 +81,7 @@ class TreeBuilder {
   DisjointSets regions_;             // of basins
   std::vector<std::uint32_t> root_;  // by region: root of its vertices' tree
   std::vector<std::uint32_t> size_;
-  std::vector<VoxelId> voxels_;      // by vertex
+  std::vector<VoxelId> voxels_;  // by vertex
   ClearanceTree tree_;
 };
 

@@ -78,8 +78,8 @@ ComponentReport report_components(const Roadmap& roadmap) {
   level.sink_to(squared_threshold(roadmap.min_clearance, esdf.voxel_size));
   std::vector<std::size_t> component_of(basins.peaks.size(), kNone);  // by set
   ComponentReport report;
-  report.components = count_components(
-      esdf, traversable_voxels(esdf, roadmap.min_clearance), level, component_of);
+  report.components =
+      count_components(esdf, traversable_voxels(esdf, roadmap.min_clearance), level, component_of);
   while (const Pass* pass = level.next_pass()) {
     const std::size_t a = component_of[level.set_of(pass->from)];
     const std::size_t b = component_of[level.set_of(pass->to)];

@@ -60,8 +60,8 @@ void keep_best_of_groups(const DiagramCurves& curves, std::vector<Meeting>& meet
   for (std::uint32_t i = 0; i < meetings.size(); ++i) {
     const Meeting& m = meetings[i];
     const auto [place, fresh] = best.try_emplace(groups.find(i), m);
-    if (!fresh && std::pair(-m.width, m.length) <
-                      std::pair(-place->second.width, place->second.length))
+    if (!fresh &&
+        std::pair(-m.width, m.length) < std::pair(-place->second.width, place->second.length))
       place->second = m;
   }
   meetings.clear();

@@ -38,8 +38,8 @@ DiagramCurves index_diagram(const EsdfMap& esdf, const VoxelMask& diagram, doubl
           const VoxelId other = esdf.layout.neighbour(id, d);
           const double width = space.move_clearance(id, other, d);
           if (width < threshold) continue;
-          moves[i].push_back({curves.find(other),
-                              kLengths[static_cast<std::size_t>(squared_length(d))], width});
+          moves[i].push_back(
+              {curves.find(other), kLengths[static_cast<std::size_t>(squared_length(d))], width});
         }
       },
       64);

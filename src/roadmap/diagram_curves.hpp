@@ -25,10 +25,10 @@ struct DiagramMove {
 /// The diagram as a compact graph of its voxels and their legal moves: everything the sparse
 /// graph is made from, in a few cache lines a voxel.
 struct DiagramCurves {
-  std::vector<VoxelId> voxels;             ///< ascending
-  std::vector<std::uint32_t> squared;      ///< 4 d^2 / s^2
-  std::vector<Point> position;             ///< voxel centres, metres
-  std::vector<std::uint32_t> first_move;   ///< voxels.size() + 1 entries into `moves`
+  std::vector<VoxelId> voxels;            ///< ascending
+  std::vector<std::uint32_t> squared;     ///< 4 d^2 / s^2
+  std::vector<Point> position;            ///< voxel centres, metres
+  std::vector<std::uint32_t> first_move;  ///< voxels.size() + 1 entries into `moves`
   std::vector<DiagramMove> moves;
 
   std::size_t size() const { return voxels.size(); }

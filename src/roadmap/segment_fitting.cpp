@@ -58,8 +58,7 @@ void fit_segments(const EsdfMap& esdf, const DiagramCurves& curves, const Curve&
       const double narrowest = *std::min_element(width.begin() + static_cast<std::ptrdiff_t>(first),
                                                  width.begin() + static_cast<std::ptrdiff_t>(last));
       const double clearance = 0.5 * esdf.voxel_size * std::sqrt(narrowest);
-      const double wanted =
-          std::max(config.min_clearance, std::min(clearance, config.widest_kept));
+      const double wanted = std::max(config.min_clearance, std::min(clearance, config.widest_kept));
       if (space.is_free(curves.position[curve[first]], curves.position[curve[last]], wanted)) {
         segments.push_back({curve[first], curve[last]});
         continue;

@@ -54,8 +54,8 @@ Branch branch_from(const DiagramCurves& curves, const std::vector<bool>& followe
 
 /// Visits the followed voxels within `radius` of a start along the diagram, itself included.
 template <typename Visit>
-void visit_near(const DiagramCurves& curves, const std::vector<bool>& followed,
-                DiagramNumber start, double radius, std::vector<float>& best, const Visit& visit) {
+void visit_near(const DiagramCurves& curves, const std::vector<bool>& followed, DiagramNumber start,
+                double radius, std::vector<float>& best, const Visit& visit) {
   using Entry = std::pair<float, DiagramNumber>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   std::vector<DiagramNumber> touched{start};
@@ -103,14 +103,12 @@ std::vector<bool> significant_voxels(const DiagramCurves& curves, double signifi
 }
 
 std::vector<DiagramNumber> select_vertices(const DiagramCurves& curves,
-                                           const std::vector<bool>& followed,
-                                           double prune_radius) {
+                                           const std::vector<bool>& followed, double prune_radius) {
   std::vector<DiagramNumber> by_clearance;
   for (DiagramNumber v = 0; v < curves.size(); ++v)
     if (followed[v]) by_clearance.push_back(v);
-  std::stable_sort(by_clearance.begin(), by_clearance.end(), [&](auto a, auto b) {
-    return curves.squared[a] > curves.squared[b];
-  });
+  std::stable_sort(by_clearance.begin(), by_clearance.end(),
+                   [&](auto a, auto b) { return curves.squared[a] > curves.squared[b]; });
   std::vector<DiagramNumber> vertices;
   std::vector<bool> pruned(curves.size(), false);
   std::vector<float> best(curves.size(), INFINITY);

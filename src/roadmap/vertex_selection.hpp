@@ -16,7 +16,6 @@ std::vector<bool> significant_voxels(const DiagramCurves& curves, double signifi
 /// diagram; of those within `prune_radius` voxels along the diagram only the one of largest
 /// clearance; and one for each connected curve that has none. In ascending order.
 std::vector<DiagramNumber> select_vertices(const DiagramCurves& curves,
-                                           const std::vector<bool>& followed,
-                                           double prune_radius);
+                                           const std::vector<bool>& followed, double prune_radius);
 
 }  // namespace ridgeway::detail

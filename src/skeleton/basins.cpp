@@ -40,12 +40,12 @@ class HeightGather {
     for (int z = -1; z <= kBlockSide; ++z)
       for (int y = -1; y <= kBlockSide; ++y)
         for (int x = -1; x <= kBlockSide; ++x, ++place) {
-          const std::uint32_t n = esdf.layout.neighbour_block(
-              slot, 13 + (x >> 3) + 3 * (y >> 3) + 9 * (z >> 3));
+          const std::uint32_t n =
+              esdf.layout.neighbour_block(slot, 13 + (x >> 3) + 3 * (y >> 3) + 9 * (z >> 3));
           heights_[place] = 0;
           if (n == BlockLayout::kNoBlock) continue;
-          const VoxelId id = n * kBlockVoxels +
-                             static_cast<VoxelId>((x & 7) | (y & 7) << 3 | (z & 7) << 6);
+          const VoxelId id =
+              n * kBlockVoxels + static_cast<VoxelId>((x & 7) | (y & 7) << 3 | (z & 7) << 6);
           if (traversable.test(id)) heights_[place] = height(esdf, id);
         }
   }
@@ -63,7 +63,7 @@ class HeightGather {
 };
 
 struct Surroundings {
-  Cube27 higher = 0;           // traversable neighbours above the voxel
+  Cube27 higher = 0;             // traversable neighbours above the voxel
   Direction steepest = kCentre;  // among those reached without a dip
 };
 
@@ -153,7 +153,11 @@ void label_basins(const EsdfMap& esdf, const VoxelMask& traversable, Landscape& 
 class PassFinder {
  public:
   PassFinder(const EsdfMap& esdf, const VoxelMask& traversable, double threshold, Basins& basins)
-      : esdf_(esdf), traversable_(traversable), threshold_(threshold), basins_(basins), sets_(basins.peaks.size()),
+      : esdf_(esdf),
+        traversable_(traversable),
+        threshold_(threshold),
+        basins_(basins),
+        sets_(basins.peaks.size()),
         space_(esdf) {
     basins_.dynamics.assign(basins_.peaks.size(), std::numeric_limits<double>::infinity());
     highest_.resize(basins_.peaks.size());
@@ -161,9 +165,8 @@ class PassFinder {
   }
 
   void run(std::vector<VoxelId> critical) {
-    std::sort(critical.begin(), critical.end(), [&](VoxelId a, VoxelId b) {
-      return height(esdf_, a) > height(esdf_, b);
-    });
+    std::sort(critical.begin(), critical.end(),
+              [&](VoxelId a, VoxelId b) { return height(esdf_, a) > height(esdf_, b); });
     for (const VoxelId id : critical) {
       join_waiting(static_cast<double>(esdf_.squared[id]));
       add(id);

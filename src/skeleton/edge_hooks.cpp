@@ -20,8 +20,13 @@ constexpr double kPatience = 1.0;        // voxels of clearance a piece may sink
 class EdgeHooks {
  public:
   EdgeHooks(const EsdfMap& esdf, double threshold, const Basins& basins, VoxelMask& diagram)
-      : esdf_(esdf), layout_(esdf.layout), threshold_(threshold), basins_(basins), space_(esdf),
-        exact_(diagram), diagram_(diagram) {}
+      : esdf_(esdf),
+        layout_(esdf.layout),
+        threshold_(threshold),
+        basins_(basins),
+        space_(esdf),
+        exact_(diagram),
+        diagram_(diagram) {}
 
   void run(const VoxelMask& edges) {
     std::vector<VoxelId> voxels = edges.members();
@@ -64,11 +69,13 @@ class EdgeHooks {
     const double level = esdf_.squared[id];
     const std::uint32_t piece = pieces_.add();
     hooked_.push_back(false);
-    struct Move { double width; VoxelId other; };
+    struct Move {
+      double width;
+      VoxelId other;
+    };
     std::vector<Move> moves;
     bool alone = true;
-    for (Cube27 cube = cube_around(layout_, diagram_, id) & kCells26; cube != 0;
-         cube &= cube - 1) {
+    for (Cube27 cube = cube_around(layout_, diagram_, id) & kCells26; cube != 0; cube &= cube - 1) {
       const int d = std::countr_zero(cube);
       const VoxelId other = layout_.neighbour(id, d);
       const double width = space_.move_clearance(id, other, d);
@@ -89,9 +96,7 @@ class EdgeHooks {
     if (!is_hooked(id)) events_.push({std::max(sunk * sunk, threshold_), id, id});
   }
 
-  bool is_hooked(VoxelId id) {
-    return exact_.test(id) || hooked_[pieces_.find(piece_.at(id))];
-  }
+  bool is_hooked(VoxelId id) { return exact_.test(id) || hooked_[pieces_.find(piece_.at(id))]; }
 
   void connect(VoxelId a, VoxelId b) {
     if (exact_.test(a)) std::swap(a, b);
@@ -141,8 +146,8 @@ class EdgeHooks {
 
 }  // namespace
 
-void hook_edges(const EsdfMap& esdf, const VoxelMask& edges, double threshold,
-                const Basins& basins, VoxelMask& diagram) {
+void hook_edges(const EsdfMap& esdf, const VoxelMask& edges, double threshold, const Basins& basins,
+                VoxelMask& diagram) {
   EdgeHooks(esdf, threshold, basins, diagram).run(edges);
 }
 

@@ -9,7 +9,7 @@ namespace ridgeway::detail {
 
 /// Adds pieces of edges to a diagram that is exact without them, and the ways that hook each piece
 /// on. All ways of `basins.next` lead to the diagram.
-void hook_edges(const EsdfMap& esdf, const VoxelMask& edges, double threshold,
-                const Basins& basins, VoxelMask& diagram);
+void hook_edges(const EsdfMap& esdf, const VoxelMask& edges, double threshold, const Basins& basins,
+                VoxelMask& diagram);
 
 }  // namespace ridgeway::detail

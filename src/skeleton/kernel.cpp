@@ -142,8 +142,7 @@ void open_shells(const EsdfMap& esdf, VoxelMask& voxels, const VoxelMask& keep) 
   for_each_level(ascending_by_distance(esdf, voxels), level, [&](std::vector<VoxelId> ids) {
     deletion.process(std::move(ids), may_go);
     for (;;) {
-      const std::vector<VoxelId> places =
-          piercing_places(esdf, voxels, deletion.due(), keep);
+      const std::vector<VoxelId> places = piercing_places(esdf, voxels, deletion.due(), keep);
       if (places.empty()) break;
       deletion.process_after(places, may_be_pierced, may_go);
     }

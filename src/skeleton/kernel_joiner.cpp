@@ -20,9 +20,15 @@ namespace {
 class KernelJoiner {
  public:
   KernelJoiner(const EsdfMap& esdf, double threshold, Basins& basins)
-      : esdf_(esdf), layout_(esdf.layout), threshold_(threshold), basins_(basins),
-        space_(esdf), regions_(basins.peaks.size()), anchored_(basins.peaks.size(), false),
-        pieces_(0), diagram_(esdf.layout) {}
+      : esdf_(esdf),
+        layout_(esdf.layout),
+        threshold_(threshold),
+        basins_(basins),
+        space_(esdf),
+        regions_(basins.peaks.size()),
+        anchored_(basins.peaks.size(), false),
+        pieces_(0),
+        diagram_(esdf.layout) {}
 
   VoxelMask run(const VoxelMask& wanted) {
     std::vector<VoxelId> voxels = wanted.members();
@@ -33,8 +39,7 @@ class KernelJoiner {
     const auto sink_to = [&](double level) {
       while (true) {
         const double move = moves_.empty() ? -1.0 : moves_.top().level;
-        const double next_pass =
-            pass < basins_.passes.size() ? basins_.passes[pass].level : -1.0;
+        const double next_pass = pass < basins_.passes.size() ? basins_.passes[pass].level : -1.0;
         if (std::max(move, next_pass) <= level) return;
         if (move >= next_pass) {
           pieces_.join(piece_.at(moves_.top().from), piece_.at(moves_.top().to));
@@ -91,8 +96,7 @@ class KernelJoiner {
   /// move is at least as wide as `level`, later where it is narrower but legal.
   void add_to_diagram(VoxelId id, double level) {
     const std::uint32_t piece = piece_.try_emplace(id, pieces_.add()).first->second;
-    for (Cube27 cube = cube_around(layout_, diagram_, id) & kCells26; cube != 0;
-         cube &= cube - 1) {
+    for (Cube27 cube = cube_around(layout_, diagram_, id) & kCells26; cube != 0; cube &= cube - 1) {
       const int d = std::countr_zero(cube);
       const VoxelId other = layout_.neighbour(id, d);
       const double width = space_.move_clearance(id, other, d);

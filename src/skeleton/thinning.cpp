@@ -35,9 +35,9 @@ constexpr std::array<Template, 38> make_templates() {
       for (const int sv : {-1, 1}) {
         const Cube27 middle_u = side(u, 0), middle_v = side(v, 0);
         // B: the three columns around one edge of the cube empty, the two faces behind full
-        all[count++] = {(side(u, su) & side(v, sv)) | (side(u, su) & middle_v) |
-                            (middle_u & side(v, sv)),
-                        face(u, -su) | face(v, -sv)};
+        all[count++] = {
+            (side(u, su) & side(v, sv)) | (side(u, su) & middle_v) | (middle_u & side(v, sv)),
+            face(u, -su) | face(v, -sv)};
         // D: in one plane exactly one diagonal cell full
         const Cube27 ring = side(axis, 0) & kCells26;
         const Cube27 diagonal = ring & side(u, su) & side(v, sv);

@@ -80,8 +80,7 @@ TEST(Esdf, IsExactThroughSpaceThatIsNotAllocated) {
   map.state = VoxelField<VoxelState>(map.layout);
   std::mt19937 random(5);
   for (std::uint32_t slot = 0; slot < map.layout.block_count(); ++slot)
-    for (int i = 0; i < 40; ++i)
-      map.state.block(slot)[random() % kBlockVoxels] = VoxelState::kFree;
+    for (int i = 0; i < 40; ++i) map.state.block(slot)[random() % kBlockVoxels] = VoxelState::kFree;
   map.state[map.layout.find({3, 3, 3})] = VoxelState::kOccupied;
   map.state[map.layout.find({9, -45, 12})] = VoxelState::kOccupied;
   const EsdfConfig config{.unknown = UnknownPolicy::kIgnore};

@@ -76,8 +76,8 @@ TEST_P(FreeSpaceOnRandomMaps, SegmentsAgreeWithBruteForce) {
       const Point a = random_point(esdf, random);
       const Point b = i % 4 == 0 ? random_point(esdf, random)
                                  : Point(a + 0.35 * (random_point(esdf, random) - a).normalized());
-      const double brute = esdf.voxel_size * brute_clearance(a / esdf.voxel_size,
-                                                             b / esdf.voxel_size, obstacles);
+      const double brute =
+          esdf.voxel_size * brute_clearance(a / esdf.voxel_size, b / esdf.voxel_size, obstacles);
       const double clearance = space.clearance(a, b);
       // Samples see a minimum that lies between them a little too high, never too low.
       const double spacing = (b - a).norm() / 400;

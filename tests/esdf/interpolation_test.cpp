@@ -57,7 +57,8 @@ TEST(Interpolation, MeetsTheVoxelsAndItsGradientIsTheSlope) {
       Point step = Point::Zero();
       step[axis] = 1e-6;
       const double slope = (interpolate_distance(esdf, p + step).distance -
-                            interpolate_distance(esdf, p - step).distance) / 2e-6;
+                            interpolate_distance(esdf, p - step).distance) /
+                           2e-6;
       ASSERT_NEAR(at.gradient[axis], slope, 1e-6);
     }
     ++checked;

@@ -125,8 +125,9 @@ int main(int argc, char** argv) try {
   std::ifstream file(argv[2]);
   Verdict verdict;
   for (const auto& path : nlohmann::json::parse(file)) judge(grid, path, verdict);
-  std::printf("{\"paths\": %zu, \"samples\": %zu, \"violations\": %zu, \"smallest_margin\": %.9f}\n",
-              verdict.paths, verdict.samples, verdict.violations, verdict.smallest_margin);
+  std::printf(
+      "{\"paths\": %zu, \"samples\": %zu, \"violations\": %zu, \"smallest_margin\": %.9f}\n",
+      verdict.paths, verdict.samples, verdict.violations, verdict.smallest_margin);
   return verdict.violations == 0 && verdict.paths > 0 ? 0 : 1;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "path_oracle: error: %s\n", error.what());

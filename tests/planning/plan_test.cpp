@@ -116,7 +116,8 @@ TEST(Plan, TestShapesHoldTheirContract) {
 }
 
 TEST(Plan, PassesADoorOfExactlyTheRobotsWidthAndNoNarrower) {
-  // The door is 0.6 m: voxel centres of 0.25 .. 0.75 in y fit a radius of 0.3 with nothing to spare.
+  // The door is 0.6 m: voxel centres of 0.25 .. 0.75 in y fit a radius of 0.3 with nothing to
+  // spare.
   const Roadmap roadmap = build_shape("door_of_the_robots_width");
   const Point start(1.05, 1.55, 0.55), goal(5.05, 1.55, 0.55);
   const PlanResult fits = plan(roadmap, start, goal);
@@ -135,10 +136,11 @@ TEST(Plan, FliesStraightWhereStartAndGoalSeeEachOther) {
 }
 
 TEST(Plan, KnowsHallsLargerThanMaxDistance) {
-  const OccupancyMap hall = testing::make_map(0.1, {0, 0, 0}, {59, 59, 39}, [](const VoxelIndex& v) {
-    const bool wall = v.x == 0 || v.y == 0 || v.z == 0 || v.x == 59 || v.y == 59 || v.z == 39;
-    return wall ? VoxelState::kOccupied : VoxelState::kFree;
-  });
+  const OccupancyMap hall =
+      testing::make_map(0.1, {0, 0, 0}, {59, 59, 39}, [](const VoxelIndex& v) {
+        const bool wall = v.x == 0 || v.y == 0 || v.z == 0 || v.x == 59 || v.y == 59 || v.z == 39;
+        return wall ? VoxelState::kOccupied : VoxelState::kFree;
+      });
   const BuildResult built = build_roadmap(hall, {.min_clearance = 0.3, .max_distance = 1.0});
   EXPECT_EQ(built.report.graph_components, 1u);
   const CheckReport report = check_roadmap(built.roadmap, {.queries = 100, .seed = 5});
@@ -156,15 +158,15 @@ TEST(Plan, GivesTheOneReasonWhyThereIsNoPath) {
   EXPECT_EQ(status(Point(-50, 0, 0), good), "start_outside_map");
   EXPECT_EQ(status(good, Point(1e300, 0, 0)), "goal_outside_map");
   EXPECT_EQ(status(Point(2, 2, 1.5), good), "start_in_collision");  // in the box
-  EXPECT_EQ(status(good, Point(0.15, 2, 1)), "goal_in_collision");   // beside the wall
+  EXPECT_EQ(status(good, Point(0.15, 2, 1)), "goal_in_collision");  // beside the wall
   EXPECT_EQ(status(good, good, 0.1), "radius_too_small");
   EXPECT_EQ(status(good, good), "ok");
   EXPECT_THROW(status(Point(std::nan(""), 0, 0), good), InputError);
   EXPECT_THROW(status(good, good, -0.3), InputError);
   EXPECT_THROW(status(good, good, std::nan("")), InputError);
-  const OccupancyMap half = testing::make_map(0.1, {0, 0, 0}, {31, 15, 15}, [](const VoxelIndex& v) {
-    return v.x < 16 ? VoxelState::kFree : VoxelState::kUnknown;
-  });
+  const OccupancyMap half = testing::make_map(
+      0.1, {0, 0, 0}, {31, 15, 15},
+      [](const VoxelIndex& v) { return v.x < 16 ? VoxelState::kFree : VoxelState::kUnknown; });
   const Roadmap half_known = build(half, 0.2);
   EXPECT_EQ(plan(half_known, Point(0.8, 0.8, 0.8), Point(2.5, 0.8, 0.8)).status,
             PlanStatus::kGoalUnknown);

@@ -45,7 +45,8 @@ void expect_equals_dijkstra(const EsdfMap& esdf, const std::vector<VoxelId>& pla
     const auto costs = testing::dijkstra_voxels(esdf, start, radius, within);
     for (std::size_t j = 0; j < 12; ++j) {
       const VoxelId goal = places[(k * 31 + j * 104729) % places.size()];
-      const LatticePath path = detail::search_lattice(esdf, start, goal, radius, {.within = within}, kNever);
+      const LatticePath path =
+          detail::search_lattice(esdf, start, goal, radius, {.within = within}, kNever);
       const auto cost = costs.find(goal);
       ASSERT_EQ(path.status == SearchStatus::kFound, cost != costs.end());
       if (path.status != SearchStatus::kFound) continue;
@@ -56,7 +57,8 @@ void expect_equals_dijkstra(const EsdfMap& esdf, const std::vector<VoxelId>& pla
   }
 }
 
-std::vector<VoxelId> traversable_places(const EsdfMap& esdf, double radius, const VoxelMask* within) {
+std::vector<VoxelId> traversable_places(const EsdfMap& esdf, double radius,
+                                        const VoxelMask* within) {
   std::vector<VoxelId> places;
   for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
     if (esdf.state[id] == VoxelState::kFree &&
@@ -105,13 +107,13 @@ TEST(AStar, ThroughEsdfDiagramAndGraphEqualsDijkstra) {
 TEST(AStar, StopsAtItsDeadline) {
   const auto roadmap = random_roadmap(1, 0.05, UnknownPolicy::kObstacle);
   ASSERT_TRUE(roadmap);
-  const OccupancyMap map = testing::make_map(0.05, {0, 0, 0}, {79, 79, 79}, [](const VoxelIndex& v) {
-    return v.x == 40 ? VoxelState::kOccupied : VoxelState::kFree;  // two rooms
-  });
+  const OccupancyMap map =
+      testing::make_map(0.05, {0, 0, 0}, {79, 79, 79}, [](const VoxelIndex& v) {
+        return v.x == 40 ? VoxelState::kOccupied : VoxelState::kFree;  // two rooms
+      });
   const EsdfMap esdf = build_roadmap(map, {.min_clearance = 0.1}).roadmap.esdf;
-  const LatticePath path =
-      detail::search_lattice(esdf, esdf.layout.find({10, 40, 40}), esdf.layout.find({70, 40, 40}),
-                             0.1, {}, Deadline(0.0));
+  const LatticePath path = detail::search_lattice(
+      esdf, esdf.layout.find({10, 40, 40}), esdf.layout.find({70, 40, 40}), 0.1, {}, Deadline(0.0));
   EXPECT_EQ(path.status, SearchStatus::kTimeout);
 }
 

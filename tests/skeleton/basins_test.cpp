@@ -27,7 +27,8 @@ using testing::regions_at;
 constexpr double kRadii[] = {0.05, 0.1, 0.11, 0.15, 0.2, 0.25, 0.3};
 
 /// Two labellings of voxels name the same sets.
-void expect_same_partition(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
+void expect_same_partition(const std::vector<std::uint32_t>& a,
+                           const std::vector<std::uint32_t>& b) {
   std::map<std::uint32_t, std::uint32_t> to_b, to_a;
   for (std::size_t i = 0; i < a.size(); ++i) {
     ASSERT_EQ(to_b.try_emplace(a[i], b[i]).first->second, b[i]);
@@ -40,8 +41,7 @@ TEST(Basins, TellExactlyWhatIsConnectedAtEveryRadius) {
     const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
     const EsdfMap esdf = compute_esdf(random_map(seed, 22), {.unknown = policy});
     const double smallest = kRadii[seed % 4];
-    const Basins basins =
-        find_basins(esdf, traversable_voxels(esdf, smallest), smallest);
+    const Basins basins = find_basins(esdf, traversable_voxels(esdf, smallest), smallest);
     ASSERT_TRUE(std::is_sorted(basins.passes.begin(), basins.passes.end(),
                                [](const Pass& a, const Pass& b) { return a.level > b.level; }));
     for (const double radius : kRadii) {
@@ -108,7 +108,8 @@ TEST(Diagram, ConnectsWhatSpaceConnectsAndAttachesTheRest) {
         const int d = basins.next[id];
         ASSERT_NE(d, kCentre);
         const VoxelId next = esdf.layout.neighbour(id, d);
-        ASSERT_TRUE(free_space.move_is_free(id, next, d, squared_threshold(radius, esdf.voxel_size)));
+        ASSERT_TRUE(
+            free_space.move_is_free(id, next, d, squared_threshold(radius, esdf.voxel_size)));
         id = next;
       }
   }

@@ -70,11 +70,11 @@ TEST(CurveEnd, CornerTemplateHasAllTwentyFourOrientations) {
     }
   }
   EXPECT_EQ(orientations, 24);
-  EXPECT_TRUE(is_curve_end(cells({{1, 0, 0}, {1, 1, 0}})));        // end of a curve of 6-steps
-  EXPECT_TRUE(is_curve_end(cells({{1, 1, 1}})));                   // one 26-neighbour
-  EXPECT_FALSE(is_curve_end(cells({{1, 0, 0}, {-1, 0, 0}})));      // middle of a line
-  EXPECT_FALSE(is_curve_end(cells({{1, 0, 0}, {0, 1, 0}})));       // an elbow
-  EXPECT_FALSE(is_curve_end(cells({{1, 0, 0}, {-1, 1, 0}})));      // middle of a curve
+  EXPECT_TRUE(is_curve_end(cells({{1, 0, 0}, {1, 1, 0}})));    // end of a curve of 6-steps
+  EXPECT_TRUE(is_curve_end(cells({{1, 1, 1}})));               // one 26-neighbour
+  EXPECT_FALSE(is_curve_end(cells({{1, 0, 0}, {-1, 0, 0}})));  // middle of a line
+  EXPECT_FALSE(is_curve_end(cells({{1, 0, 0}, {0, 1, 0}})));   // an elbow
+  EXPECT_FALSE(is_curve_end(cells({{1, 0, 0}, {-1, 1, 0}})));  // middle of a curve
 }
 
 TEST(Thinning, TemplatesMatchInEveryOrientation) {

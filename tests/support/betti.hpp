@@ -38,7 +38,8 @@ class BettiCounter {
     }
     size_ = {high.x - low.x + 3, high.y - low.y + 3, high.z - low.z + 3};
     cells_.assign(static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]) *
-                      static_cast<std::size_t>(size_[2]), 0);
+                      static_cast<std::size_t>(size_[2]),
+                  0);
     for (const VoxelId id : members) {
       const VoxelIndex v = layout.index_of(id) - low;
       cells_[place(v.x + 1, v.y + 1, v.z + 1)] = 1;
@@ -58,7 +59,8 @@ class BettiCounter {
  private:
   std::size_t place(int x, int y, int z) const {
     return (static_cast<std::size_t>(z) * static_cast<std::size_t>(size_[1]) +
-            static_cast<std::size_t>(y)) * static_cast<std::size_t>(size_[0]) +
+            static_cast<std::size_t>(y)) *
+               static_cast<std::size_t>(size_[0]) +
            static_cast<std::size_t>(x);
   }
   bool full(int x, int y, int z) const { return cells_[place(x, y, z)] == 1; }

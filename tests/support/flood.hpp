@@ -12,9 +12,9 @@ namespace ridgeway::testing {
 
 /// Parts of space that legal 26-moves connect at a radius, by plain flooding over every move.
 struct Regions {
-  std::vector<VoxelId> voxels;            ///< all of them, ascending
+  std::vector<VoxelId> voxels;  ///< all of them, ascending
   std::map<VoxelId, std::uint32_t> label;
-  std::vector<VoxelId> first;             ///< by label: the smallest voxel
+  std::vector<VoxelId> first;  ///< by label: the smallest voxel
 };
 
 inline Regions regions_at(const EsdfMap& esdf, double radius, const VoxelMask* within = nullptr) {

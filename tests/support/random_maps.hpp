@@ -56,13 +56,11 @@ inline OccupancyMap random_map(unsigned seed, int side = 20, double voxel_size =
   const VoxelIndex low{below(40) - 20, below(40) - 20, below(40) - 20};
   const VoxelIndex high = low + VoxelIndex{side + below(6), side + below(6), side / 2 + below(6)};
   const VoxelState filling = below(2) == 0 ? VoxelState::kUnknown : VoxelState::kOccupied;
-  OccupancyMap map =
-      make_map(voxel_size, low, high, [&](const VoxelIndex&) { return filling; });
+  OccupancyMap map = make_map(voxel_size, low, high, [&](const VoxelIndex&) { return filling; });
   const auto fill = [&](VoxelState state, int largest) {
     const VoxelIndex size{1 + below(largest), 1 + below(largest), 1 + below(largest)};
     const VoxelIndex extent = high - low;
-    const VoxelIndex from =
-        low + VoxelIndex{below(extent.x), below(extent.y), below(extent.z)};
+    const VoxelIndex from = low + VoxelIndex{below(extent.x), below(extent.y), below(extent.z)};
     for (int z = from.z; z < from.z + size.z && z <= high.z; ++z)
       for (int y = from.y; y < from.y + size.y && y <= high.y; ++y)
         for (int x = from.x; x < from.x + size.x && x <= high.x; ++x)

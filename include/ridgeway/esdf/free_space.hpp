@@ -74,6 +74,7 @@ class FreeSpace {
     if (L2 == 1 || rise >= 4.0 * L2) return low;
     return 0.5 * (a + b) - L2 - rise * rise / (16.0 * L2);
   }
+
  private:
   double slow_move_clearance(VoxelId from, VoxelId to, int direction, double enough) const;
 

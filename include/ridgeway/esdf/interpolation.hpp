@@ -14,8 +14,8 @@ namespace ridgeway {
 double signed_distance(const EsdfMap& esdf, const VoxelIndex& voxel, double deepest = 1.0);
 
 struct DistanceAndGradient {
-  double distance = 0.0;              ///< metres
-  Point gradient = Point::Zero();     ///< of the distance, per metre; points away from obstacles
+  double distance = 0.0;           ///< metres
+  Point gradient = Point::Zero();  ///< of the distance, per metre; points away from obstacles
 };
 
 /// Trilinear interpolation of signed distances between the eight voxel centres around a point, and

@@ -28,16 +28,16 @@ struct CheckedPath {
 struct CheckReport {
   std::size_t edges = 0;
   std::size_t edges_below_clearance = 0;
-  std::size_t components = 0;              ///< of the graph
+  std::size_t components = 0;  ///< of the graph
   std::size_t queries = 0;
-  std::size_t graph_ok = 0;                ///< queries that the roadmap answered with a path
-  std::size_t esdf_ok = 0;                 ///< queries that A* through the ESDF answered so
-  std::size_t disagreements = 0;           ///< one of them only
+  std::size_t graph_ok = 0;       ///< queries that the roadmap answered with a path
+  std::size_t esdf_ok = 0;        ///< queries that A* through the ESDF answered so
+  std::size_t disagreements = 0;  ///< one of them only
   std::size_t paths_below_clearance = 0;
-  std::size_t fallbacks = 0;               ///< answered beyond the graph
-  Spread length_ratio;                     ///< over the better of it and the ESDF's shortened
-  Spread microseconds;                     ///< shortened queries over the roadmap
-  Spread raw_microseconds;                 ///< the same queries not shortened
+  std::size_t fallbacks = 0;  ///< answered beyond the graph
+  Spread length_ratio;        ///< over the better of it and the ESDF's shortened
+  Spread microseconds;        ///< shortened queries over the roadmap
+  Spread raw_microseconds;    ///< the same queries not shortened
   Spread esdf_milliseconds;
   std::vector<CheckedPath> paths;
 

@@ -36,7 +36,7 @@ struct PlanConfig {
   Planner planner = Planner::kGraph;
   /// Metres; the roadmap's min_clearance when not given.
   std::optional<double> radius = std::nullopt;
-  bool shorten = true;           ///< pull the path tight; otherwise as the search found it
+  bool shorten = true;  ///< pull the path tight; otherwise as the search found it
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds
 
   /// Throws InputError naming the bad field (radius or time limit negative, NaN).

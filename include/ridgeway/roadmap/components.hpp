@@ -11,17 +11,17 @@ namespace ridgeway {
 /// A connected part of traversable space.
 struct Component {
   std::size_t voxels = 0;
-  double volume = 0.0;      ///< cubic metres
-  Point widest;             ///< its place of largest clearance, metres
-  double clearance = 0.0;   ///< there, metres
+  double volume = 0.0;     ///< cubic metres
+  Point widest;            ///< its place of largest clearance, metres
+  double clearance = 0.0;  ///< there, metres
 };
 
 /// The largest radius, below min_clearance, at which two components would be one, and the place
 /// that is too narrow. `a` and `b` index the components; the joins form a forest.
 struct ComponentJoin {
   std::size_t a = 0, b = 0;
-  double radius = 0.0;      ///< metres
-  Point place;              ///< metres
+  double radius = 0.0;  ///< metres
+  Point place;          ///< metres
 };
 
 struct ComponentReport {

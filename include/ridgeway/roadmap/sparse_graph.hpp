@@ -23,7 +23,7 @@ struct Vertex {
 };
 
 struct Edge {
-  VertexId from{};         ///< from < to
+  VertexId from{};  ///< from < to
   VertexId to{};
   double length = 0.0;     ///< metres
   double clearance = 0.0;  ///< smallest distance to an obstacle along the whole segment, metres

@@ -28,11 +28,11 @@ struct Pass {
 ///
 /// Heights are ordered by (4 d^2 / s^2, smaller handle first), so there are no ties.
 struct Basins {
-  VoxelField<Direction> next;         ///< towards the peak; kCentre at a peak
-  VoxelField<std::uint32_t> basin;    ///< number of the voxel's basin
-  std::vector<VoxelId> peaks;         ///< by basin, ascending handles
-  std::vector<double> dynamics;       ///< by basin: height above its pass to a higher peak, voxels
-  std::vector<Pass> passes;           ///< widest first
+  VoxelField<Direction> next;       ///< towards the peak; kCentre at a peak
+  VoxelField<std::uint32_t> basin;  ///< number of the voxel's basin
+  std::vector<VoxelId> peaks;       ///< by basin, ascending handles
+  std::vector<double> dynamics;     ///< by basin: height above its pass to a higher peak, voxels
+  std::vector<Pass> passes;         ///< widest first
   std::size_t components() const { return peaks.size() - passes.size(); }
 };
 

@@ -46,8 +46,8 @@ constexpr bool is_curve_end(Cube27 cube) {
   if (std::popcount(foreground & kCells6) > 1) return false;
   constexpr auto side = [](int axis, int value) { return detail::cells_where(axis, value); };
   for (int octant = 0; octant < 8; ++octant) {
-    const Cube27 outside = side(0, octant & 1 ? -1 : 1) | side(1, octant & 2 ? -1 : 1) |
-                           side(2, octant & 4 ? -1 : 1);
+    const Cube27 outside =
+        side(0, octant & 1 ? -1 : 1) | side(1, octant & 2 ? -1 : 1) | side(2, octant & 4 ? -1 : 1);
     if ((foreground & outside) == 0 && (foreground & kCells6) != 0) return true;
   }
   return false;

@@ -63,8 +63,7 @@ class BlockLayout {
       slot = neighbours_[slot][static_cast<std::size_t>(direction)];
       if (slot == kNoBlock) return kNoVoxel;
     }
-    return slot * kBlockVoxels +
-           static_cast<VoxelId>((x & 7) | (y & 7) << 3 | (z & 7) << 6);
+    return slot * kBlockVoxels + static_cast<VoxelId>((x & 7) | (y & 7) << 3 | (z & 7) << 6);
   }
 
   std::size_t memory_bytes() const;

@@ -29,7 +29,8 @@ class CubeGather {
           const std::uint32_t n = layout.neighbour_block(slot, beside + dx + 1);
           if (n == BlockLayout::kNoBlock) return 0;
           return static_cast<unsigned>(mask.block(n)[static_cast<std::size_t>(z & 7)] >>
-                                       (8 * (y & 7))) & 0xffu;
+                                       (8 * (y & 7))) &
+                 0xffu;
         };
         row |= part(0) << 1 | part(-1) >> 7 | (part(1) & 1u) << 9;
         rows_[static_cast<std::size_t>((z + 1) * 10 + y + 1)] = static_cast<std::uint16_t>(row);

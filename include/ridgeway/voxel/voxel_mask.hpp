@@ -32,7 +32,8 @@ class VoxelMask {
   std::size_t count() const {
     std::size_t total = 0;
     for (const Block& block : blocks_)
-      for (const std::uint64_t layer : block) total += static_cast<std::size_t>(std::popcount(layer));
+      for (const std::uint64_t layer : block)
+        total += static_cast<std::size_t>(std::popcount(layer));
     return total;
   }
 
@@ -83,7 +84,8 @@ inline Cube27 cube_around(const BlockLayout& layout, const VoxelMask& mask, Voxe
         const std::uint32_t n = layout.neighbour_block(slot, beside + dx);
         if (n == BlockLayout::kNoBlock) return 0;
         return static_cast<unsigned>(mask.block(n)[static_cast<std::size_t>((z + dz) & 7)] >>
-                                     (8 * ((y + dy) & 7))) & 0xffu;
+                                     (8 * ((y + dy) & 7))) &
+               0xffu;
       };
       unsigned bits = row(0) << 1;
       if (x == 0) bits |= row(-1) >> 7;
