@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+//
+// example_plan_once MAP.bt: from a map to a path between the first and the last vertex of its graph.
+#include <cstdio>
+#include <exception>
+
+#include "ridgeway/io/load_map.hpp"
+#include "ridgeway/planning/plan.hpp"
+#include "ridgeway/roadmap/build_roadmap.hpp"
+
+int main(int argc, char** argv) try {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: example_plan_once MAP.bt\n");
+    return 1;
+  }
+  const auto built =
+      ridgeway::build_roadmap(ridgeway::load_map(argv[1], {}), {.min_clearance = 0.3});
+  const auto& vertices = built.roadmap.graph.vertices;
+  const ridgeway::PlanResult path =
+      ridgeway::plan(built.roadmap, vertices.front().position, vertices.back().position);
+  if (!path.ok()) {
+    std::printf("no path: %s\n", ridgeway::name_of(path.status).data());
+    return 2;
+  }
+  std::printf("%.2f m, never closer than %.2f m to an obstacle:\n", path.length, path.clearance);
+  for (const ridgeway::Point& p : path.waypoints)
+    std::printf("  %.2f %.2f %.2f\n", p.x(), p.y(), p.z());
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
+}
