@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 //
-// example_plan_once MAP.bt: from a map to a path between the first and the last vertex of its graph.
+// example_plan_once MAP.bt: from a map to a path, from its widest place to the farthest one that it
+// is connected with.
 #include <cstdio>
 #include <exception>
 
@@ -16,9 +17,20 @@ int main(int argc, char** argv) try {
   }
   const auto built =
       ridgeway::build_roadmap(ridgeway::load_map(argv[1], {}), {.min_clearance = 0.3});
-  const auto& vertices = built.roadmap.graph.vertices;
+  const ridgeway::SparseGraph& graph = built.roadmap.graph;
+  const ridgeway::GraphComponents parts = ridgeway::connected_components(graph);
+  std::size_t widest = 0;
+  for (std::size_t v = 0; v < graph.vertices.size(); ++v)
+    if (graph.vertices[v].clearance > graph.vertices[widest].clearance) widest = v;
+  const ridgeway::Point start = graph.vertices[widest].position;
+  std::size_t farthest = widest;
+  for (std::size_t v = 0; v < graph.vertices.size(); ++v)
+    if (parts.label[v] == parts.label[widest] &&
+        (graph.vertices[v].position - start).norm() >
+            (graph.vertices[farthest].position - start).norm())
+      farthest = v;
   const ridgeway::PlanResult path =
-      ridgeway::plan(built.roadmap, vertices.front().position, vertices.back().position);
+      ridgeway::plan(built.roadmap, start, graph.vertices[farthest].position);
   if (!path.ok()) {
     std::printf("no path: %s\n", ridgeway::name_of(path.status).data());
     return 2;
