@@ -175,14 +175,6 @@ class PassFinder {
   }
 
  private:
-  struct Narrower {
-    bool operator()(const Pass& a, const Pass& b) const {
-      return a.level != b.level ? a.level < b.level
-             : a.from != b.from ? a.from > b.from
-                                : a.to > b.to;
-    }
-  };
-
   void add(VoxelId id) {
     const std::uint64_t own = height(esdf_, id);
     Cube27 higher = 0;
@@ -249,7 +241,7 @@ class PassFinder {
   DisjointSets sets_;
   FreeSpace space_;
   std::vector<std::uint32_t> highest_;  // by set: the basin of its highest peak
-  std::priority_queue<Pass, std::vector<Pass>, Narrower> waiting_;
+  std::priority_queue<Pass, std::vector<Pass>, NarrowerPass> waiting_;
 };
 
 }  // namespace

@@ -58,14 +58,6 @@ class KernelJoiner {
   }
 
  private:
-  struct Narrower {
-    bool operator()(const Pass& a, const Pass& b) const {
-      return a.level != b.level ? a.level < b.level
-             : a.from != b.from ? a.from > b.from
-                                : a.to > b.to;
-    }
-  };
-
   VoxelId after(VoxelId id) const {
     return basins_.next[id] == kCentre ? kNoVoxel : layout_.neighbour(id, basins_.next[id]);
   }
@@ -170,7 +162,7 @@ class KernelJoiner {
   std::vector<bool> anchored_;  // by region: holds a diagram voxel
   DisjointSets pieces_;         // of diagram voxels
   std::unordered_map<VoxelId, std::uint32_t> piece_;
-  std::priority_queue<Pass, std::vector<Pass>, Narrower> moves_;  // legal but narrower than ends
+  std::priority_queue<Pass, std::vector<Pass>, NarrowerPass> moves_;  // legal but narrower than ends
   VoxelMask diagram_;
 };
 

@@ -21,6 +21,14 @@ struct Pass {
   VoxelId to = kNoVoxel;
 };
 
+/// Order of a queue whose top is the widest pass; equally wide ones by their handles.
+struct NarrowerPass {
+  bool operator()(const Pass& a, const Pass& b) const {
+    if (a.level != b.level) return a.level < b.level;
+    return a.from != b.from ? a.from > b.from : a.to > b.to;
+  }
+};
+
 /// Traversable space as a landscape whose height is the clearance. Each voxel climbs to a peak by
 /// moves that are nowhere narrower than the voxel itself; the passes, widest first, are the
 /// maximum spanning forest of all basins over all legal moves. Together they tell exactly at which
