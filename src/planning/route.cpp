@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "attach_way.hpp"
+#include "endpoint.hpp"
 #include "graph_search.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/roadmap/build_graph.hpp"
@@ -18,8 +19,9 @@ constexpr int kSearches = 3;
 constexpr float kPenalty = 1.6f;          // on edges that an earlier route took
 constexpr double kNearlyStraight = 1.01;  // over the straight line: not worth another route
 constexpr double kSuspicious = 1.15;      // over the straight line: worth a second opinion
-constexpr double kCoarseWeight = 1.2;     // of that search's heuristic
-constexpr int kCoarseExpansions = 1500;   // well below a millisecond
+constexpr double kVerySuspicious = 1.25;  // worth a finer one
+constexpr double kQuickWeight = 1.2;      // of those searches' heuristic
+constexpr int kQuickExpansions = 2000;    // about a millisecond
 constexpr double kLatticeExcess = 1.05;   // by which a lattice path shrinks when it is shortened
 constexpr double kMostlyShrinksTo = 0.7;  // of its length a route seldom becomes shorter
 
@@ -200,17 +202,20 @@ VoxelId even_voxel(const EsdfMap& esdf, const FreeSpace& space, const Point& p, 
   return kNoVoxel;
 }
 
-/// A second opinion on a path that stays long: a quick search over every second voxel for one
-/// that is shorter. Empty where it finds none in its small budget.
-Route search_coarsely(const EsdfMap& esdf, const FreeSpace& space, const Point& start,
-                      const Point& goal, double radius, double longest, const Deadline& deadline) {
-  const VoxelId from = even_voxel(esdf, space, start, radius);
-  const VoxelId to = even_voxel(esdf, space, goal, radius);
+/// A second opinion on a path that stays long: a quick search over every voxel, or every second
+/// one, for one that is shorter. Empty where it finds none in its small budget.
+Route search_quickly(const EsdfMap& esdf, const FreeSpace& space, const Point& start,
+                     const Point& goal, double radius, int stride, double longest,
+                     const Deadline& deadline) {
+  const auto voxel_of = [&](const Point& p) {
+    return stride == 1 ? find_endpoint(esdf, p, radius).voxel : even_voxel(esdf, space, p, radius);
+  };
+  const VoxelId from = voxel_of(start), to = voxel_of(goal);
   if (from == kNoVoxel || to == kNoVoxel) return {};
-  const LatticeOptions options{.stride = 2,
-                               .weight = kCoarseWeight,
+  const LatticeOptions options{.stride = stride,
+                               .weight = kQuickWeight,
                                .longest = longest * kLatticeExcess / esdf.voxel_size,
-                               .most_expansions = kCoarseExpansions};
+                               .most_expansions = kQuickExpansions};
   const LatticePath path = search_lattice(esdf, from, to, radius, options, deadline);
   if (path.status != SearchStatus::kFound) return {};
   return route_over_voxels(esdf, {from, to, start, goal, radius}, path.voxels);
@@ -235,12 +240,15 @@ Route tightest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found, 
   }
   if (shortest > enough && best.size() > 2)
     best = shorten(space, redirect(esdf, space, best, radius, deadline), radius, deadline);
-  shortest = length_of(best);
-  if (shortest > kSuspicious * (best.back() - best.front()).norm() && !deadline.has_passed()) {
-    Route coarse =
-        search_coarsely(esdf, space, best.front(), best.back(), radius, shortest, deadline);
-    if (!coarse.empty()) coarse = shorten(space, std::move(coarse), radius, deadline);
-    if (!coarse.empty() && length_of(coarse) < shortest) best = std::move(coarse);
+  for (const int stride : {2, 1}) {  // the coarse one is quick, the fine one fits narrow places
+    shortest = length_of(best);
+    const double suspicious = stride == 2 ? kSuspicious : kVerySuspicious;
+    if (shortest <= suspicious * (best.back() - best.front()).norm() || deadline.has_passed())
+      break;
+    Route other =
+        search_quickly(esdf, space, best.front(), best.back(), radius, stride, shortest, deadline);
+    if (!other.empty()) other = shorten(space, std::move(other), radius, deadline);
+    if (!other.empty() && length_of(other) < shortest) best = std::move(other);
   }
   return best;
 }
