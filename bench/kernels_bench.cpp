@@ -120,7 +120,7 @@ std::vector<std::pair<Point, Point>> draw_queries(std::size_t count) {
     };
     const Point start = place(), goal = place();
     if (plan(pipeline().roadmap, start, goal, {.shorten = false}).ok())
-      queries.push_back({start, goal});
+      queries.emplace_back(start, goal);
   }
   return queries;
 }

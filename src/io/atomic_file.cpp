@@ -56,7 +56,7 @@ fs::path temporary_beside(const fs::path& target) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(fs::path target) : target_(follow_link(target)) {
+AtomicFile::AtomicFile(const fs::path& target) : target_(follow_link(target)) {
   std::error_code ignored;
   const fs::file_status status = fs::status(target_, ignored);
   if (fs::is_directory(status)) fail(EISDIR);

@@ -33,7 +33,7 @@ inline std::uint32_t crc32c(std::span<const std::byte> bytes) {
   const auto& t = detail::kCrc32cTables;
   std::uint32_t sum = 0xffffffffu;
   for (; bytes.size() >= 8; bytes = bytes.subspan(8)) {
-    std::uint64_t word;  // little-endian machines only, as the whole of this module
+    std::uint64_t word = 0;  // little-endian machines only, as the whole of this module
     std::memcpy(&word, bytes.data(), 8);
     word ^= sum;
     sum = t[7][word & 255] ^ t[6][word >> 8 & 255] ^ t[5][word >> 16 & 255] ^

@@ -140,6 +140,7 @@ void write_diagram_ply(const Roadmap& roadmap, const std::filesystem::path& path
   const EsdfMap& esdf = roadmap.esdf;
   const std::vector<VoxelId> voxels = roadmap.diagram.voxels.members();
   std::vector<double> clearances;
+  clearances.reserve(voxels.size());
   for (const VoxelId id : voxels) clearances.push_back(esdf.distance(id));
   const double widest = widest_clearance(clearances);
   Bytes bytes;

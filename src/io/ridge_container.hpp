@@ -86,7 +86,7 @@ class RidgeReader {
   };
 
   /// Reads and verifies one chunk. Thread-safe with a scratch for each thread.
-  void read_chunk(const RidgeSectionEntry& section, std::size_t chunk, Scratch& scratch,
+  void read_chunk(const RidgeSectionEntry& section, std::size_t index, Scratch& scratch,
                   std::vector<std::byte>& raw) const;
   /// Reads all chunks of a section that must have `expected_bytes`.
   std::vector<std::byte> read_all(const RidgeSectionEntry& section,

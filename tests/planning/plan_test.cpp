@@ -183,6 +183,7 @@ TEST(Plan, IsSafeToCallFromManyThreadsAndRepeats) {
   };
   std::vector<std::vector<PlanResult>> results(4);
   std::vector<std::thread> threads;
+  threads.reserve(results.size());
   for (auto& mine : results) threads.emplace_back([&] { work(mine); });
   for (std::thread& thread : threads) thread.join();
   for (std::size_t t = 1; t < results.size(); ++t)

@@ -17,7 +17,7 @@ class AtomicFile {
  public:
   /// Opens the temporary file. A target that exists and is no regular file is refused; a link is
   /// followed, so that the file it points to is replaced.
-  explicit AtomicFile(std::filesystem::path target);
+  explicit AtomicFile(const std::filesystem::path& target);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
