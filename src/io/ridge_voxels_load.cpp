@@ -60,7 +60,7 @@ bool decode_states(const std::byte* raw, EsdfMap& esdf, std::uint32_t slot, Bloc
   for (std::size_t z = 0; z < kBlockSide; ++z) {
     std::uint64_t layer = 0;
     for (std::size_t y = 0; y < kBlockSide; ++y) {
-      std::uint64_t row;  // eight bytes of 0 or 1 become eight bits
+      std::uint64_t row = 0;  // eight bytes of 0 or 1 become eight bits
       std::memcpy(&row, obstacle.data() + z * 64 + y * 8, 8);
       layer |= (row * 0x0102040810204080ull >> 56) << (8 * y);
     }

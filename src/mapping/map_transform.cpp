@@ -152,7 +152,7 @@ std::optional<LatticeTransform> find_lattice_transform(const Eigen::Isometry3d& 
     const double entry = T_target_source.linear().row(a).cwiseAbs().maxCoeff(&axis);
     const double moved = T_target_source.translation()[a] / voxel_size;
     if (std::abs(entry - 1.0) > slack || std::abs(moved - std::round(moved)) > slack ||
-        std::abs(moved) > kMaxVoxelIndex / 2)
+        std::abs(moved) > 0.5 * kMaxVoxelIndex)
       return std::nullopt;
     const auto place = static_cast<std::size_t>(a);
     result.source_axis[place] = axis;
@@ -172,7 +172,7 @@ OccupancyMap transform_map(const OccupancyMap& map, const Eigen::Isometry3d& T_t
     what << voxel_size << " m is finer than the map's own " << map.voxel_size << " m";
     throw InputError("voxel_size", what.str(), "leave it out, or give a larger one");
   }
-  if (T_target_source.translation().cwiseAbs().maxCoeff() / voxel_size > kMaxVoxelIndex / 2)
+  if (T_target_source.translation().cwiseAbs().maxCoeff() / voxel_size > 0.5 * kMaxVoxelIndex)
     throw InputError("transform", "moves the map by more than 5e8 voxels", "check its units");
 
   // Much coarser voxels would each read very many: turn at about the map's own size first.

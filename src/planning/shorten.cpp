@@ -46,9 +46,10 @@ std::vector<Point> skip_waypoints(const FreeSpace& space, const std::vector<Poin
 std::vector<Point> subdivide(const std::vector<Point>& path, double step) {
   std::vector<Point> result{path.front()};
   for (std::size_t i = 1; i < path.size(); ++i) {
-    const Point from = path[i - 1], along = path[i] - from;
+    const Point& from = path[i - 1];
+    const Point along = path[i] - from;
     const int pieces = static_cast<int>(along.norm() / step) + 1;
-    for (int k = 1; k < pieces; ++k) result.push_back(from + along * k / pieces);
+    for (int k = 1; k < pieces; ++k) result.emplace_back(from + along * k / pieces);
     result.push_back(path[i]);
   }
   return result;

@@ -64,8 +64,8 @@ void fit_segments(const EsdfMap& esdf, const DiagramCurves& curves, const Curve&
         continue;
       }
     }
-    open.push_back({farthest.place, last});
-    open.push_back({first, farthest.place});
+    open.emplace_back(farthest.place, last);
+    open.emplace_back(first, farthest.place);
   }
 }
 

@@ -11,7 +11,6 @@
 
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
-#include "ridgeway/skeleton/basins.hpp"
 #include "ridgeway/voxel/cube_gather.hpp"
 #include "ridgeway/voxel/disjoint_sets.hpp"
 
@@ -138,7 +137,7 @@ void label_basins(const EsdfMap& esdf, const VoxelMask& traversable, Landscape& 
       [&](std::size_t slot) {
         for_each_member(traversable, static_cast<std::uint32_t>(slot), [&](VoxelId start) {
           VoxelId top = start;
-          std::uint32_t basin;
+          std::uint32_t basin = kNone;
           while ((basin = label(top).load(std::memory_order_relaxed)) == kNone)
             top = esdf.layout.neighbour(top, basins.next[top]);
           for (VoxelId id = start; id != top; id = esdf.layout.neighbour(id, basins.next[id]))
