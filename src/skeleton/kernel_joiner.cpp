@@ -162,7 +162,8 @@ class KernelJoiner {
   std::vector<bool> anchored_;  // by region: holds a diagram voxel
   DisjointSets pieces_;         // of diagram voxels
   std::unordered_map<VoxelId, std::uint32_t> piece_;
-  std::priority_queue<Pass, std::vector<Pass>, NarrowerPass> moves_;  // legal but narrower than ends
+  std::priority_queue<Pass, std::vector<Pass>, NarrowerPass>
+      moves_;  // legal but narrower than ends
   VoxelMask diagram_;
 };
 
