@@ -120,7 +120,9 @@ std::vector<Query> read_queries(const std::string& file, double radius) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     const std::size_t first = line.find_first_not_of(" \t");
     if (first == std::string::npos || line[first] == '#') continue;
-    const bool is_names = std::isalpha(static_cast<unsigned char>(line[first])) != 0;
+    const std::string word = line.substr(first, 3);
+    const bool is_names = std::isalpha(static_cast<unsigned char>(line[first])) != 0 &&
+                          word != "nan" && word != "inf" && word != "NaN" && word != "Inf";
     if (is_names && std::exchange(names_allowed, false)) continue;
     names_allowed = false;
     const std::string where = file + " line " + std::to_string(number);
@@ -128,6 +130,8 @@ std::vector<Query> read_queries(const std::string& file, double radius) {
     const bool finite = std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
     if ((v.size() != 6 && v.size() != 7) || !finite)
       throw InputError(where, "is no query", "give x,y,z,x,y,z or x,y,z,x,y,z,radius");
+    if (v.size() == 7 && v[6] <= 0.0)
+      throw InputError(where, "has a radius that is not above 0", "give metres");
     queries.push_back(
         {Point(v[0], v[1], v[2]), Point(v[3], v[4], v[5]), v.size() == 7 ? v[6] : radius});
   }

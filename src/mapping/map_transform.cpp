@@ -146,13 +146,15 @@ void validate_transform(const Eigen::Isometry3d& transform) {
 std::optional<LatticeTransform> find_lattice_transform(const Eigen::Isometry3d& T_target_source,
                                                        double voxel_size) {
   constexpr double slack = 1e-6;
+  constexpr double straight = 1e-9;  // of an axis off its row: below a voxel over any map's reach
   LatticeTransform result;
   for (int a = 0; a < 3; ++a) {
     int axis = 0;
     const double entry = T_target_source.linear().row(a).cwiseAbs().maxCoeff(&axis);
     const double moved = T_target_source.translation()[a] / voxel_size;
-    if (std::abs(entry - 1.0) > slack || std::abs(moved - std::round(moved)) > slack ||
-        std::abs(moved) > 0.5 * kMaxVoxelIndex)
+    const double off_axis = T_target_source.linear().row(a).cwiseAbs().sum() - entry;
+    if (std::abs(entry - 1.0) > slack || off_axis > straight ||
+        std::abs(moved - std::round(moved)) > slack || std::abs(moved) > 0.5 * kMaxVoxelIndex)
       return std::nullopt;
     const auto place = static_cast<std::size_t>(a);
     result.source_axis[place] = axis;

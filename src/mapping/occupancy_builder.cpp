@@ -14,10 +14,10 @@
 namespace ridgeway {
 
 void validate_voxel_size(double voxel_size, const std::string& name) {
-  if (voxel_size > 0.0 && std::isfinite(voxel_size)) return;
+  if (voxel_size >= 1e-6 && voxel_size <= 1e6) return;
   std::ostringstream what;
   what << "is " << voxel_size << " m";
-  throw InputError(name, what.str(), "give a finite length above 0, for example 0.1");
+  throw InputError(name, what.str(), "give a length from 1e-6 to 1e6 metres, for example 0.1");
 }
 
 OccupancyBuilder::OccupancyBuilder(double voxel_size, Config config)

@@ -58,6 +58,8 @@ void BuildConfig::validate() const {
 
 BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Progress& progress) {
   config.validate();
+  require(config.min_clearance >= 1e-3 * map.voxel_size, "min_clearance", config.min_clearance,
+          "give the robot's radius in metres, at least a thousandth of a voxel");
   // Up to two voxels below max_distance radii are exact; at least the smallest must be.
   require(config.max_distance >= config.min_clearance + 2.0 * map.voxel_size, "max_distance",
           config.max_distance, "give at least min_clearance and two voxels, or leave it out");

@@ -41,6 +41,12 @@ TEST(LatticeTransform, IsNotFoundWhereVoxelsDoNotMeetVoxels) {
   EXPECT_FALSE(find_lattice_transform(motion(0, 0, 0, {0.05, 0, 0}), 0.1));
 }
 
+TEST(LatticeTransform, IsNotFoundForATurnHoweverSmall) {
+  Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
+  turn.rotate(Eigen::AngleAxisd(1e-4, Eigen::Vector3d::UnitZ()));
+  EXPECT_FALSE(find_lattice_transform(turn, 0.1));
+}
+
 TEST(TransformMap, AgreesWithTheLatticeWhereThatIsExact) {
   const OccupancyMap map = testing::random_map(5);
   const auto T = motion(0, 0, std::numbers::pi / 2, {0.3, -0.7, 1.1});

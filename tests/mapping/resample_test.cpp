@@ -94,12 +94,11 @@ TEST(Resample, TheOwnSizeChangesNothing) {
 TEST(Resample, HugeVoxelsAreQuick) {
   OccupancyMap map = testing::random_map(1);
   EXPECT_GT(count_voxels(resample(map, 1e5)).occupied, 0u);
-  EXPECT_GT(count_voxels(resample(map, 1e300)).occupied, 0u);
 }
 
 TEST(Resample, RefusesFinerAndNonsense) {
   const OccupancyMap map = testing::random_map(1);
-  for (const double size : {0.0999, 0.0, -1.0, std::nan(""), HUGE_VAL})
+  for (const double size : {0.0999, 0.0, -1.0, 5e7, 1e300, std::nan(""), HUGE_VAL})
     EXPECT_THROW(resample(map, size), InputError) << size;
 }
 
