@@ -94,7 +94,7 @@ class SegmentMarch {
   /// Upper bound of min D^2, from the sites of the voxels on the way; infinite where none has one.
   double upper_bound() const {
     double best = std::min(at_site(at(0.0)), at_site(at(length_)));
-    for (double t = 1.5; t < length_; t += 3.0) best = std::min(best, at_site(at(t)));
+    for (double t = 4.0; t < length_; t += 8.0) best = std::min(best, at_site(at(t)));
     return best;
   }
 

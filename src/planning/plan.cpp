@@ -36,7 +36,7 @@ PlanStatus status_of(EndpointStatus status, bool is_start) {
   return PlanStatus::kOk;
 }
 
-constexpr double kUnknownStep = 4.0;  // voxels between looks at what the path borders
+constexpr double kUnknownStep = 8.0;  // voxels between looks at what the path borders
 
 void require_finite(const Point& p, const char* name) {
   if (!p.allFinite())
