@@ -6,17 +6,9 @@
 #include <numeric>
 #include <tuple>
 
+#include "ridgeway/voxel/disjoint_sets.hpp"
+
 namespace ridgeway {
-namespace {
-
-/// Representative of a vertex's part; halves the way for later calls.
-std::uint32_t find_root(std::vector<std::uint32_t>& parent, std::uint32_t v) {
-  while (parent[v] != v) v = parent[v] = parent[parent[v]];
-  return v;
-}
-
-}  // namespace
-
 void index_links(SparseGraph& graph) {
   std::sort(graph.edges.begin(), graph.edges.end(), [](const Edge& a, const Edge& b) {
     return std::tie(a.from, a.to) < std::tie(b.from, b.to);
@@ -38,18 +30,16 @@ void index_links(SparseGraph& graph) {
 
 GraphComponents connected_components(const SparseGraph& graph) {
   const std::size_t count = graph.vertices.size();
-  std::vector<std::uint32_t> parent(count);
-  std::iota(parent.begin(), parent.end(), 0u);
-  for (const Edge& edge : graph.edges) {
-    const std::uint32_t a = find_root(parent, static_cast<std::uint32_t>(edge.from));
-    const std::uint32_t b = find_root(parent, static_cast<std::uint32_t>(edge.to));
-    parent[std::max(a, b)] = std::min(a, b);  // a root is the smallest vertex of its part
-  }
+  DisjointSets sets(count);
+  for (const Edge& edge : graph.edges)
+    sets.join(static_cast<std::uint32_t>(edge.from), static_cast<std::uint32_t>(edge.to));
   GraphComponents parts;
   parts.label.resize(count);
+  std::vector<std::uint32_t> label_of(count, static_cast<std::uint32_t>(count));  // by set
   for (std::uint32_t v = 0; v < count; ++v) {
-    const std::uint32_t root = find_root(parent, v);
-    parts.label[v] = root == v ? parts.count++ : parts.label[root];
+    std::uint32_t& label = label_of[sets.find(v)];
+    if (label == count) label = parts.count++;
+    parts.label[v] = label;
   }
   return parts;
 }
