@@ -36,11 +36,11 @@ double squared_far(const EsdfMap& esdf) {
 
 /// Lower bound of D^2 at a point from the eight voxel centres around it: trilinear interpolation
 /// of d^2 less the sum of t (1 - t), since D^2(x) - |x|^2 is concave.
-double lower_bound(const EsdfMap& esdf, const Vector& p, double far) {
+double lower_bound(const EsdfMap& esdf, VoxelFinder& finder, const Vector& p, double far) {
   const Vector shifted = p - Vector::Constant(0.5);
   const VoxelIndex base = voxel_holding(shifted);
   const Vector t = shifted - Vector(base.x, base.y, base.z);
-  const VoxelId corner = esdf.layout.find(base);
+  const VoxelId corner = finder.find(base);
   double sum = 0.0;
   for (int i = 0; i < 8; ++i) {
     const int dx = i & 1, dy = i >> 1 & 1, dz = i >> 2;
@@ -63,18 +63,18 @@ double lower_bound(const EsdfMap& esdf, const Vector& p, double far) {
 class SegmentMarch {
  public:
   SegmentMarch(const EsdfMap& esdf, const Vector& a, const Vector& b)
-      : esdf_(esdf), a_(a), length_((b - a).norm()), far_(squared_far(esdf)) {
+      : esdf_(esdf), finder_(esdf.layout), a_(a), length_((b - a).norm()), far_(squared_far(esdf)) {
     along_ = length_ > 0.0 ? Vector((b - a) / length_) : Vector::Zero();
   }
 
   /// Whether D^2 >= limit on all of the segment.
-  bool stays_above(double limit) const { return first_doubt<true>(limit) > length_; }
-  bool stays_clearly_above(double limit) const { return first_doubt<false>(limit) > length_; }
+  bool stays_above(double limit) { return first_doubt<true>(limit) > length_; }
+  bool stays_clearly_above(double limit) { return first_doubt<false>(limit) > length_; }
 
   /// Where, in voxels from the start, a stretch of at most a voxel begins on which D^2 falls below
   /// the limit; beyond the length if there is none. Unless `exact`, also where it might.
   template <bool exact>
-  double first_doubt(double limit) const {
+  double first_doubt(double limit) {
     const double radius = std::sqrt(limit);
     for (double t = 0.0; t <= length_;) {
       const double step = safe_step(at(t), radius);
@@ -92,16 +92,16 @@ class SegmentMarch {
   }
 
   /// Upper bound of min D^2, from the sites of the voxels on the way; infinite where none has one.
-  double upper_bound() const {
+  double upper_bound() {
     double best = std::min(at_site(at(0.0)), at_site(at(length_)));
     for (double t = 4.0; t < length_; t += 8.0) best = std::min(best, at_site(at(t)));
     return best;
   }
 
   /// min D^2 along the segment, if below `best` (finite), else `best`.
-  double minimum(double best) const {
-    for (double t = 0.0; t <= length_;) {
-      const double step = best > 0.0 ? safe_step(at(t), std::sqrt(best)) : 1.0;
+  double minimum(double best) {
+    for (double t = 0.0; t <= length_ && best > 0.0;) {
+      const double step = safe_step(at(t), std::sqrt(best));
       if (step > 0.0) {
         t += step;
         continue;
@@ -122,9 +122,9 @@ class SegmentMarch {
   Vector at(double t) const { return a_ + t * along_; }
 
   /// How far one may go from x while D >= radius is certain: > 0; 0: not known; < 0: blocked.
-  double safe_step(const Vector& x, double radius) const {
+  double safe_step(const Vector& x, double radius) {
     const VoxelIndex voxel = voxel_holding(x);
-    const VoxelId id = esdf_.layout.find(voxel);
+    const VoxelId id = finder_.find(voxel);
     if (id == kNoVoxel) return esdf_.unknown == UnknownPolicy::kObstacle ? -1.0 : 0.0;
     const double squared = stored(esdf_, id, far_);
     if (squared == 0.0) return -1.0;
@@ -134,9 +134,9 @@ class SegmentMarch {
   }
 
   /// Squared distance from x to the site of its voxel: never too small.
-  double at_site(const Vector& x) const {
+  double at_site(const Vector& x) {
     const VoxelIndex voxel = voxel_holding(x);
-    const VoxelId id = esdf_.layout.find(voxel);
+    const VoxelId id = finder_.find(voxel);
     if (id == kNoVoxel) return esdf_.unknown == UnknownPolicy::kObstacle ? 0.0 : kInfinity;
     if (esdf_.squared[id] == kNoSite) return kInfinity;
     const SiteOffset& o = esdf_.site[id];
@@ -144,15 +144,16 @@ class SegmentMarch {
   }
 
   /// Lower bound of D^2 between two places on the segment, by concavity from bounds at the ends.
-  double bound_between(double t0, double t1) const {
-    const double b0 = lower_bound(esdf_, at(t0), far_), b1 = lower_bound(esdf_, at(t1), far_);
+  double bound_between(double t0, double t1) {
+    const double b0 = lower_bound(esdf_, finder_, at(t0), far_),
+                 b1 = lower_bound(esdf_, finder_, at(t1), far_);
     const double squared = (t1 - t0) * (t1 - t0), rise = std::abs(b1 - b0);
     if (rise >= squared) return std::min(b0, b1);
     return 0.5 * (b0 + b1) - 0.25 * squared - (squared > 0.0 ? 0.25 * rise * rise / squared : 0.0);
   }
 
   template <bool exact>
-  bool close_stays_above(double t0, double t1, double limit) const {
+  bool close_stays_above(double t0, double t1, double limit) {
     if (!exact) return bound_between(t0, t1) >= limit;
     if (at_site(at(t0)) < limit || at_site(at(t1)) < limit) return false;
     if (bound_between(t0, t1) >= limit) return true;
@@ -160,6 +161,7 @@ class SegmentMarch {
   }
 
   const EsdfMap& esdf_;
+  VoxelFinder finder_;
   const Vector a_;
   const double length_;
   const double far_;
@@ -189,20 +191,20 @@ double FreeSpace::clearance(const Point& a, const Point& b) const {
   return clearance(path);
 }
 
-double FreeSpace::clearance(std::span<const Point> path) const {
+double FreeSpace::clearance(std::span<const Point> path, double at_most) const {
   const double s = esdf_.voxel_size;
   const auto for_each_segment = [&](const auto& body) {
     for (std::size_t i = path.size() == 1 ? 0 : 1; i < path.size(); ++i)
       body(SegmentMarch(esdf_, path[i == 0 ? 0 : i - 1] / s, path[i] / s));
   };
   // A good bound first: then only the narrowest places are looked at closely.
-  double best = kInfinity;
-  for_each_segment([&](const SegmentMarch& m) { best = std::min(best, m.upper_bound()); });
+  double best = at_most / s * (at_most / s);
+  for_each_segment([&](SegmentMarch m) { best = std::min(best, m.upper_bound()); });
   if (std::isinf(best)) {  // no site near any of it: farther than max_distance, if that is finite
     if (std::isinf(esdf_.max_distance)) return best;
     best = squared_far(esdf_);
   }
-  for_each_segment([&](const SegmentMarch& m) { best = m.minimum(best); });
+  for_each_segment([&](SegmentMarch m) { best = m.minimum(best); });
   return s * std::sqrt(best);
 }
 

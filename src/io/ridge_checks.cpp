@@ -2,11 +2,13 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "ridge_checks.hpp"
 
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <tuple>
 
 #include "ridgeway/common/parallel.hpp"
+#include "ridgeway/esdf/free_space.hpp"
 
 namespace ridgeway {
 namespace {
@@ -47,6 +49,30 @@ Defect find_edge_defect(const SparseGraph& graph) {
     }
   }
   return {};
+}
+
+/// Whether every edge has the length and the clearance that it says: queries rely on both.
+bool edges_hold(const Roadmap& roadmap) {
+  constexpr double kRounding = 1e-9;
+  const SparseGraph& graph = roadmap.graph;
+  const FreeSpace space(roadmap.esdf);
+  std::atomic<bool> good = true;
+  parallel_for_each_index(
+      graph.edges.size(),
+      [&](std::size_t i) {
+        const Edge& edge = graph.edges[i];
+        const std::array ends{graph.vertices[number(edge.from)].position,
+                              graph.vertices[number(edge.to)].position};
+        const double length = (ends[1] - ends[0]).norm();
+        const bool is_free = std::isinf(edge.clearance)
+                                 ? std::isinf(space.clearance(ends))
+                                 : space.is_free(ends[0], ends[1], edge.clearance);
+        if (!is_free || std::abs(length - edge.length) > kRounding * length ||
+            edge.clearance < roadmap.min_clearance * (1.0 - kRounding))
+          good = false;
+      },
+      64);
+  return good;
 }
 
 /// Every vertex must reach a root: each is walked from once, up to the first known good one.
@@ -147,6 +173,8 @@ Defect find_size_defect(const Roadmap& roadmap) {
 Defect find_graph_defect(const Roadmap& roadmap) {
   if (Defect defect = find_vertex_defect(roadmap)) return defect;
   if (Defect defect = find_edge_defect(roadmap.graph)) return defect;
+  if (!edges_hold(roadmap))
+    return RoadmapDefect{"edges", "has an edge that comes nearer to an obstacle than it says"};
   return find_tree_defect(roadmap);
 }
 

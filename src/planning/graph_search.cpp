@@ -32,6 +32,7 @@ std::vector<VertexId> search_graph(const SparseGraph& graph, VertexId start, Ver
   const auto heuristic = [&](VertexId v) {
     return (graph.vertices[number(v)].position - target).norm();
   };
+  const auto is_dead_end = [&](VertexId v) { return v != goal && graph.links_of(v).size() == 1; };
   std::vector<VertexState> states(graph.vertices.size());
   std::priority_queue<OpenEntry> open;
   states[number(start)].cost = 0.0;
@@ -51,6 +52,7 @@ std::vector<VertexId> search_graph(const SparseGraph& graph, VertexId start, Ver
       const double cost = state.cost + edge.length * factor;
       VertexState& next = states[number(link.vertex)];
       if (next.closed || cost >= next.cost) continue;
+      if (is_dead_end(link.vertex)) continue;
       next.cost = cost;
       next.from = vertex;
       open.push({cost + heuristic(link.vertex), link.vertex});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "deadline.hpp"
@@ -43,10 +44,19 @@ void require_finite(const Point& p, const char* name) {
     throw InputError(name, "is not a finite point", "give three finite coordinates in metres");
 }
 
+/// Exact; of the graph's edges the clearance is known.
+double clearance_of(const FreeSpace& space, std::span<const Point> route,
+                    const detail::EdgeStretch& edges) {
+  const double before = space.clearance(route.first(edges.first + 1), edges.clearance);
+  return space.clearance(route.subspan(edges.last), before);
+}
+
 /// Length, clearance and the share that borders the unknown.
-void describe(const EsdfMap& esdf, const FreeSpace& space, PlanResult& result) {
+void describe(const EsdfMap& esdf, const FreeSpace& space, const detail::EdgeStretch& edges,
+              PlanResult& result) {
   result.length = detail::length_of(result.waypoints);
-  result.clearance = space.clearance(result.waypoints);
+  result.clearance = clearance_of(space, result.waypoints, edges);
+  VoxelFinder finder(esdf.layout);
   double bordering = 0.0;
   for (std::size_t i = 1; i < result.waypoints.size(); ++i) {
     const Point& a = result.waypoints[i - 1];
@@ -56,10 +66,10 @@ void describe(const EsdfMap& esdf, const FreeSpace& space, PlanResult& result) {
     int unknown = 0;
     for (int k = 0; k < pieces; ++k) {
       const VoxelIndex v = voxel_at(a + (b - a) * ((k + 0.5) / pieces), esdf.voxel_size);
-      const VoxelId id = esdf.layout.find(v);
+      const VoxelId id = finder.find(v);
       if (id == kNoVoxel || esdf.squared[id] == kNoSite) continue;
       const SiteOffset o = esdf.site[id];
-      const VoxelId site = esdf.layout.find(v + VoxelIndex{o.x, o.y, o.z});
+      const VoxelId site = finder.find(v + VoxelIndex{o.x, o.y, o.z});
       unknown += site == kNoVoxel || esdf.state[site] == VoxelState::kUnknown;
     }
     bordering += length * unknown / pieces;
@@ -137,7 +147,7 @@ PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
   if (config.shorten && space.is_free(start, goal, radius)) {  // nothing is shorter
     result.answered_by = config.planner;
     result.waypoints = {start, goal};
-    describe(esdf, space, result);
+    describe(esdf, space, {}, result);
     return finish(PlanStatus::kOk);
   }
   const detail::RouteQuery query{from.voxel, to.voxel, start, goal, radius};
@@ -156,12 +166,12 @@ PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
         config.shorten ? detail::tightest(esdf, space, found, radius, deadline) : found.route;
   }
   result.seconds.shorten = seconds_now() - shortening;
-  describe(esdf, space, result);
+  describe(esdf, space, config.shorten ? detail::EdgeStretch{} : found.edges, result);
   if (is_verified(esdf, space, result, radius)) return finish(PlanStatus::kOk);
   // What the search found holds move by move, whatever became of it since.
   result.waypoints = std::move(found.route);
   if (!result.waypoints.empty()) {
-    describe(esdf, space, result);
+    describe(esdf, space, found.edges, result);
     if (is_verified(esdf, space, result, radius)) return finish(PlanStatus::kOk);
   }
   result.waypoints.clear();

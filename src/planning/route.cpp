@@ -54,15 +54,18 @@ std::vector<VoxelId> join_ways(std::vector<VoxelId> a, std::vector<VoxelId> b) {
 }
 
 Route route_over_vertices(const Roadmap& roadmap, const RouteQuery& query, const AttachWay& from,
-                          const AttachWay& to, const std::vector<VertexId>& vertices) {
+                          const AttachWay& to, const std::vector<VertexId>& vertices,
+                          EdgeStretch& edges) {
   RouteQuery leg = query;
   Route route = route_over_voxels(roadmap.esdf, leg, from.voxels);
   route.pop_back();  // the goal
+  edges = {.first = route.size() - 1};
   for (std::size_t i = 1; i + 1 < vertices.size(); ++i)
     route.push_back(roadmap.graph.vertices[number(vertices[i])].position);
   std::swap(leg.start, leg.goal);
   Route back = route_over_voxels(roadmap.esdf, leg, to.voxels);
   back.pop_back();
+  edges.last = route.size();
   route.insert(route.end(), back.rbegin(), back.rend() - 1);
   route.push_back(query.goal);
   return route;
@@ -74,6 +77,9 @@ class GraphRoutes {
   GraphRoutes(const Roadmap& roadmap, const RouteQuery& query, AttachWay from, AttachWay to)
       : roadmap_(roadmap), query_(query), from_(std::move(from)), to_(std::move(to)) {}
 
+  /// Of the last route.
+  const EdgeStretch& edges() const { return edges_; }
+
   std::optional<Route> next() {
     while (searches_++ < kSearches) {
       std::vector<VertexId> vertices =
@@ -81,11 +87,15 @@ class GraphRoutes {
                        penalty_.empty() ? nullptr : &penalty_);
       if (vertices.empty()) return std::nullopt;
       penalty_.resize(roadmap_.graph.edges.size(), 1.0f);
-      for (std::size_t i = 1; i < vertices.size(); ++i)
-        penalty_[number(edge_between(roadmap_.graph, vertices[i - 1], vertices[i]))] *= kPenalty;
+      Route route = route_over_vertices(roadmap_, query_, from_, to_, vertices, edges_);
+      for (std::size_t i = 1; i < vertices.size(); ++i) {
+        const EdgeId edge = edge_between(roadmap_.graph, vertices[i - 1], vertices[i]);
+        penalty_[number(edge)] *= kPenalty;
+        edges_.clearance = std::min(edges_.clearance, roadmap_.graph.edges[number(edge)].clearance);
+      }
       if (std::find(taken_.begin(), taken_.end(), vertices) != taken_.end()) continue;
       taken_.push_back(vertices);
-      return route_over_vertices(roadmap_, query_, from_, to_, vertices);
+      return route;
     }
     return std::nullopt;
   }
@@ -95,6 +105,7 @@ class GraphRoutes {
   const RouteQuery query_;
   const AttachWay from_, to_;
   int searches_ = 0;
+  EdgeStretch edges_;
   std::vector<float> penalty_;  // by edge
   std::vector<std::vector<VertexId>> taken_;
 };
@@ -173,6 +184,7 @@ RouteResult find_route(const Roadmap& roadmap, const RouteQuery& query, Planner 
       if (std::optional<Route> first = routes->next()) {
         result.status = SearchStatus::kFound;
         result.route = std::move(*first);
+        result.edges = routes->edges();
         result.next_alternative = [routes] { return routes->next(); };
       }
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -22,10 +23,17 @@ struct RouteQuery {
   double radius;
 };
 
+/// Waypoints of a route between which every segment is an edge of the graph; none if first == last.
+struct EdgeStretch {
+  std::size_t first = 0, last = 0;
+  double clearance = std::numeric_limits<double>::infinity();  ///< of the narrowest edge, metres
+};
+
 struct RouteResult {
   SearchStatus status = SearchStatus::kNoRoute;
   Planner answered_by = Planner::kGraph;
   Route route;  ///< as searched: the shortest in the structure that answered
+  EdgeStretch edges;
   /// Another route each time, longer and over other edges; nothing when there are no more. Refers
   /// to the roadmap. Null where the graph did not answer.
   std::function<std::optional<Route>()> next_alternative;

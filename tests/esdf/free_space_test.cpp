@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "ridgeway/esdf/esdf.hpp"
 #include "support/brute_force.hpp"
 #include "support/random_maps.hpp"
@@ -79,6 +81,9 @@ TEST_P(FreeSpaceOnRandomMaps, SegmentsAgreeWithBruteForce) {
       const double brute =
           esdf.voxel_size * brute_clearance(a / esdf.voxel_size, b / esdf.voxel_size, obstacles);
       const double clearance = space.clearance(a, b);
+      const std::array path{a, b};
+      for (const double at_most : {0.5 * clearance, clearance, 1.1 * clearance, 1e3})
+        ASSERT_NEAR(space.clearance(path, at_most), std::min(clearance, at_most), kTiny);
       // Samples see a minimum that lies between them a little too high, never too low.
       const double spacing = (b - a).norm() / 400;
       ASSERT_LE(clearance, brute + kTiny);

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <functional>
 #include <random>
 
@@ -112,7 +113,8 @@ TEST_F(HostileRidge, UnchangedContentIsAccepted) {
 
 TEST_F(HostileRidge, WrongContentIsRefused) {
   const std::uint64_t nan = 0x7ff8000000000000ull;
-  const std::size_t vertices = 40;
+  const std::size_t vertices = 40, edges = load_roadmap(folder_ / "good.ridge").graph.edges.size();
+  const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
   struct Case {
     std::string section;
     std::size_t at;
@@ -124,9 +126,10 @@ TEST_F(HostileRidge, WrongContentIsRefused) {
         Case{"state", 0, 8, 1}, Case{"state", 0, 6, 1}, Case{"diagram", 0, ~0ull, 8},
         Case{"attach", 0, 28, 1}, Case{"vertices", 0, 0x7fffffff, 4},
         Case{"vertices", 12 * vertices, nan, 8}, Case{"edges", 0, 0xffffffff, 4},
-        Case{"edges", 0, 39, 4}, Case{"edges", 8 * (vertices - 1), nan, 8}, Case{"tree", 0, 40, 4},
-        Case{"tree", 0, 39, 4}, Case{"tree", 4 * vertices, nan, 8},
-        Case{"tree", 12 * vertices + 4, 0x7fffffff, 4}}) {
+        Case{"edges", 0, 39, 4}, Case{"edges", 8 * edges, nan, 8},
+        Case{"edges", 8 * edges, bits(0.7), 8}, Case{"edges", 16 * edges, bits(2.0), 8},
+        Case{"edges", 16 * edges, bits(0.2), 8}, Case{"tree", 0, 40, 4}, Case{"tree", 0, 39, 4},
+        Case{"tree", 4 * vertices, nan, 8}, Case{"tree", 12 * vertices + 4, 0x7fffffff, 4}}) {
     const std::string message =
         refusal_with(c.section, [&](Bytes& bytes) { put(bytes, c.at, c.value, c.size); });
     EXPECT_NE(message.find("'" + c.section + "'"), std::string::npos)

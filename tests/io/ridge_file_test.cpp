@@ -133,6 +133,8 @@ TEST(RidgeFile, PartsThatDoNotFitAreNotSaved) {
   refused([](Roadmap& r) { r.diagram.voxels = {}; });
   refused([](Roadmap& r) { r.tree.parent.pop_back(); });
   refused([](Roadmap& r) { r.graph.edges[0].to = VertexId{1000}; });
+  refused([](Roadmap& r) { r.graph.edges[0].clearance *= 2.0; });
+  refused([](Roadmap& r) { r.graph.edges[0].length *= 0.9; });
   refused([](Roadmap& r) { r.esdf.voxel_size = 0.0; });
   refused([](Roadmap& r) { std::swap(r.graph.vertices[0], r.graph.vertices[1]); });
   refused([](Roadmap& r) {  // a vertex's way to its neighbour, whose way leads to the vertex

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "ridgeway/esdf/esdf.hpp"
+#include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/roadmap/roadmap.hpp"
 
 namespace ridgeway {
@@ -56,7 +57,7 @@ inline OccupancyMap synthetic_map(const SyntheticConfig& config) {
   return map;
 }
 
-/// A roadmap whose parts are consistent but, apart from the distance field, made up.
+/// A roadmap whose parts are consistent but, apart from distance field and edges, made up.
 inline Roadmap synthetic_roadmap(const SyntheticConfig& config = {}) {
   Roadmap roadmap;
   std::mt19937 random(config.seed);
@@ -97,6 +98,7 @@ inline Roadmap synthetic_roadmap(const SyntheticConfig& config = {}) {
 
   SparseGraph& graph = roadmap.graph;
   graph.min_clearance = 0.3;
+  const FreeSpace space(esdf);
   const auto count = static_cast<std::uint32_t>(graph.vertices.size());
   std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
   for (std::uint32_t v = 0; v < count; ++v) {
@@ -107,14 +109,16 @@ inline Roadmap synthetic_roadmap(const SyntheticConfig& config = {}) {
       };
       if (best == v || length(w) < length(best)) best = w;
     }
-    if (best != v) pairs.insert({best, v});
+    if (best != v && space.is_free(graph.vertices[best].position, graph.vertices[v].position, 0.3))
+      pairs.insert({best, v});
     roadmap.tree.parent.push_back(VertexId{best});
     roadmap.tree.clearance.push_back(best == v ? 0.0 : 0.3 + 1.0 / (3.0 + v));
     roadmap.tree.place.push_back(best == v ? VoxelIndex{} : graph.vertices[v].voxel);
   }
   for (const auto& [a, b] : pairs) {
-    const double length = (graph.vertices[a].position - graph.vertices[b].position).norm();
-    graph.edges.push_back({VertexId{a}, VertexId{b}, length, 0.3 + 0.1 / length});
+    const Point &from = graph.vertices[a].position, &to = graph.vertices[b].position;
+    graph.edges.push_back(
+        {VertexId{a}, VertexId{b}, (to - from).norm(), space.clearance(from, to)});
   }
   index_links(graph);
   return roadmap;

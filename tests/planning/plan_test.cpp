@@ -9,6 +9,7 @@
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/planning/check.hpp"
 #include "ridgeway/roadmap/build_graph.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
@@ -85,6 +86,7 @@ TEST(Plan, AnswersExactlyWhenFloodingDoesAndItsPathsHoldByBruteForce) {
               ASSERT_EQ(result.waypoints.front(), start);
               ASSERT_EQ(result.waypoints.back(), goal);
               ASSERT_GE(result.clearance, radius * (1 - 1e-9));
+              ASSERT_NEAR(result.clearance, FreeSpace(esdf).clearance(result.waypoints), 1e-9);
               if (planner == Planner::kGraph) expect_brute_clearance(map, policy, result, radius);
               if (HasFatalFailure()) return;
             } else if (!result.ok()) {

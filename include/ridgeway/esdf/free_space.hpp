@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include "ridgeway/esdf/esdf_map.hpp"
@@ -29,8 +30,10 @@ class FreeSpace {
   /// Smallest D along a segment, metres.
   double clearance(const Point& a, const Point& b) const;
 
-  /// Smallest D along a path of straight segments (at least one point), metres.
-  double clearance(std::span<const Point> path) const;
+  /// Smallest D along a path of straight segments (at least one point), metres, or `at_most` where
+  /// it is larger: then only what is narrower is looked at closely.
+  double clearance(std::span<const Point> path,
+                   double at_most = std::numeric_limits<double>::infinity()) const;
 
   /// Whether a sphere of a radius fits at a point.
   bool is_free(const Point& p, double radius) const;

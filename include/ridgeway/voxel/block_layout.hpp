@@ -80,4 +80,28 @@ class BlockLayout {
   std::vector<std::uint32_t> table_;  // open addressing: slots, kNoBlock where empty
 };
 
+/// Finds voxels that are mostly near one another, as along a line: remembers the block it was in.
+/// For one thread.
+class VoxelFinder {
+ public:
+  explicit VoxelFinder(const BlockLayout& layout) : layout_(layout) {}
+
+  /// Handle of a voxel, or kNoVoxel where its block is not allocated.
+  VoxelId find(const VoxelIndex& voxel) {
+    const BlockIndex block = block_of(voxel);
+    if (!has_block_ || block != block_) {
+      block_ = block;
+      slot_ = layout_.find_block(block);
+      has_block_ = true;
+    }
+    return slot_ == BlockLayout::kNoBlock ? kNoVoxel : slot_ * kBlockVoxels + local_of(voxel);
+  }
+
+ private:
+  const BlockLayout& layout_;
+  BlockIndex block_{};
+  std::uint32_t slot_ = BlockLayout::kNoBlock;
+  bool has_block_ = false;
+};
+
 }  // namespace ridgeway
