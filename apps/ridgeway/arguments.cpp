@@ -109,11 +109,23 @@ Eigen::Isometry3d parse_transform(std::string_view text, const std::string& opti
   return transform;
 }
 
-void require_writable(const std::filesystem::path& file, const std::filesystem::path& input) {
-  std::error_code absent;
-  if (std::filesystem::equivalent(file, input, absent))
-    throw InputError(file.string(), "is the file that is read", "give another one to write to");
-  const AtomicFile probe(file);  // without commit it leaves nothing behind
+void require_writable(const std::vector<std::filesystem::path>& files,
+                      const std::vector<std::filesystem::path>& inputs) {
+  const auto is_same = [](const std::filesystem::path& a, const std::filesystem::path& b) {
+    std::error_code error;
+    return std::filesystem::weakly_canonical(a, error) ==
+               std::filesystem::weakly_canonical(b, error) ||
+           std::filesystem::equivalent(a, b, error);
+  };
+  for (auto file = files.begin(); file != files.end(); ++file) {
+    for (const std::filesystem::path& input : inputs)
+      if (is_same(*file, input))
+        throw InputError(file->string(), "is a file that is read", "give another one to write to");
+    for (auto other = files.begin(); other != file; ++other)
+      if (is_same(*file, *other))
+        throw InputError(file->string(), "would be written twice", "give two names");
+    const AtomicFile probe(*file);  // without commit it leaves nothing behind
+  }
 }
 
 std::vector<std::string> join_negative_values(int argc, const char* const* argv) {

@@ -26,9 +26,10 @@ Box parse_box(std::string_view text, const std::string& option);
 /// "y-up" takes y up to z up and leaves x.
 Eigen::Isometry3d parse_transform(std::string_view text, const std::string& option);
 
-/// Throws InputError where a file could not be written, or is the one that is read: to be known
-/// before the long work.
-void require_writable(const std::filesystem::path& file, const std::filesystem::path& input);
+/// Throws InputError where a file could not be written, is named twice, or is one of those that are
+/// read: to be known before the long work.
+void require_writable(const std::vector<std::filesystem::path>& files,
+                      const std::vector<std::filesystem::path>& inputs);
 
 /// A list of numbers that begins with a minus sign looks like an option to a parser of command
 /// lines: "--from -1,2,0.5" becomes "--from=-1,2,0.5".

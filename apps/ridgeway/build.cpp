@@ -174,7 +174,7 @@ int run(const Options& options, const Globals& globals) {
   if (is_roadmap_file(options.map))
     throw InputError(options.map, "is a roadmap already",
                      "give the map that it was built from, or plan on it");
-  require_writable(options.output, options.map);
+  require_writable({options.output}, {options.map});
 
   Outcome outcome;
   ProgressBar bar(globals);

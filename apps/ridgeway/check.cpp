@@ -18,6 +18,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double kLargestSeed = 1.8e19;  // below 2^64
+constexpr int kMostQueries = 1000000;  // their paths are all kept
+
 struct Options {
   std::string file, paths;
   CheckConfig check{.queries = 200};
@@ -80,7 +83,7 @@ void print_summary(const CheckReport& report) {
 }
 
 int run(const Options& options, const Globals& globals) {
-  if (!options.paths.empty()) require_writable(options.paths, options.file);
+  if (!options.paths.empty()) require_writable({options.paths}, {options.file});
   const Roadmap roadmap = load_roadmap(options.file);
   ProgressBar bar(globals);
   const CheckReport report = check_roadmap(roadmap, options.check, bar.callback());
@@ -101,9 +104,10 @@ void add_check_command(CLI::App& app, const Globals& globals, Command& chosen) {
       app.add_subcommand("check", "Verify the contract of a roadmap against the map itself");
   command->add_option("roadmap", options->file, "Roadmap, .ridge")->required();
   command->add_option("--queries", options->check.queries, "Random queries to compare with A*")
-      ->check(CLI::Range(0, 100000000))
+      ->check(CLI::Range(0, kMostQueries))
       ->capture_default_str();
   command->add_option("--seed", options->check.seed, "Of the random queries")
+      ->check(CLI::Range(0.0, kLargestSeed))
       ->capture_default_str();
   command->add_option("--paths", options->paths,
                       "File to write the checked paths to, as JSON, for other checkers");

@@ -52,7 +52,9 @@ std::vector<std::filesystem::path> list_outputs(const Options& options) {
   if (files.empty())
     throw InputError("export", "nothing to write was asked for",
                      "give -o FILE, --json-graph FILE or --picture FILE");
-  for (const auto& file : files) require_writable(file, options.file);
+  std::vector<std::filesystem::path> inputs = {options.file};
+  if (!options.path.empty()) inputs.emplace_back(options.path);
+  require_writable(files, inputs);
   return files;
 }
 

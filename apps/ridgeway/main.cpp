@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -61,7 +62,9 @@ int run(std::vector<std::string> words) {
   Globals globals;
   Command chosen;
   add_commands(app, globals, chosen);
-  const bool json = std::find(words.begin(), words.end(), "--json") != words.end();
+  const bool json = std::any_of(words.begin(), words.end(), [](const std::string& word) {
+    return word == "--json" || word == "--json=true";
+  });
   try {
     std::reverse(words.begin(), words.end());  // as CLI11 takes them
     app.parse(std::move(words));
@@ -89,5 +92,6 @@ int run(std::vector<std::string> words) {
 }  // namespace ridgeway::cli
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is then an error of its writer
   return ridgeway::cli::run(ridgeway::cli::join_negative_values(argc, argv));
 }

@@ -4,20 +4,17 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cctype>
-#include <cmath>
-#include <fstream>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "query_file.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/io/path_io.hpp"
 #include "ridgeway/io/ridge_file.hpp"
@@ -108,41 +105,10 @@ int run_one(const Options& options, const Roadmap& roadmap, const PlanConfig& co
   return result.ok() ? kExitDone : kExitNoPlan;
 }
 
-/// Lines of x,y,z,x,y,z[,radius]; empty ones, comments and one line of names are passed over.
-std::vector<Query> read_queries(const std::string& file, double radius) {
-  std::ifstream stream(file);
-  if (!stream) throw InputError(file, "cannot be opened", "check the path");
-  std::vector<Query> queries;
-  std::size_t number = 0;
-  bool names_allowed = true;
-  for (std::string line; std::getline(stream, line);) {
-    ++number;
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    const std::size_t first = line.find_first_not_of(" \t");
-    if (first == std::string::npos || line[first] == '#') continue;
-    const std::string word = line.substr(first, 3);
-    const bool is_names = std::isalpha(static_cast<unsigned char>(line[first])) != 0 &&
-                          word != "nan" && word != "inf" && word != "NaN" && word != "Inf";
-    if (is_names && std::exchange(names_allowed, false)) continue;
-    names_allowed = false;
-    const std::string where = file + " line " + std::to_string(number);
-    const std::vector<double> v = parse_numbers(line, where);
-    const bool finite = std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
-    if ((v.size() != 6 && v.size() != 7) || !finite)
-      throw InputError(where, "is no query", "give x,y,z,x,y,z or x,y,z,x,y,z,radius");
-    if (v.size() == 7 && v[6] <= 0.0)
-      throw InputError(where, "has a radius that is not above 0", "give metres");
-    queries.push_back(
-        {Point(v[0], v[1], v[2]), Point(v[3], v[4], v[5]), v.size() == 7 ? v[6] : radius});
-  }
-  if (queries.empty()) throw InputError(file, "has no query", "give x,y,z,x,y,z a line");
-  return queries;
-}
-
 int run_batch(const Options& options, const Roadmap& roadmap, const PlanConfig& config,
               const Globals& globals) {
-  const double radius = config.radius.value_or(roadmap.min_clearance);
-  const std::vector<Query> queries = read_queries(options.queries, radius);
+  const std::vector<Query> queries = read_queries(
+      options.queries, config.radius.value_or(roadmap.min_clearance), largest_radius(roadmap.esdf));
   Json results = Json::array();
   std::size_t solved = 0;
   for (const Query& query : queries) {
@@ -176,7 +142,10 @@ int run(const Options& options, const Globals& globals) {
     parse_point(options.from, "--from");
     parse_point(options.to, "--to");
   }
-  if (!options.output.empty()) require_writable(options.output, options.file);
+  if (!options.output.empty()) {
+    require_path_format(options.output);
+    require_writable({options.output}, {options.file});
+  }
   const Roadmap roadmap = load_roadmap(options.file);
   return batch ? run_batch(options, roadmap, config, globals)
                : run_one(options, roadmap, config, globals);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "query_file.hpp"
 #include "ridgeway/mapping/occupancy_map.hpp"
 #include "ridgeway/planning/plan.hpp"
 
@@ -12,11 +13,6 @@ namespace ridgeway::cli {
 
 /// The voxel states that a roadmap was built from.
 OccupancyMap occupancy_of(const EsdfMap& esdf);
-
-struct Query {
-  Point start, goal;
-  double radius = 0.0;
-};
 
 /// Largest radius, up to the query's, at which its places are connected; nothing where they are
 /// not even at the roadmap's smallest. Found by planning, in about ten queries.

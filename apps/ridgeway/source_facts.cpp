@@ -5,7 +5,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <string_view>
 
 #include "console.hpp"
@@ -16,6 +15,7 @@
 #include "ridgeway/io/pcd.hpp"
 #include "ridgeway/io/ply_cloud.hpp"
 #include "ridgeway/io/point_cloud.hpp"
+#include "ridgeway/io/read_file.hpp"
 #include "ridgeway/io/xyz.hpp"
 
 namespace ridgeway::cli {
@@ -58,12 +58,6 @@ const char* octomap_format(std::string_view bytes, const std::string& name) {
   return read_octomap_header(bytes, name).binary ? "octomap_bt" : "octomap_ot";
 }
 
-std::string read_bytes(const std::filesystem::path& file) {
-  std::ostringstream bytes;
-  bytes << std::ifstream(file, std::ios::binary).rdbuf();
-  return std::move(bytes).str();
-}
-
 /// Whether load_map takes the file for a cloud: it then asks for bounds or a voxel size. Throws
 /// what it throws for a file that cannot be read at all.
 std::optional<OccupancyMap> try_voxels(const std::filesystem::path& file, const Globals& globals) {
@@ -82,15 +76,17 @@ std::optional<OccupancyMap> try_voxels(const std::filesystem::path& file, const 
 
 bool is_roadmap_file(const std::filesystem::path& file) {
   constexpr std::string_view kMagic = "RIDGEWAY";
+  if (file.extension() == ".ridge") return true;
+  if (!std::filesystem::is_regular_file(file)) return false;  // opening a pipe would wait for ever
   std::string head(kMagic.size(), '\0');
   std::ifstream stream(file, std::ios::binary);
   stream.read(head.data(), static_cast<std::streamsize>(head.size()));
-  return head == kMagic || file.extension() == ".ridge";
+  return head == kMagic;
 }
 
 Json describe_source(const std::filesystem::path& file, const Globals& globals) {
   const std::optional<OccupancyMap> map = try_voxels(file, globals);
-  const std::string bytes = read_bytes(file), name = file.string();
+  const std::string bytes = read_file(file), name = file.string();
   Json json = {{"file", name}, {"file_bytes", bytes.size()}};
   if (!map)
     add_cloud(json, read_cloud(bytes, name));

@@ -9,6 +9,7 @@
 
 #include "line_envelope.hpp"
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/common/number_text.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "work_domain.hpp"
 
@@ -211,7 +212,7 @@ void finish_distances(EsdfMap& map, double farthest) {
 
 void EsdfConfig::validate() const {
   if (!(max_distance > 0.0))
-    throw InputError("max_distance", "is " + std::to_string(max_distance),
+    throw InputError("max_distance", "is " + number_text(max_distance),
                      "give a length above 0 metres, or leave it out for no limit");
 }
 

@@ -7,8 +7,8 @@
 
 #include "colour_map.hpp"
 #include "little_endian.hpp"
-#include "number_text.hpp"
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/common/number_text.hpp"
 #include "ridgeway/io/atomic_file.hpp"
 
 namespace ridgeway {

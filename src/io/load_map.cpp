@@ -10,13 +10,13 @@
 #include <string_view>
 #include <utility>
 
-#include "read_file.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/io/benchmark_map.hpp"
 #include "ridgeway/io/octomap.hpp"
 #include "ridgeway/io/pcd.hpp"
 #include "ridgeway/io/ply_cloud.hpp"
 #include "ridgeway/io/point_cloud.hpp"
+#include "ridgeway/io/read_file.hpp"
 #include "ridgeway/io/xyz.hpp"
 #include "ridgeway/mapping/map_edits.hpp"
 #include "ridgeway/mapping/map_transform.hpp"

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "byte_reader.hpp"
+#include "ridgeway/common/number_text.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
 #include "text.hpp"
 
@@ -164,7 +165,7 @@ double check_tree(std::string_view bytes, const std::string& name, const Octomap
 
 void check_resolution(const ByteReader& reader, double resolution) {
   if (resolution >= 1e-6 && resolution <= 1e6) return;
-  reader.fail("has a resolution of " + std::to_string(resolution) + " m",
+  reader.fail("has a resolution of " + number_text(resolution) + " m",
               "it must lie between 1e-6 and 1e6 m");
 }
 

@@ -11,10 +11,10 @@
 #include <sstream>
 #include <string_view>
 
-#include "number_text.hpp"
-#include "read_file.hpp"
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/common/number_text.hpp"
 #include "ridgeway/io/atomic_file.hpp"
+#include "ridgeway/io/read_file.hpp"
 
 namespace ridgeway {
 namespace {
@@ -133,20 +133,21 @@ std::string plan_json(const PlanResult& result) {
   return json.dump();
 }
 
-void write_plan(const PlanResult& result, const std::filesystem::path& path) {
+void require_path_format(const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
-  if (extension == ".json") return write_text_file(path, plan_json(result) + "\n");
-  if (extension == ".csv") return write_text_file(path, plan_csv(result));
-  throw InputError(path.string(), "names no format that a path can be written in",
-                   "use .csv or .json");
+  if (extension != ".csv" && extension != ".json")
+    throw InputError(path.string(), "names no format of paths", "use .csv or .json");
+}
+
+void write_plan(const PlanResult& result, const std::filesystem::path& path) {
+  require_path_format(path);
+  const bool is_json = path.extension() == ".json";
+  write_text_file(path, is_json ? plan_json(result) + "\n" : plan_csv(result));
 }
 
 std::vector<Point> read_path(const std::filesystem::path& path) {
-  const std::string extension = path.extension().string();
-  if (extension == ".json") return read_json(path);
-  if (extension == ".csv") return read_csv(path);
-  throw InputError(path.string(), "names no format that a path can be read from",
-                   "use .csv or .json");
+  require_path_format(path);
+  return path.extension() == ".json" ? read_json(path) : read_csv(path);
 }
 
 }  // namespace ridgeway

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/common/number_text.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
 
 namespace ridgeway {
@@ -26,7 +27,7 @@ VoxelRange checked_range(const Box& bounds, double voxel_size) {
   }
   const VoxelRange range = voxels_inside(bounds, voxel_size);
   if (range.empty()) {
-    throw InputError("bounds", "hold no whole voxel of " + std::to_string(voxel_size) + " m",
+    throw InputError("bounds", "hold no whole voxel of " + number_text(voxel_size) + " m",
                      "give larger bounds or a smaller --voxel-size");
   }
   return range;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "read_file.hpp"
+#include "ridgeway/io/read_file.hpp"
 
 #include <fstream>
 #include <system_error>

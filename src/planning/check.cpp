@@ -31,7 +31,7 @@ struct Outcome {
 std::vector<Query> draw_queries(const Roadmap& roadmap, const CheckConfig& config) {
   const EsdfMap& esdf = roadmap.esdf;
   std::array<std::vector<VoxelId>, kRadiusFactors.size()> places;
-  const double largest = esdf.max_distance - 2.0 * esdf.voxel_size;
+  const double largest = largest_radius(esdf);
   for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id) {
     if (esdf.state[id] != VoxelState::kFree) continue;
     for (std::size_t k = 0; k < places.size(); ++k) {

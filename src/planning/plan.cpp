@@ -11,6 +11,7 @@
 #include "deadline.hpp"
 #include "endpoint.hpp"
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/common/number_text.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "route.hpp"
 #include "shorten.hpp"
@@ -109,12 +110,14 @@ std::string_view name_of(Planner planner) {
   return kNames[static_cast<std::size_t>(planner)];
 }
 
+double largest_radius(const EsdfMap& esdf) { return esdf.max_distance - 2.0 * esdf.voxel_size; }
+
 void PlanConfig::validate() const {
   if (radius && !(*radius > 0.0 && std::isfinite(*radius)))
-    throw InputError("radius", "is " + std::to_string(*radius),
+    throw InputError("radius", "is " + number_text(*radius),
                      "give the robot's radius in metres, above 0");
   if (!(time_limit > 0.0))
-    throw InputError("time_limit", "is " + std::to_string(time_limit),
+    throw InputError("time_limit", "is " + number_text(time_limit),
                      "give seconds above 0, or leave it out for no limit");
 }
 
@@ -125,9 +128,8 @@ PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
   require_finite(goal, "goal");
   const EsdfMap& esdf = roadmap.esdf;
   const double radius = config.radius.value_or(roadmap.min_clearance);
-  if (radius > esdf.max_distance - 2.0 * esdf.voxel_size)
-    throw InputError("radius " + std::to_string(radius),
-                     "is beyond the distances that the map holds",
+  if (radius > largest_radius(esdf))
+    throw InputError("radius " + number_text(radius), "is beyond the distances that the map holds",
                      "build the map with a larger --max-distance, or without one");
   const Deadline deadline(config.time_limit);
   const double began = seconds_now();
@@ -144,7 +146,8 @@ PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
   if (to.status != EndpointStatus::kOk) return finish(status_of(to.status, false));
 
   const FreeSpace space(esdf);
-  if (config.shorten && space.is_free(start, goal, radius)) {  // nothing is shorter
+  if ((config.shorten || start == goal) &&
+      space.is_free(start, goal, radius)) {  // nothing is shorter
     result.answered_by = config.planner;
     result.waypoints = {start, goal};
     describe(esdf, space, {}, result);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/common/number_text.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/roadmap/build_graph.hpp"
 #include "ridgeway/skeleton/diagram.hpp"
@@ -39,7 +40,7 @@ class StageClock {
 };
 
 void require(bool holds, const char* field, double value, const char* remedy) {
-  if (!holds) throw InputError(field, "is " + std::to_string(value), remedy);
+  if (!holds) throw InputError(field, "is " + number_text(value), remedy);
 }
 
 }  // namespace
@@ -81,7 +82,7 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
   report.allocated_voxels = esdf.layout.voxel_count();
   report.traversable_voxels = traversable.count();
   if (report.traversable_voxels == 0)
-    throw InputError("min_clearance " + std::to_string(config.min_clearance),
+    throw InputError("min_clearance " + number_text(config.min_clearance),
                      "leaves no traversable voxel in this map",
                      "give a smaller --min-clearance, or --unknown ignore");
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "program.hpp"
@@ -170,6 +172,56 @@ TEST_F(CliBadInput, OutputThatIsTheInput) {
   const std::string map = rooms();
   expect_refused({"check", map, "--paths", map}, {"is read"});
   expect_refused({"export", map, "--json-graph", map}, {"is read"});
+  write_whole(folder_ / "path.json", "[[1, 0, 1], [2, 0, 1]]");
+  expect_refused({"export", map, "--json-graph", path("path.json"), "--picture", path("map.png"),
+                  "--path", path("path.json")},
+                 {"path.json", "is read"});
+  EXPECT_EQ(read_whole(folder_ / "path.json"), "[[1, 0, 1], [2, 0, 1]]");
+  expect_refused({"export", map, "-o", path("graph.json"), "--json-graph", path("./graph.json")},
+                 {"graph.json", "twice"});
+}
+
+TEST_F(CliBadInput, PipesInPlaceOfFiles) {  // opening one would wait for a writer
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  expect_build_refused(path("pipe"), {}, {"pipe", "regular file"});
+  expect_refused({"info", path("pipe")}, {"pipe", "regular file"});
+  expect_refused({"plan", path("pipe"), "--from", "1,0,1", "--to", "2,0,1"}, {"pipe"});
+  expect_refused({"plan", rooms(), "--queries", path("pipe")}, {"pipe", "regular file"});
+}
+
+TEST_F(CliBadInput, QueryFiles) {
+  const std::string map = rooms();
+  for (const auto& [text, word] : std::vector<std::pair<std::string, std::string>>{
+           {"", "is empty"},
+           {"# nothing\n", "no query"},
+           {"x,y,z,x,y,z\n1,0,1,2,0,1\n1,0,1,2,0\n", "line 3"},
+           {"1,0,1,2,0,1,-0.3\n", "line 1"},
+           {"1,0,1,2,0,1\nx,y,z,x,y,z\n", "line 2"},
+           {"nan,0,1,2,0,1\n", "line 1"}}) {
+    write_whole(folder_ / "queries.csv", text);
+    expect_refused({"plan", map, "--queries", path("queries.csv")}, {"queries.csv", word});
+  }
+  expect_refused({"plan", map, "--queries", folder_.path().string()}, {"is a folder"});
+}
+
+TEST_F(CliBadInput, CheckOptions) {
+  const std::string map = rooms();
+  for (const char* bad : {"-1", "1.5", "many", "1000000000"})
+    expect_refused({"check", map, "--queries", bad}, {"--queries"});
+  for (const char* bad : {"-1", "1.5", "any", "99999999999999999999999"})
+    expect_refused({"check", map, "--seed", bad}, {"--seed"});
+}
+
+TEST_F(CliBadInput, FileThatMayNotGrow) {
+  const std::string cloud = two_rooms();
+  struct rlimit before {};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const struct rlimit small = {4096, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  std::vector<std::string> options = room_options();
+  options.emplace_back("--quiet");
+  expect_build_refused(cloud, options, {"out.ridge", "cannot be written"});
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
 }
 
 TEST_F(CliBadInput, KeepsAnOlderFileWhenABuildFails) {

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <tbb/blocked_range.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
@@ -21,10 +23,12 @@ void parallel_for_each_index(std::size_t count, const Body& body, std::size_t gr
                     });
 }
 
-/// Runs `work()` with at most `threads` threads (0: all of the machine's) and returns its result.
+/// Runs `work()` with at most `threads` threads (0, or more than it has: all of the machine's) and
+/// returns its result.
 template <typename Work>
 auto with_threads(int threads, Work&& work) {
-  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  const int most = tbb::info::default_concurrency();
+  tbb::task_arena arena(threads > 0 ? std::min(threads, most) : tbb::task_arena::automatic);
   return arena.execute(std::forward<Work>(work));
 }
 

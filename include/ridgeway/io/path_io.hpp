@@ -15,6 +15,9 @@ namespace ridgeway {
 /// read back as they were; an infinite clearance is null.
 std::string plan_json(const PlanResult& result);
 
+/// Throws InputError where a file's extension is neither .csv nor .json.
+void require_path_format(const std::filesystem::path& path);
+
 /// Writes a plan to a file, whole or not at all: as plan_json to .json; as a header line "x,y,z"
 /// and a line for each waypoint to .csv. Throws InputError for another extension, and where the
 /// file cannot be written.

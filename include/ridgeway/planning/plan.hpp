@@ -63,10 +63,16 @@ struct PlanResult {
   bool ok() const { return status == PlanStatus::kOk; }
 };
 
+/// Largest robot radius, metres, that the distances of a map are known far enough for: infinite
+/// unless it was computed with a max_distance.
+double largest_radius(const EsdfMap& esdf);
+
 /// Plans from start to goal (metres, map frame) for a sphere of the asked radius. Every segment of
 /// the path has been verified by the free-space predicate (esdf/free_space.hpp). The answer is
 /// exact on the voxel lattice: a path is found exactly when A* through the ESDF would find one.
 /// Thread-safe on one roadmap.
+/// Throws InputError where the configuration or a point is no number, or the radius is larger than
+/// the map knows distances for.
 PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
                 const PlanConfig& config = {});
 
