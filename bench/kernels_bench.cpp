@@ -27,7 +27,7 @@ struct Pipeline {
   OccupancyMap map = load_map(RIDGEWAY_DATA_DIR "/fr_079.bt", {});
   EsdfMap esdf = compute_esdf(map, {});
   VoxelMask traversable = traversable_voxels(esdf, kRadius);
-  VoxelMask gvd = compute_gvd(esdf, traversable, {kRadius, 0.785});
+  VoxelMask gvd = compute_gvd(esdf, traversable);
   VoxelMask edges = extract_edges(esdf, gvd);
   Basins basins = find_basins(esdf, traversable, kRadius);
   VoxelMask kernel = compute_kernel(esdf, traversable, basins);
@@ -70,8 +70,7 @@ void esdf(benchmark::State& state) {
 
 void gvd(benchmark::State& state) {
   const Pipeline& p = pipeline();
-  for (auto _ : state)
-    benchmark::DoNotOptimize(compute_gvd(p.esdf, p.traversable, {kRadius, 0.785}));
+  for (auto _ : state) benchmark::DoNotOptimize(compute_gvd(p.esdf, p.traversable));
   count_voxels_of(state, p.traversable.count());
 }
 

@@ -28,7 +28,7 @@ using Json = nlohmann::ordered_json;
 struct Options {
   std::string map, output;
   std::optional<double> voxel_size;
-  std::string unknown = "obstacle", diagram = "full";
+  std::string unknown = "obstacle", edges = "neighbours", diagram = "full";
   std::string bounds, transform;
   std::vector<std::string> exclude;
   int isolated = 0;
@@ -52,6 +52,7 @@ LoadConfig load_config(const Options& options) {
 BuildConfig build_config(const Options& options) {
   BuildConfig config = options.build;
   if (options.unknown == "ignore") config.unknown = UnknownPolicy::kIgnore;
+  config.basis_point_edges = options.edges == "basis-points";
   config.paper_diagram = options.diagram == "paper";
   config.validate();
   return config;
@@ -67,6 +68,7 @@ std::string config_text(const Options& options, double voxel_size) {
                {"theta", build.theta},
                {"prune_radius", build.prune_radius},
                {"split_deviation", build.split_deviation},
+               {"edges", options.edges},
                {"diagram", options.diagram}};
   if (!options.bounds.empty()) json["bounds"] = options.bounds;
   if (!options.exclude.empty()) json["exclude"] = options.exclude;
@@ -228,7 +230,8 @@ void add_build_command(CLI::App& app, const Globals& globals, Command& chosen) {
                    "Smallest robot radius that the roadmap is for, metres")
       ->capture_default_str();
   command->add_option("--max-distance", build.max_distance,
-                      "Distances to obstacles are known up to here, metres (default: no limit)");
+                      "Distances to obstacles are known up to here, metres (default: no limit); "
+                      "halls wider than twice that get a dense graph");
   command
       ->add_option("--unknown", options->unknown,
                    "Unknown space is an obstacle, or is kept out of without a distance to it")
@@ -245,6 +248,12 @@ void add_build_command(CLI::App& app, const Globals& globals, Command& chosen) {
   command
       ->add_option("--split-deviation", build.split_deviation,
                    "Greatest distance of an edge from its diagram, metres; 0 for two voxels")
+      ->capture_default_str();
+  command
+      ->add_option("--edges", options->edges,
+                   "What makes a ridge voxel an edge: 18 neighbours on the ridges, or three "
+                   "obstacles in directions theta apart")
+      ->check(CLI::IsMember({"neighbours", "basis-points"}))
       ->capture_default_str();
   command
       ->add_option("--diagram", options->diagram,

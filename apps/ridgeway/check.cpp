@@ -19,7 +19,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kLargestSeed = 1.8e19;  // below 2^64
-constexpr int kMostQueries = 1000000;  // their paths are all kept
+constexpr int kMostQueries = 1000000;    // their paths are all kept
 
 struct Options {
   std::string file, paths;

@@ -87,12 +87,14 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
                      "give a smaller --min-clearance, or --unknown ignore");
 
   clock.begin("gvd");
-  const VoxelMask gvd = compute_gvd(esdf, traversable, {config.min_clearance, config.theta});
+  const GvdConfig ridges{config.theta};
+  const VoxelMask gvd = compute_gvd(esdf, traversable, ridges);
   report.gvd_voxels = gvd.count();
   clock.end(report.seconds.gvd);
 
   clock.begin("edges");
-  VoxelMask edges = extract_edges(esdf, gvd);
+  VoxelMask edges = config.basis_point_edges ? extract_basis_point_edges(esdf, gvd, ridges)
+                                             : extract_edges(esdf, gvd);
   report.edge_voxels = edges.count();
   clock.end(report.seconds.edges);
 

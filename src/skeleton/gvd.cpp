@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "ridgeway/skeleton/gvd.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "ridgeway/common/parallel.hpp"
@@ -12,6 +14,7 @@ namespace {
 
 constexpr std::size_t kGrain = 16;
 constexpr int kEdgeNeighbours = 18;
+constexpr std::size_t kEdgeBasisPoints = 3;
 
 VoxelId first_of(std::size_t slot) { return static_cast<VoxelId>(slot * kBlockVoxels); }
 
@@ -24,19 +27,56 @@ bool diverge(const SiteOffset& v, const SiteOffset& w, double cosine) {
   return dot < cosine * std::sqrt(vv * ww);
 }
 
-bool is_on_gvd(const EsdfMap& esdf, VoxelId id, double cosine) {
-  if (esdf.squared[id] == kNoSite) return true;
-  const SiteOffset v = esdf.site[id];
+/// Calls body(direction) with where the sites of the free 6-neighbours lie, seen from a voxel,
+/// until it returns true; whether it did.
+template <typename Body>
+bool any_neighbour_site(const EsdfMap& esdf, VoxelId id, const Body& body) {
   for (const Direction d : kFaceDirections) {
     const VoxelId q = esdf.layout.neighbour(id, d);
     if (q == kNoVoxel || esdf.state[q] != VoxelState::kFree || esdf.squared[q] == kNoSite) continue;
     const VoxelIndex o = offset_of(d);
     const SiteOffset n = esdf.site[q];
-    const SiteOffset w{static_cast<std::int16_t>(n.x + o.x), static_cast<std::int16_t>(n.y + o.y),
-                       static_cast<std::int16_t>(n.z + o.z)};
-    if (w != v && diverge(v, w, cosine)) return true;
+    if (body(SiteOffset{static_cast<std::int16_t>(n.x + o.x), static_cast<std::int16_t>(n.y + o.y),
+                        static_cast<std::int16_t>(n.z + o.z)}))
+      return true;
   }
   return false;
+}
+
+bool is_on_gvd(const EsdfMap& esdf, VoxelId id, double cosine) {
+  if (esdf.squared[id] == kNoSite) return true;
+  const SiteOffset v = esdf.site[id];
+  return any_neighbour_site(esdf, id,
+                            [&](const SiteOffset& w) { return w != v && diverge(v, w, cosine); });
+}
+
+/// Whether a voxel has `least` basis points or more, at most 7.
+bool has_basis_points(const EsdfMap& esdf, VoxelId id, double cosine, std::size_t least) {
+  if (esdf.squared[id] == kNoSite) return true;
+  std::array<SiteOffset, 7> basis{esdf.site[id]};
+  std::size_t count = 1;
+  return any_neighbour_site(esdf, id, [&](const SiteOffset& w) {
+    const bool is_new = std::all_of(basis.begin(), basis.begin() + count,
+                                    [&](const SiteOffset& v) { return diverge(v, w, cosine); });
+    if (is_new) basis[count++] = w;
+    return count >= least;
+  });
+}
+
+/// Those voxels of a mask for which keep(voxel) holds.
+template <typename Keep>
+VoxelMask filter(const BlockLayout& layout, const VoxelMask& mask, const Keep& keep) {
+  VoxelMask kept(layout);
+  parallel_for_each_index(
+      layout.block_count(),
+      [&](std::size_t index) {
+        const auto slot = static_cast<std::uint32_t>(index);
+        for_each_member(mask, slot, [&](VoxelId id) {
+          if (keep(id)) kept.set(id);
+        });
+      },
+      kGrain);
+  return kept;
 }
 
 }  // namespace
@@ -57,16 +97,14 @@ VoxelMask traversable_voxels(const EsdfMap& esdf, double radius) {
 
 VoxelMask compute_gvd(const EsdfMap& esdf, const VoxelMask& traversable, const GvdConfig& config) {
   const double cosine = std::cos(config.theta);
-  VoxelMask gvd(esdf.layout);
-  parallel_for_each_index(
-      esdf.layout.block_count(),
-      [&](std::size_t slot) {
-        for_each_member(traversable, static_cast<std::uint32_t>(slot), [&](VoxelId id) {
-          if (is_on_gvd(esdf, id, cosine)) gvd.set(id);
-        });
-      },
-      kGrain);
-  return gvd;
+  return filter(esdf.layout, traversable, [&](VoxelId id) { return is_on_gvd(esdf, id, cosine); });
+}
+
+VoxelMask extract_basis_point_edges(const EsdfMap& esdf, const VoxelMask& gvd,
+                                    const GvdConfig& config) {
+  const double cosine = std::cos(config.theta);
+  return filter(esdf.layout, gvd,
+                [&](VoxelId id) { return has_basis_points(esdf, id, cosine, kEdgeBasisPoints); });
 }
 
 VoxelMask extract_edges(const EsdfMap& esdf, const VoxelMask& gvd) {

@@ -85,7 +85,7 @@ TEST(Diagram, ConnectsWhatSpaceConnectsAndAttachesTheRest) {
     const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
     const EsdfMap esdf = compute_esdf(random_map(seed, 26), {.unknown = policy});
     const VoxelMask traversable = traversable_voxels(esdf, radius);
-    VoxelMask edges = extract_edges(esdf, compute_gvd(esdf, traversable, {radius, 0.785}));
+    VoxelMask edges = extract_edges(esdf, compute_gvd(esdf, traversable));
     thin(esdf.layout, edges);
     Basins basins = find_basins(esdf, traversable, radius);
     VoxelMask kernel = compute_kernel(esdf, traversable, basins);
@@ -120,7 +120,7 @@ TEST(Diagram, IsTheSameForAnyNumberOfThreads) {
     const EsdfMap esdf = compute_esdf(random_map(seed, 50), {});
     const auto run = [&] {
       const VoxelMask traversable = traversable_voxels(esdf, 0.05);
-      VoxelMask edges = extract_edges(esdf, compute_gvd(esdf, traversable, {0.05, 0.785}));
+      VoxelMask edges = extract_edges(esdf, compute_gvd(esdf, traversable));
       thin(esdf.layout, edges);
       Basins basins = find_basins(esdf, traversable, 0.05);
       const VoxelMask kernel = compute_kernel(esdf, traversable, basins);

@@ -54,7 +54,7 @@ TEST(MapTopology, EveryStageKeepsItsPromiseOnRealMaps) {
     const EsdfMap esdf = compute_esdf(map, {});
     const VoxelMask traversable = traversable_voxels(esdf, radius);
     if (traversable.count() == 0) continue;  // no room for the robot, nothing to thin
-    VoxelMask edges = extract_edges(esdf, compute_gvd(esdf, traversable, {radius, 0.785}));
+    VoxelMask edges = extract_edges(esdf, compute_gvd(esdf, traversable));
     const Betti thick = betti_numbers(esdf.layout, edges);
     thin(esdf.layout, edges);
     EXPECT_EQ(betti_numbers(esdf.layout, edges), thick);

@@ -14,10 +14,11 @@ struct BuildConfig {
   double min_clearance = 0.4;  ///< smallest robot radius the roadmap is for
   UnknownPolicy unknown = UnknownPolicy::kObstacle;
   double max_distance = std::numeric_limits<double>::infinity();  ///< distances stop here
-  double theta = 0.785;          ///< GVD: least angle between the directions to two sites
-  double prune_radius = 0.35;    ///< vertices closer than this along the diagram become one
-  double split_deviation = 0.0;  ///< edge's greatest distance from its diagram; 0: two voxels
-  bool paper_diagram = false;    ///< thinned edges alone, without the kernel, for comparison
+  double theta = 0.785;            ///< GVD: least angle between the directions to two sites
+  double prune_radius = 0.35;      ///< vertices closer than this along the diagram become one
+  double split_deviation = 0.0;    ///< edge's greatest distance from its diagram; 0: two voxels
+  bool basis_point_edges = false;  ///< edges by basis points, not by the 18-of-26 rule
+  bool paper_diagram = false;      ///< thinned edges alone, without the kernel, for comparison
 
   /// Throws InputError naming the bad field.
   void validate() const;

@@ -8,8 +8,7 @@
 namespace ridgeway {
 
 struct GvdConfig {
-  double min_clearance = 0.4;  ///< metres; voxels nearer to an obstacle are left out
-  double theta = 0.785;        ///< radians; least angle between the directions to two sites
+  double theta = 0.785;  ///< radians; least angle between the directions to two sites
 };
 
 /// Free voxels at least `radius` metres from every obstacle (inclusive).
@@ -24,5 +23,11 @@ VoxelMask compute_gvd(const EsdfMap& esdf, const VoxelMask& traversable,
 /// GVD voxels with at least 18 of their 26 neighbours on the GVD: its thick edges (paper: Edge
 /// Extraction).
 VoxelMask extract_edges(const EsdfMap& esdf, const VoxelMask& gvd);
+
+/// The definition for perfect worlds, for comparison: GVD voxels with at least three basis points
+/// (paper: Edge Extraction). Basis points are the sites of the voxel and of its free 6-neighbours
+/// that lie pairwise more than theta apart, seen from the voxel.
+VoxelMask extract_basis_point_edges(const EsdfMap& esdf, const VoxelMask& gvd,
+                                    const GvdConfig& config = {});
 
 }  // namespace ridgeway
