@@ -98,7 +98,7 @@ TEST(GraphExport, PlyHasWhatItsHeaderPromises) {
   const std::size_t body = graph.find("end_header\n") + 11;
   EXPECT_EQ(graph.size() - body,
             35 * roadmap.graph.vertices.size() + 16 * roadmap.graph.edges.size());
-  double x;
+  double x = 0.0;
   std::memcpy(&x, graph.data() + body, 8);
   EXPECT_EQ(x, roadmap.graph.vertices[0].position.x());
 

@@ -30,7 +30,7 @@ std::size_t count_pixels(cairo_surface_t* image, std::uint32_t colour) {
   std::size_t count = 0;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      std::uint32_t pixel;
+      std::uint32_t pixel = 0;
       std::memcpy(&pixel, data + y * cairo_image_surface_get_stride(image) + 4 * x, 4);
       bool same = true;
       for (const int shift : {0, 8, 16}) {

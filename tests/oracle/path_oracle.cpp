@@ -30,7 +30,7 @@ struct Vec {
 class Grid {
  public:
   explicit Grid(const octomap::OcTree& tree) : s_(tree.getResolution()) {
-    double x0, y0, z0, x1, y1, z1;
+    double x0 = 0, y0 = 0, z0 = 0, x1 = 0, y1 = 0, z1 = 0;
     tree.getMetricMin(x0, y0, z0);
     tree.getMetricMax(x1, y1, z1);
     ox_ = std::lround(x0 / s_) - 1, oy_ = std::lround(y0 / s_) - 1, oz_ = std::lround(z0 / s_) - 1;

@@ -21,6 +21,7 @@ struct RandomLayout {
     std::mt19937 random(seed);
     std::uniform_int_distribution<int> near(-3, 3);
     std::vector<BlockIndex> list;
+    list.reserve(61);
     for (int i = 0; i < 60; ++i) list.push_back({near(random), near(random), near(random)});
     list.push_back({-(1 << 27), 1 << 27, 5});
     blocks = {list.begin(), list.end()};

@@ -89,7 +89,9 @@ Cube27 slow_flood(Cube27 seed, Cube27 within, int longest) {
 TEST(Neighbourhood, FloodsReachWhatStepsReach) {
   std::mt19937 random(5);
   for (int i = 0; i < 3000; ++i) {
-    const Cube27 within = random() & random() & kAllCells, seed = 1u << random() % 27;
+    const auto half = random();
+    const auto within = static_cast<Cube27>(half & random() & kAllCells);  // a quarter of them
+    const Cube27 seed = 1u << random() % 27;
     ASSERT_EQ(flood6(seed, within), slow_flood(seed, within, 1));
     ASSERT_EQ(flood26(seed, within), slow_flood(seed, within, 3));
   }
