@@ -55,7 +55,7 @@ std::optional<double> parse_number(std::string_view text) {
 std::optional<Columns> find_columns(const std::vector<std::string_view>& fields) {
   Columns columns{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::string_view name("xyz" + axis, 1);
+    const std::string_view name = std::string_view("xyz").substr(axis, 1);
     const auto found = std::find(fields.begin(), fields.end(), name);
     if (found == fields.end()) return {};
     columns[axis] = static_cast<std::size_t>(found - fields.begin());
