@@ -84,10 +84,10 @@ void summarise(const Roadmap& roadmap, const std::vector<Query>& queries,
     report.esdf_ok += o.esdf.ok();
     report.disagreements += o.roadmap.status != o.esdf.status || o.raw.status != o.esdf.status;
     report.fallbacks += o.roadmap.ok() && o.roadmap.answered_by != Planner::kGraph;
+    if (!o.roadmap.ok()) continue;
     microseconds.push_back(o.roadmap.seconds.total * 1e6);
     raw.push_back(o.raw.seconds.total * 1e6);
     esdf.push_back(o.esdf.seconds.total * 1e3);
-    if (!o.roadmap.ok()) continue;
     for (const PlanResult* path : {&o.roadmap, &o.raw, &o.esdf})
       report.paths_below_clearance +=
           path->ok() && !holds_clearance(space, *path, queries[i].radius);

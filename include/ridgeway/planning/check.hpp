@@ -35,9 +35,10 @@ struct CheckReport {
   std::size_t disagreements = 0;  ///< one of them only
   std::size_t paths_below_clearance = 0;
   std::size_t fallbacks = 0;  ///< answered beyond the graph
-  Spread length_ratio;        ///< over the better of it and the ESDF's shortened
-  Spread microseconds;        ///< shortened queries over the roadmap
-  Spread raw_microseconds;    ///< the same queries not shortened
+  // Of the queries answered with a path:
+  Spread length_ratio;      ///< over the better of it and the ESDF's shortened
+  Spread microseconds;      ///< shortened queries over the roadmap
+  Spread raw_microseconds;  ///< the same queries not shortened
   Spread esdf_milliseconds;
   std::vector<CheckedPath> paths;
 
