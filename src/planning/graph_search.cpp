@@ -23,46 +23,82 @@ struct VertexState {
   bool closed = false;
 };
 
+/// A* that queues junctions alone: between them it walks, since most vertices have one way on.
+class GraphSearch {
+ public:
+  GraphSearch(const SparseGraph& graph, VertexId start, VertexId goal, double radius,
+              const std::vector<float>* penalty)
+      : graph_(graph),
+        goal_(goal),
+        target_(graph.vertices[number(goal)].position),
+        narrowest_(radius * (1.0 - 1e-9)),
+        penalty_(penalty),
+        states_(graph.vertices.size()) {
+    states_[number(start)].cost = 0.0;
+    push(start);
+  }
+
+  std::vector<VertexId> run() {
+    while (!open_.empty()) {
+      const VertexId vertex = open_.top().vertex;
+      open_.pop();
+      VertexState& state = states_[number(vertex)];
+      if (state.closed) continue;
+      state.closed = true;
+      if (vertex == goal_) return route();
+      for (const Link& link : graph_.links_of(vertex)) walk(vertex, link);
+    }
+    return {};
+  }
+
+ private:
+  /// Goes along a link and on over vertices with two links, up to a junction or the goal. Stops
+  /// where another way came for less: all that lies beyond is cheaper by that way too.
+  void walk(VertexId from, Link link) {
+    for (;;) {
+      const Edge& edge = graph_.edges[number(link.edge)];
+      if (edge.clearance < narrowest_) return;
+      const double factor =
+          penalty_ != nullptr ? static_cast<double>((*penalty_)[number(link.edge)]) : 1.0;
+      const double cost = states_[number(from)].cost + edge.length * factor;
+      VertexState& next = states_[number(link.vertex)];
+      if (cost >= next.cost) return;
+      next.cost = cost;
+      next.from = from;
+      const std::span<const Link> links = graph_.links_of(link.vertex);
+      if (link.vertex == goal_ || links.size() > 2) return push(link.vertex);
+      if (links.size() < 2) return;  // a dead end
+      from = link.vertex;
+      link = links[links[0].edge == link.edge ? 1 : 0];
+    }
+  }
+
+  void push(VertexId vertex) {
+    const double rest = (graph_.vertices[number(vertex)].position - target_).norm();
+    open_.push({states_[number(vertex)].cost + rest, vertex});
+  }
+
+  std::vector<VertexId> route() const {
+    std::vector<VertexId> route;
+    for (VertexId v = goal_; v != kNoVertex; v = states_[number(v)].from) route.push_back(v);
+    std::reverse(route.begin(), route.end());
+    return route;
+  }
+
+  const SparseGraph& graph_;
+  const VertexId goal_;
+  const Point target_;
+  const double narrowest_;
+  const std::vector<float>* penalty_;
+  std::vector<VertexState> states_;
+  std::priority_queue<OpenEntry> open_;
+};
+
 }  // namespace
 
 std::vector<VertexId> search_graph(const SparseGraph& graph, VertexId start, VertexId goal,
                                    double radius, const std::vector<float>* penalty) {
-  const double narrowest = radius * (1.0 - 1e-9);
-  const Point target = graph.vertices[number(goal)].position;
-  const auto heuristic = [&](VertexId v) {
-    return (graph.vertices[number(v)].position - target).norm();
-  };
-  const auto is_dead_end = [&](VertexId v) { return v != goal && graph.links_of(v).size() == 1; };
-  std::vector<VertexState> states(graph.vertices.size());
-  std::priority_queue<OpenEntry> open;
-  states[number(start)].cost = 0.0;
-  open.push({heuristic(start), start});
-  while (!open.empty()) {
-    const VertexId vertex = open.top().vertex;
-    open.pop();
-    VertexState& state = states[number(vertex)];
-    if (state.closed) continue;
-    state.closed = true;
-    if (vertex == goal) break;
-    for (const Link& link : graph.links_of(vertex)) {
-      const Edge& edge = graph.edges[number(link.edge)];
-      if (edge.clearance < narrowest) continue;
-      const double factor =
-          penalty != nullptr ? static_cast<double>((*penalty)[number(link.edge)]) : 1.0;
-      const double cost = state.cost + edge.length * factor;
-      VertexState& next = states[number(link.vertex)];
-      if (next.closed || cost >= next.cost) continue;
-      if (is_dead_end(link.vertex)) continue;
-      next.cost = cost;
-      next.from = vertex;
-      open.push({cost + heuristic(link.vertex), link.vertex});
-    }
-  }
-  std::vector<VertexId> route;
-  if (!states[number(goal)].closed) return route;
-  for (VertexId v = goal; v != kNoVertex; v = states[number(v)].from) route.push_back(v);
-  std::reverse(route.begin(), route.end());
-  return route;
+  return GraphSearch(graph, start, goal, radius, penalty).run();
 }
 
 EdgeId edge_between(const SparseGraph& graph, VertexId a, VertexId b) {
