@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "ridgeway/sensing/world.hpp"
+
+namespace ridgeway {
+
+/// A simulated world as YAML: `name`, and lists `planes` {point, normal} (open where the normal
+/// points; of any length), `boxes` {centre, size}, `spheres` {centre, radius} and upright
+/// `cylinders` {centre, radius, height}; metres. Throws InputError, with the line, for unknown or
+/// missing keys and for what is no number.
+World load_world(const std::filesystem::path& file);
+
+/// The same text for the same world; load_world gives it back.
+std::string world_yaml(const World& world);
+/// Writes it to a file, whole or not at all.
+void save_world(const World& world, const std::filesystem::path& file);
+
+}  // namespace ridgeway

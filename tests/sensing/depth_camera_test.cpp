@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/sensing/depth_camera.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "random_worlds.hpp"
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/common/parallel.hpp"
+#include "ridgeway/sensing/poses.hpp"
+
+namespace ridgeway {
+namespace {
+
+/// A wall at x = 4, seen from the origin.
+World wall() {
+  World world;
+  world.planes.push_back({-Eigen::Vector3d::UnitX(), -4.0});
+  return world;
+}
+
+TEST(DepthCamera, SeesAWallAtOneDepthAndNothingBeyondItsRange) {
+  const DepthSensor sensor;
+  const DepthImage image = render_depth(wall(), sensor, level_pose(Point::Zero(), 0.0));
+  ASSERT_EQ(image.depth.size(), 320u * 240u);
+  for (const float depth : image.depth) EXPECT_NEAR(depth, 4.0, 1e-5);
+  DepthSensor near = sensor;
+  near.max_range = 4.5;  // the middle alone is so near along the ray
+  const DepthImage part = render_depth(wall(), near, level_pose(Point::Zero(), 0.0));
+  EXPECT_GT(part.at(160, 120), 0.0f);
+  EXPECT_EQ(part.at(0, 0), 0.0f);
+}
+
+TEST(DepthCamera, PixelsArePointsOfTheWorld) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const World world = testing::random_world(seed);
+    Random random(seed);
+    const DepthSensor sensor{.camera = {64, 48, 32.0, 32.0, 31.5, 23.5}};
+    const Eigen::Isometry3d pose = level_pose({-7.0, -7.0, 3.0}, random.uniform(0.0, 1.5));
+    if (surface_distance(world, pose.translation()).distance < 0.1) continue;
+    const DepthImage image = render_depth(world, sensor, pose);
+    int seen = 0;
+    for (int v = 0; v < 48; ++v)
+      for (int u = 0; u < 64; ++u) {
+        const float depth = image.at(u, v);
+        if (depth == 0.0f) continue;
+        const Point p = pose * Point(depth * sensor.camera.ray(u, v));
+        ASSERT_NEAR(surface_distance(world, p).distance, 0.0, 1e-5);
+        ++seen;
+      }
+    EXPECT_GT(seen, 0);
+  }
+}
+
+TEST(DepthCamera, LevelPosesLookWhereTheySay) {
+  const Eigen::Isometry3d pose = level_pose({1.0, 2.0, 3.0}, std::numbers::pi / 2);
+  EXPECT_NEAR((pose.linear() * Eigen::Vector3d::UnitZ() - Eigen::Vector3d::UnitY()).norm(), 0.0,
+              1e-12);
+  EXPECT_NEAR((pose.linear() * Eigen::Vector3d::UnitY() + Eigen::Vector3d::UnitZ()).norm(), 0.0,
+              1e-12);
+  EXPECT_NEAR(pose.linear().determinant(), 1.0, 1e-12);
+}
+
+TEST(DepthCamera, NoiseIsGaussianAlongTheRay) {
+  DepthSensor sensor;
+  sensor.range_sigma = 0.2;
+  const DepthImage image = render_depth(wall(), sensor, level_pose(Point::Zero(), 0.0), 5);
+  double sum = 0.0, squares = 0.0, beyond = 0.0;
+  for (int v = 0; v < 240; ++v)
+    for (int u = 0; u < 320; ++u) {
+      const double off = (image.at(u, v) - 4.0) * sensor.camera.ray(u, v).norm();
+      sum += off;
+      squares += off * off;
+      beyond += std::abs(off) > 0.4;
+    }
+  const double count = 320.0 * 240.0;
+  EXPECT_NEAR(sum / count, 0.0, 0.003);
+  EXPECT_NEAR(std::sqrt(squares / count), 0.2, 0.003);
+  EXPECT_NEAR(beyond / count, 0.0455, 0.005);
+}
+
+TEST(DepthCamera, StereoNoiseGrowsWithTheSquareOfDepth) {
+  const auto spread_at = [](double x) {
+    World world;
+    world.planes.push_back({-Eigen::Vector3d::UnitX(), -x});
+    DepthSensor sensor = stereo_sensor();
+    sensor.max_range = 20.0;
+    const DepthImage image = render_depth(world, sensor, level_pose(Point::Zero(), 0.0), 5);
+    double squares = 0.0, count = 0.0;
+    for (int v = 0; v < 240; ++v)
+      for (int u = 40; u < 320; ++u) {
+        squares += std::pow(image.at(u, v) - x, 2);
+        ++count;
+      }
+    return std::sqrt(squares / count);
+  };
+  EXPECT_NEAR(spread_at(4.0) / spread_at(2.0), 4.0, 0.2);
+  // The strip at the left that the right camera does not see, and what is too near.
+  const DepthImage image = render_depth(wall(), stereo_sensor(), level_pose(Point::Zero(), 0.0));
+  EXPECT_EQ(image.at(2, 100), 0.0f);
+  EXPECT_GT(image.at(6, 100), 0.0f);
+  const DepthImage close = render_depth(wall(), stereo_sensor(), level_pose({3.8, 0, 0}, 0.0));
+  EXPECT_EQ(close.at(160, 120), 0.0f);
+}
+
+TEST(DepthCamera, ImagesDoNotDependOnThreads) {
+  DepthSensor sensor;
+  sensor.range_sigma = 0.1;
+  const auto render = [&](int threads, std::uint64_t seed) {
+    return with_threads(threads, [&] {
+      return render_depth(wall(), sensor, level_pose(Point::Zero(), 0.3), seed).depth;
+    });
+  };
+  EXPECT_EQ(render(1, 3), render(2, 3));
+  EXPECT_NE(render(1, 3), render(1, 4));
+}
+
+TEST(DepthCamera, BadSensorsAreRefused) {
+  const auto refused = [](const auto& spoil) {
+    DepthSensor sensor;
+    spoil(sensor);
+    EXPECT_THROW(render_depth(wall(), sensor, Eigen::Isometry3d::Identity()), InputError);
+  };
+  refused([](DepthSensor& s) { s.camera.width = 0; });
+  refused([](DepthSensor& s) { s.camera.fx = -1.0; });
+  refused([](DepthSensor& s) { s.camera.cx = 400.0; });
+  refused([](DepthSensor& s) { s.max_range = 0.0; });
+  refused([](DepthSensor& s) { s.range_sigma = std::nan(""); });
+  refused([](DepthSensor& s) { s.baseline = -1.0; });
+}
+
+TEST(Poses, KeepTheirDistanceAndRepeat) {
+  const World world = testing::random_world(2);
+  const PoseSampling sampling{.low = {-5, -5, -3}, .high = {5, 5, 5}, .count = 100, .seed = 4};
+  const auto poses = sample_poses(world, sampling);
+  ASSERT_EQ(poses.size(), 100u);
+  for (const Eigen::Isometry3d& pose : poses) {
+    EXPECT_GE(surface_distance(world, pose.translation()).distance, 0.5);
+    EXPECT_NEAR(pose.linear()(2, 1), -1.0, 1e-12);  // down is down
+  }
+  EXPECT_EQ(poses[7].matrix(), sample_poses(world, sampling)[7].matrix());
+  EXPECT_THROW(sample_poses(world, {.low = {-5, -5, -20}, .high = {5, 5, -15}}), InputError);
+}
+
+}  // namespace
+}  // namespace ridgeway
