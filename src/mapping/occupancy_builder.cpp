@@ -29,14 +29,6 @@ OccupancyBuilder::OccupancyBuilder(double voxel_size, Config config)
                                            static_cast<std::uint64_t>(config_.bytes_per_voxel)));
 }
 
-std::size_t OccupancyBuilder::BlockHash::operator()(const BlockIndex& b) const {
-  std::uint64_t h = static_cast<std::uint32_t>(b.z);
-  h = h * 0x9e3779b97f4a7c15ull + static_cast<std::uint32_t>(b.y);
-  h = (h ^ h >> 29) * 0xbf58476d1ce4e5b9ull + static_cast<std::uint32_t>(b.x);
-  h = (h ^ h >> 32) * 0x94d049bb133111ebull;
-  return static_cast<std::size_t>(h ^ h >> 31);
-}
-
 OccupancyBuilder::Block& OccupancyBuilder::find_or_add(const BlockIndex& index) {
   const auto [place, is_new] = table_.try_emplace(index, nullptr);
   if (is_new) {

@@ -9,17 +9,6 @@
 #include "ridgeway/common/parallel.hpp"
 
 namespace ridgeway {
-namespace {
-
-std::uint64_t hash(const BlockIndex& b) {
-  std::uint64_t h = static_cast<std::uint32_t>(b.x) * 0x9e3779b97f4a7c15ull;
-  h = (h ^ (h >> 32) ^ static_cast<std::uint32_t>(b.y)) * 0xbf58476d1ce4e5b9ull;
-  h = (h ^ (h >> 32) ^ static_cast<std::uint32_t>(b.z)) * 0x94d049bb133111ebull;
-  return h ^ (h >> 32);
-}
-
-}  // namespace
-
 BlockLayout::BlockLayout(std::vector<BlockIndex> blocks) : blocks_(std::move(blocks)) {
   std::sort(blocks_.begin(), blocks_.end());
   blocks_.erase(std::unique(blocks_.begin(), blocks_.end()), blocks_.end());
@@ -30,7 +19,7 @@ BlockLayout::BlockLayout(std::vector<BlockIndex> blocks) : blocks_(std::move(blo
   table_.assign(std::bit_ceil(2 * blocks_.size() + 1), kNoBlock);
   const std::size_t mask = table_.size() - 1;
   for (std::uint32_t slot = 0; slot < blocks_.size(); ++slot) {
-    std::size_t place = hash(blocks_[slot]) & mask;
+    std::size_t place = hash_of(blocks_[slot]) & mask;
     while (table_[place] != kNoBlock) place = (place + 1) & mask;
     table_[place] = slot;
   }
@@ -50,7 +39,7 @@ BlockLayout::BlockLayout(std::vector<BlockIndex> blocks) : blocks_(std::move(blo
 std::uint32_t BlockLayout::find_block(const BlockIndex& block) const {
   if (table_.empty()) return kNoBlock;
   const std::size_t mask = table_.size() - 1;
-  for (std::size_t place = hash(block) & mask;; place = (place + 1) & mask) {
+  for (std::size_t place = hash_of(block) & mask;; place = (place + 1) & mask) {
     const std::uint32_t slot = table_[place];
     if (slot == kNoBlock || blocks_[slot] == block) return slot;
   }

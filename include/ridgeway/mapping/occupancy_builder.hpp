@@ -46,9 +46,6 @@ class OccupancyBuilder {
 
  private:
   using Block = std::array<VoxelState, kBlockVoxels>;
-  struct BlockHash {
-    std::size_t operator()(const BlockIndex& b) const;
-  };
 
   Block& block_at(const BlockIndex& index) {
     if (last_ == nullptr || last_index_ != index) {

@@ -66,6 +66,17 @@ constexpr VoxelIndex voxel_of(const BlockIndex& b, int local) {
           b.z * kBlockSide + (local >> (2 * kBlockBits))};
 }
 
+/// A well mixed hash, for tables of blocks.
+constexpr std::uint64_t hash_of(const BlockIndex& b) {
+  std::uint64_t h = static_cast<std::uint32_t>(b.x) * 0x9e3779b97f4a7c15ull;
+  h = (h ^ (h >> 32) ^ static_cast<std::uint32_t>(b.y)) * 0xbf58476d1ce4e5b9ull;
+  h = (h ^ (h >> 32) ^ static_cast<std::uint32_t>(b.z)) * 0x94d049bb133111ebull;
+  return h ^ (h >> 32);
+}
+struct BlockHash {
+  std::size_t operator()(const BlockIndex& b) const { return hash_of(b); }
+};
+
 /// Centre of a voxel, metres.
 inline Point centre_of(const VoxelIndex& v, double voxel_size) {
   return Point(v.x + 0.5, v.y + 0.5, v.z + 0.5) * voxel_size;

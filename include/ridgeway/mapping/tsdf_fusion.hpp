@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "ridgeway/mapping/tsdf_map.hpp"
+#include "ridgeway/sensing/depth_camera.hpp"
+
+namespace ridgeway {
+
+/// How measurements reach the voxels: each voxel looks up the pixel that sees it, or each point
+/// marks the voxels on its ray. Images can take either way, point clouds the second alone.
+enum class Integrator : std::uint8_t { kProjective, kRayCasting };
+
+/// Lengths in metres.
+struct FusionConfig {
+  double voxel_size = 0.1;
+  double truncation = 0.0;    ///< 0: four voxels
+  double depth_behind = 0.0;  ///< behind a surface space is solid so far; 0: two voxels
+  double min_range = 0.1;     ///< measurements nearer along the ray are passed over
+  double max_range = 10.0;    ///< and those farther
+  bool carve = true;          ///< what lies before a surface becomes free, not only near it
+  double max_weight = 1e4;    ///< a voxel never knows better: old measurements fade
+  double clear_radius = 0.0;  ///< around every pose: the robot was there, so it is free; 0: none
+  Integrator integrator = Integrator::kProjective;
+
+  /// Throws InputError naming the bad field.
+  void validate() const;
+};
+
+/// Fuses depth measurements with known poses into a truncated signed distance field (Curless and
+/// Levoy 1996). The distance of a voxel to a measured pixel is that to the plane of the surface
+/// there, so that surfaces seen at a slant are not off; weights fall with the square of the depth,
+/// with the slant, and behind the surface. Same measurements in the same order, same bits, for any
+/// number of threads. Memory follows what was seen. Not thread-safe.
+class TsdfFusion {
+ public:
+  explicit TsdfFusion(const FusionConfig& config = {});
+  ~TsdfFusion();
+  TsdfFusion(TsdfFusion&&) noexcept;
+  TsdfFusion& operator=(TsdfFusion&&) noexcept;
+
+  /// A depth image of a camera with a pose (camera to world). Throws InputError where the image
+  /// does not fit the camera, the pose is no rotation and translation, or memory runs out.
+  void integrate(const DepthImage& image, const PinholeCamera& camera,
+                 const Eigen::Isometry3d& T_world_camera);
+
+  /// Points in the sensor's frame, its origin at 0; those not finite are passed over.
+  void integrate(std::span<const Point> points, const Eigen::Isometry3d& T_world_sensor);
+
+  /// All that was fused so far.
+  TsdfMap map() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace ridgeway

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "projective_integrator.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "depth_normals.hpp"
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/common/number_text.hpp"
+#include "ridgeway/common/parallel.hpp"
+
+namespace ridgeway::detail {
+namespace {
+
+constexpr double kMostBlocks = 1e8;  // looked through for one image
+
+/// Which blocks an image can touch, from the farthest depth in tiles of it.
+class View {
+ public:
+  View(const DepthImage& image, const PinholeCamera& camera,
+       const Eigen::Isometry3d& T_world_camera, const FusionConfig& config)
+      : camera_(camera),
+        T_camera_world_(T_world_camera.inverse()),
+        side_(kBlockSide * config.voxel_size),
+        reach_(0.5 * std::sqrt(3.0) * side_),
+        behind_(config.depth_behind),
+        carve_(config.carve),
+        across_((image.width + kTile - 1) / kTile),
+        down_((image.height + kTile - 1) / kTile),
+        tiles_(static_cast<std::size_t>(across_ * down_)) {
+    for (int v = 0; v < image.height; ++v)
+      for (int u = 0; u < image.width; ++u) {
+        const auto depth = static_cast<double>(image.at(u, v));
+        if (depth == 0.0) continue;
+        Depths& tile = tiles_[static_cast<std::size_t>(v / kTile * across_ + u / kTile)];
+        tile.nearest = std::min(tile.nearest, depth);
+        tile.farthest = std::max(tile.farthest, depth);
+        farthest_ = std::max(farthest_, depth);
+      }
+    const double end = farthest_ + behind_;
+    low_ = high_ = T_world_camera.translation();
+    for (const double u : {-0.5, image.width - 0.5})
+      for (const double v : {-0.5, image.height - 0.5}) {
+        const Point corner = T_world_camera * Point(end * camera.ray(u, v));
+        low_ = low_.cwiseMin(corner);
+        high_ = high_.cwiseMax(corner);
+      }
+  }
+
+  bool sees_nothing() const { return farthest_ == 0.0; }
+  /// Blocks in the box around all that is seen.
+  double block_count() const { return ((high_ - low_) / side_).array().ceil().prod(); }
+  BlockIndex first() const { return block_at(low_); }
+  BlockIndex last() const { return block_at(high_); }
+
+  bool sees(const BlockIndex& block) const {
+    const Point centre =
+        T_camera_world_ * Point(Point(block.x + 0.5, block.y + 0.5, block.z + 0.5) * side_);
+    const double z0 = centre.z() - reach_, z1 = centre.z() + reach_;
+    if (z1 <= 0.0 || z0 > farthest_ + behind_) return false;
+    int u0 = 0, v0 = 0, u1 = across_ - 1, v1 = down_ - 1;
+    if (z0 > 0.0) {  // the ball around the block does not reach the camera's plane
+      u0 = tile_of(camera_.fx, camera_.cx, centre.x() - reach_, z0, z1);
+      u1 = tile_of(camera_.fx, camera_.cx, centre.x() + reach_, z1, z0);
+      v0 = tile_of(camera_.fy, camera_.cy, centre.y() - reach_, z0, z1);
+      v1 = tile_of(camera_.fy, camera_.cy, centre.y() + reach_, z1, z0);
+    }
+    for (int v = std::max(v0, 0); v <= std::min(v1, down_ - 1); ++v)
+      for (int u = std::max(u0, 0); u <= std::min(u1, across_ - 1); ++u) {
+        const Depths& tile = tiles_[static_cast<std::size_t>(v * across_ + u)];
+        if (z0 <= tile.farthest + behind_ && (carve_ || z1 >= tile.nearest - behind_)) return true;
+      }
+    return false;
+  }
+
+ private:
+  static constexpr int kTile = 16;  // pixels along one side
+  struct Depths {
+    double nearest = HUGE_VAL, farthest = -HUGE_VAL;
+  };
+
+  BlockIndex block_at(const Point& p) const {
+    const VoxelIndex v = voxel_at(p, side_);
+    return {v.x, v.y, v.z};
+  }
+
+  /// The tile in which an edge of the ball appears: nearer for edges that look outwards.
+  static int tile_of(double focal, double middle, double edge, double if_negative,
+                     double if_positive) {
+    const double pixel = focal * edge / (edge < 0.0 ? if_negative : if_positive) + middle;
+    return static_cast<int>(std::floor(std::clamp(pixel, -1e6, 1e6) / kTile));
+  }
+
+  const PinholeCamera& camera_;
+  const Eigen::Isometry3d T_camera_world_;
+  const double side_, reach_, behind_;
+  const bool carve_;
+  const int across_, down_;
+  std::vector<Depths> tiles_;
+  double farthest_ = 0.0;
+  Point low_, high_;
+};
+
+/// The blocks in view, in the order of their indices.
+std::vector<BlockIndex> blocks_in(const View& view) {
+  const BlockIndex first = view.first(), last = view.last();
+  const auto rows = static_cast<std::size_t>(last.y - first.y + 1);
+  const auto layers = static_cast<std::size_t>(last.z - first.z + 1);
+  std::vector<std::vector<BlockIndex>> found(rows * layers);
+  parallel_for_each_index(found.size(), [&](std::size_t i) {
+    BlockIndex block{0, first.y + static_cast<int>(i % rows), first.z + static_cast<int>(i / rows)};
+    for (block.x = first.x; block.x <= last.x; ++block.x)
+      if (view.sees(block)) found[i].push_back(block);
+  });
+  std::vector<BlockIndex> all;
+  for (const auto& row : found) all.insert(all.end(), row.begin(), row.end());
+  return all;
+}
+
+/// Brings one image to the voxels of a block.
+class BlockUpdate {
+ public:
+  BlockUpdate(const DepthImage& image, const PinholeCamera& camera,
+              const Eigen::Isometry3d& T_world_camera, const FusionConfig& config)
+      : image_(image),
+        normals_(image, camera),
+        T_camera_world_(T_world_camera.inverse()),
+        voxel_size_(config.voxel_size),
+        fx_(static_cast<float>(camera.fx)),
+        fy_(static_cast<float>(camera.fy)),
+        cx_(static_cast<float>(camera.cx)),
+        cy_(static_cast<float>(camera.cy)),
+        nearby_(static_cast<float>(1.0 * config.voxel_size)),
+        truncation_(static_cast<float>(config.truncation)),
+        behind_(static_cast<float>(config.depth_behind)),
+        config_(config) {}
+
+  void run(const BlockIndex& index, TsdfBlock& block) const {
+    const Eigen::Vector3f origin =
+        (T_camera_world_ * centre_of(voxel_of(index, 0), voxel_size_)).cast<float>();
+    const Eigen::Matrix3f step = (T_camera_world_.linear() * voxel_size_).cast<float>();
+    int voxel = 0;
+    for (int z = 0; z < kBlockSide; ++z)
+      for (int y = 0; y < kBlockSide; ++y) {
+        const Eigen::Vector3f row =
+            origin + static_cast<float>(y) * step.col(1) + static_cast<float>(z) * step.col(2);
+        for (int x = 0; x < kBlockSide; ++x, ++voxel)
+          update(row + static_cast<float>(x) * step.col(0), voxel, block);
+      }
+  }
+
+ private:
+  struct Pixel {
+    int u = 0, v = 0;
+  };
+
+  /// The pixel that sees a point of the camera's frame; false outside the image.
+  bool project(const Eigen::Vector3f& p, Pixel& pixel) const {
+    constexpr float kNearest = 1e-3f;
+    if (p.z() < kNearest) return false;
+    const float u = fx_ * p.x() / p.z() + cx_ + 0.5f, v = fy_ * p.y() / p.z() + cy_ + 0.5f;
+    if (!(u >= 0.0f && v >= 0.0f && u < static_cast<float>(image_.width) &&
+          v < static_cast<float>(image_.height)))
+      return false;
+    pixel = {static_cast<int>(u), static_cast<int>(v)};
+    return true;
+  }
+
+  void update(const Eigen::Vector3f& p, int voxel, TsdfBlock& block) const {
+    Pixel pixel;
+    if (!project(p, pixel)) return;
+    const float depth = image_.at(pixel.u, pixel.v);
+    const Eigen::Vector3f ray((static_cast<float>(pixel.u) - cx_) / fx_,
+                              (static_cast<float>(pixel.v) - cy_) / fy_, 1.0f);
+    const float stretch = ray.norm();
+    const float beyond = (p.z() - depth) * stretch;
+    if (depth == 0.0f || beyond > behind_) return;
+    const Eigen::Vector3f surface = depth * ray;
+    const Eigen::Vector3f& normal = normals_.at(pixel.u, pixel.v);
+    const float facing = -normal.dot(ray) / stretch;  // cosine of incidence; 0 without a normal
+    float value = facing > 0.0f ? normal.dot(p - surface) : -beyond;
+    if (std::abs(value) < truncation_ && facing > 0.0f &&
+        !is_surface(p - value * normal, surface)) {
+      if (value < 0.0f) return;
+      value = truncation_;
+    }
+    if (value <= -behind_ || (value >= truncation_ && !config_.carve)) return;
+    const float gain = gain_of(value, config_) * std::max(facing, kLeastFacing) / (p.z() * p.z());
+    block.add(voxel, std::min(value, truncation_), gain, static_cast<float>(config_.max_weight));
+  }
+
+  /// Whether the surface reaches as far as the foot of a perpendicular to its plane: seen at a
+  /// slant, the plane runs on where the surface has ended.
+  bool is_surface(const Eigen::Vector3f& foot, const Eigen::Vector3f& seen) const {
+    if ((foot - seen).squaredNorm() < nearby_ * nearby_) return true;
+    Pixel pixel;
+    if (!project(foot, pixel)) return true;
+    const float depth = image_.at(pixel.u, pixel.v);
+    return depth > 0.0f && std::abs(depth - foot.z()) < 0.5f * truncation_;
+  }
+
+  static constexpr float kLeastFacing = 0.1f;
+
+  const DepthImage& image_;
+  const DepthNormals normals_;
+  const Eigen::Isometry3d T_camera_world_;
+  const double voxel_size_;
+  const float fx_, fy_, cx_, cy_, nearby_, truncation_, behind_;
+  const FusionConfig& config_;
+};
+
+}  // namespace
+
+void integrate_projective(const DepthImage& image, const PinholeCamera& camera,
+                          const Eigen::Isometry3d& T_world_camera, const FusionConfig& config,
+                          TsdfBlocks& blocks) {
+  const View view(image, camera, T_world_camera, config);
+  if (view.sees_nothing()) return;
+  if (view.block_count() > kMostBlocks)
+    throw InputError("voxel_size " + number_text(config.voxel_size),
+                     "is too small for images that reach so far",
+                     "use a larger voxel size or a smaller max_range");
+  const std::vector<BlockIndex> seen = blocks_in(view);
+  require_room(blocks, seen.size());
+  std::vector<TsdfBlock*> targets;
+  targets.reserve(seen.size());
+  for (const BlockIndex& index : seen) targets.push_back(&blocks.find_or_add(index));
+  const BlockUpdate update(image, camera, T_world_camera, config);
+  parallel_for_each_index(seen.size(), [&](std::size_t i) { update.run(seen[i], *targets[i]); });
+}
+
+}  // namespace ridgeway::detail

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ray_integrator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+#include "projective_integrator.hpp"
+#include "ridgeway/common/parallel.hpp"
+
+namespace ridgeway::detail {
+namespace {
+
+constexpr double kLeastFacing = 0.1;
+
+/// The points of one voxel as one.
+struct Ray {
+  Point end;               // their mean
+  Eigen::Vector3d normal;  // of length one, or zero
+  Eigen::Vector3d along;   // from the sensor, of length one
+  double range = 0.0;
+  double count = 0.0;
+};
+
+std::vector<Ray> bundle(const std::vector<SurfacePoint>& points, const Point& sensor,
+                        double voxel_size) {
+  struct Entry {
+    VoxelIndex voxel;
+    std::size_t point;
+    bool operator<(const Entry& other) const {
+      return voxel != other.voxel ? voxel < other.voxel : point < other.point;
+    }
+  };
+  std::vector<Entry> entries;
+  entries.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    entries.push_back({voxel_at(points[i].position, voxel_size), i});
+  std::sort(entries.begin(), entries.end());
+  std::vector<Ray> rays;
+  for (std::size_t i = 0; i < entries.size();) {
+    Ray ray{Point::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+    const VoxelIndex voxel = entries[i].voxel;
+    for (; i < entries.size() && entries[i].voxel == voxel; ++i) {
+      ray.end += points[entries[i].point].position;
+      ray.normal += points[entries[i].point].normal;
+      ray.count += 1.0;
+    }
+    ray.end /= ray.count;
+    ray.normal = ray.normal.norm() > 0.5 * ray.count ? Eigen::Vector3d(ray.normal.normalized())
+                                                     : Eigen::Vector3d::Zero();
+    ray.range = (ray.end - sensor).norm();
+    if (!(ray.range > 0.0)) continue;
+    ray.along = (ray.end - sensor) / ray.range;
+    rays.push_back(ray);
+  }
+  return rays;
+}
+
+/// Calls body(cell) for the cells of a unit grid that a segment passes, in order (Amanatides and
+/// Woo 1987).
+template <typename Body>
+void walk(const Point& from, const Point& to, const Body& body) {
+  const Eigen::Vector3d along = to - from;
+  VoxelIndex cell = voxel_at(from, 1.0);
+  const VoxelIndex last = voxel_at(to, 1.0);
+  std::array<int*, 3> at{&cell.x, &cell.y, &cell.z};
+  std::array<int, 3> step{};
+  std::array<double, 3> next{}, stride{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double a = along[static_cast<Eigen::Index>(axis)];
+    const double start = from[static_cast<Eigen::Index>(axis)];
+    step[axis] = a > 0.0 ? 1 : -1;
+    stride[axis] = a != 0.0 ? 1.0 / std::abs(a) : std::numeric_limits<double>::infinity();
+    const double left = a > 0.0 ? *at[axis] + 1.0 - start : start - *at[axis];
+    next[axis] = a != 0.0 ? left * stride[axis] : std::numeric_limits<double>::infinity();
+  }
+  const int cells =
+      std::abs(last.x - cell.x) + std::abs(last.y - cell.y) + std::abs(last.z - cell.z);
+  for (int i = 0; i <= cells; ++i) {
+    body(cell);
+    const auto axis =
+        static_cast<std::size_t>(std::min_element(next.begin(), next.end()) - next.begin());
+    if (next[axis] > 1.0) return;
+    *at[axis] += step[axis];
+    next[axis] += stride[axis];
+  }
+}
+
+/// The stretch of a ray that is looked at, metres from the sensor.
+std::pair<double, double> stretch_of(const Ray& ray, const FusionConfig& config) {
+  return {config.carve ? 0.0 : std::max(0.0, ray.range - config.truncation),
+          ray.range + config.depth_behind};
+}
+
+/// The rays that pass each block, in the order of the rays; blocks in the order they are met.
+struct Passages {
+  std::vector<BlockIndex> blocks;
+  std::vector<std::vector<std::uint32_t>> rays;
+};
+
+Passages find_passages(const std::vector<Ray>& rays, const Point& sensor,
+                       const FusionConfig& config) {
+  constexpr std::size_t kChunk = 256;
+  const double side = kBlockSide * config.voxel_size;
+  std::vector<std::vector<std::pair<BlockIndex, std::uint32_t>>> parts((rays.size() + kChunk - 1) /
+                                                                       kChunk);
+  parallel_for_each_index(parts.size(), [&](std::size_t part) {
+    const std::size_t end = std::min((part + 1) * kChunk, rays.size());
+    for (std::size_t i = part * kChunk; i < end; ++i) {
+      const auto [near, far] = stretch_of(rays[i], config);
+      walk((sensor + near * rays[i].along) / side, (sensor + far * rays[i].along) / side,
+           [&](const VoxelIndex& cell) {
+             parts[part].emplace_back(BlockIndex{cell.x, cell.y, cell.z},
+                                      static_cast<std::uint32_t>(i));
+           });
+    }
+  });
+  Passages passages;
+  std::unordered_map<BlockIndex, std::size_t, BlockHash> place;
+  for (const auto& part : parts)
+    for (const auto& [block, ray] : part) {
+      const auto [found, is_new] = place.try_emplace(block, passages.blocks.size());
+      if (is_new) {
+        passages.blocks.push_back(block);
+        passages.rays.emplace_back();
+      }
+      passages.rays[found->second].push_back(ray);
+    }
+  return passages;
+}
+
+/// Where a ray enters and leaves a block, metres from the sensor; no length if it misses it.
+std::pair<double, double> clip(const Ray& ray, const Point& sensor, const BlockIndex& block,
+                               double side, std::pair<double, double> stretch) {
+  const Point low = Point(block.x, block.y, block.z) * side;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double a = ray.along[axis];
+    const double to_low = low[axis] - sensor[axis], to_high = to_low + side;
+    if (a == 0.0) {
+      if (to_low > 0.0 || to_high < 0.0) return {0.0, 0.0};
+      continue;
+    }
+    stretch.first = std::max(stretch.first, std::min(to_low / a, to_high / a));
+    stretch.second = std::min(stretch.second, std::max(to_low / a, to_high / a));
+  }
+  return stretch;
+}
+
+void update(const Ray& ray, const Point& sensor, const BlockIndex& index,
+            const FusionConfig& config, TsdfBlock& block) {
+  const double side = kBlockSide * config.voxel_size;
+  const auto [near, far] = clip(ray, sensor, index, side, stretch_of(ray, config));
+  if (near >= far) return;
+  const double facing = -ray.normal.dot(ray.along);
+  const double gain = ray.count * (facing > 0.0 ? std::max(facing, kLeastFacing) : kLeastFacing) /
+                      (ray.range * ray.range);
+  walk((sensor + near * ray.along) / config.voxel_size,
+       (sensor + far * ray.along) / config.voxel_size, [&](const VoxelIndex& voxel) {
+         if (block_of(voxel) != index) return;
+         const Eigen::Vector3d to_end = ray.end - centre_of(voxel, config.voxel_size);
+         double value = facing > 0.0 ? -ray.normal.dot(to_end) : ray.along.dot(to_end);
+         // Seen at a slant, the plane of a surface runs on where the surface may have ended.
+         const double beside = facing > 0.0 ? to_end.squaredNorm() - value * value : 0.0;
+         if (beside > config.truncation * config.truncation) {
+           if (value < 0.0) return;
+           value = config.truncation;
+         }
+         if (value >= config.truncation && !config.carve) return;
+         block.add(local_of(voxel), static_cast<float>(std::min(value, config.truncation)),
+                   static_cast<float>(gain) * gain_of(static_cast<float>(value), config),
+                   static_cast<float>(config.max_weight));
+       });
+}
+
+}  // namespace
+
+void integrate_rays(const std::vector<SurfacePoint>& points, const Point& sensor,
+                    const FusionConfig& config, TsdfBlocks& blocks) {
+  const std::vector<Ray> rays = bundle(points, sensor, config.voxel_size);
+  const Passages passages = find_passages(rays, sensor, config);
+  require_room(blocks, passages.blocks.size());
+  std::vector<TsdfBlock*> targets;
+  targets.reserve(passages.blocks.size());
+  for (const BlockIndex& index : passages.blocks) targets.push_back(&blocks.find_or_add(index));
+  parallel_for_each_index(passages.blocks.size(), [&](std::size_t i) {
+    for (const std::uint32_t ray : passages.rays[i])
+      update(rays[ray], sensor, passages.blocks[i], config, *targets[i]);
+  });
+}
+
+}  // namespace ridgeway::detail

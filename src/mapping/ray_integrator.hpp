@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <vector>
+
+#include "ridgeway/mapping/tsdf_fusion.hpp"
+#include "tsdf_blocks.hpp"
+
+namespace ridgeway::detail {
+
+/// A measured point of a surface, in the world.
+struct SurfacePoint {
+  Point position;
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< towards the sensor; zero: not known
+};
+
+/// Updates the voxels on the rays from a sensor to points and a truncation beyond. Points in one
+/// voxel are taken together. Each block gathers its rays in one fixed order.
+void integrate_rays(const std::vector<SurfacePoint>& points, const Point& sensor,
+                    const FusionConfig& config, TsdfBlocks& blocks);
+
+}  // namespace ridgeway::detail

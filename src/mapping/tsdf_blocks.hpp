@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <unordered_map>
+#include <vector>
+
+#include "ridgeway/mapping/memory_limit.hpp"
+#include "ridgeway/mapping/tsdf_map.hpp"
+
+namespace ridgeway::detail {
+
+/// Distance and weight of the voxels of one block, x fastest.
+struct TsdfBlock {
+  std::array<float, kBlockVoxels> distance{};
+  std::array<float, kBlockVoxels> weight{};
+
+  void add(int voxel, float value, float gain, float most) {
+    if (gain <= 0.0f) return;
+    float& w = weight[static_cast<std::size_t>(voxel)];
+    float& d = distance[static_cast<std::size_t>(voxel)];
+    d = (w * d + gain * value) / (w + gain);
+    w = std::min(w + gain, most);
+  }
+};
+
+/// Blocks that are added while scans come in; their addresses stay.
+class TsdfBlocks {
+ public:
+  TsdfBlock* find(const BlockIndex& index) {
+    const auto place = table_.find(index);
+    return place == table_.end() ? nullptr : place->second;
+  }
+  TsdfBlock& find_or_add(const BlockIndex& index) {
+    TsdfBlock*& place = table_[index];
+    if (place == nullptr) {
+      place = &blocks_.emplace_back();
+      indices_.push_back(index);
+    }
+    return *place;
+  }
+  std::size_t size() const { return blocks_.size(); }
+  /// Copies all into a map, on a layout of its own.
+  void copy_to(TsdfMap& map) const {
+    map.layout = BlockLayout(indices_);
+    map.distance = VoxelField<float>(map.layout);
+    map.weight = VoxelField<float>(map.layout);
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+      const std::uint32_t slot = map.layout.find_block(indices_[i]);
+      std::copy(blocks_[i].distance.begin(), blocks_[i].distance.end(), map.distance.block(slot));
+      std::copy(blocks_[i].weight.begin(), blocks_[i].weight.end(), map.weight.block(slot));
+    }
+  }
+
+ private:
+  std::unordered_map<BlockIndex, TsdfBlock*, BlockHash> table_;
+  std::deque<TsdfBlock> blocks_;
+  std::vector<BlockIndex> indices_;
+};
+
+/// Throws InputError unless there is memory for more blocks, here and in the map made of them.
+inline void require_room(const TsdfBlocks& blocks, std::size_t more) {
+  constexpr int kBytesPerVoxel = 2 * sizeof(float);
+  require_memory_for_blocks(static_cast<double>(blocks.size() + 2 * more), kBytesPerVoxel,
+                            "the map");
+}
+
+}  // namespace ridgeway::detail

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/mapping/tsdf_fusion.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "depth_normals.hpp"
+#include "projective_integrator.hpp"
+#include "ray_integrator.hpp"
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/common/number_text.hpp"
+#include "ridgeway/mapping/map_transform.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
+#include "tsdf_blocks.hpp"
+
+namespace ridgeway {
+namespace {
+
+constexpr double kDefaultTruncation = 4.0, kDefaultDepth = 2.0;  // voxels
+
+void require(bool holds, const char* field, double value, const char* remedy) {
+  if (!holds) throw InputError(field, "is " + number_text(value), remedy);
+}
+
+void require_fits(const DepthImage& image, const PinholeCamera& camera) {
+  camera.validate();
+  const auto pixels =
+      static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
+  if (image.width != camera.width || image.height != camera.height || image.depth.size() != pixels)
+    throw InputError("depth image",
+                     "is " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+                         " where the camera is " + std::to_string(camera.width) + " x " +
+                         std::to_string(camera.height),
+                     "give the intrinsics of this size");
+}
+
+/// The image without what is out of range, infinite or no number.
+DepthImage within_range(const DepthImage& image, const PinholeCamera& camera,
+                        const FusionConfig& config) {
+  DepthImage kept = image;
+  for (int v = 0; v < image.height; ++v)
+    for (int u = 0; u < image.width; ++u) {
+      const double range = static_cast<double>(image.at(u, v)) * camera.ray(u, v).norm();
+      if (!(range > 0.0 && range >= config.min_range && range <= config.max_range))
+        kept.depth[static_cast<std::size_t>(v * image.width + u)] = 0.0f;
+    }
+  return kept;
+}
+
+std::vector<detail::SurfacePoint> points_of(const DepthImage& image, const PinholeCamera& camera,
+                                            const Eigen::Isometry3d& T_world_camera) {
+  const detail::DepthNormals normals(image, camera);
+  std::vector<detail::SurfacePoint> points;
+  for (int v = 0; v < image.height; ++v)
+    for (int u = 0; u < image.width; ++u) {
+      const auto depth = static_cast<double>(image.at(u, v));
+      if (depth > 0.0)
+        points.push_back({T_world_camera * Point(depth * camera.ray(u, v)),
+                          T_world_camera.linear() * normals.at(u, v).cast<double>()});
+    }
+  return points;
+}
+
+/// Where the robot has been is free, whatever was measured there.
+void clear_sphere(const Point& centre, double radius, TsdfMap& map) {
+  const VoxelIndex low = voxel_at(centre - Point::Constant(radius), map.voxel_size);
+  const VoxelIndex high = voxel_at(centre + Point::Constant(radius), map.voxel_size);
+  for (int z = low.z; z <= high.z; ++z)
+    for (int y = low.y; y <= high.y; ++y)
+      for (int x = low.x; x <= high.x; ++x) {
+        const VoxelId id = map.layout.find({x, y, z});
+        if (id == kNoVoxel || (centre_of({x, y, z}, map.voxel_size) - centre).norm() > radius)
+          continue;
+        if (map.weight[id] > 0.0f && map.distance[id] > 0.0f) continue;
+        map.distance[id] = static_cast<float>(map.truncation);
+        map.weight[id] = std::max(map.weight[id], 1.0f);
+      }
+}
+
+}  // namespace
+
+void FusionConfig::validate() const {
+  validate_voxel_size(voxel_size, "voxel_size");
+  require(truncation == 0.0 || (truncation >= voxel_size && std::isfinite(truncation)),
+          "truncation", truncation, "give a voxel's length or more, or 0 for four voxels");
+  require(depth_behind == 0.0 || (depth_behind >= voxel_size && std::isfinite(depth_behind)),
+          "depth_behind", depth_behind, "give a voxel's length or more, or 0 for two voxels");
+  require(min_range >= 0.0 && std::isfinite(min_range), "min_range", min_range,
+          "give metres, 0 or more");
+  require(max_range > min_range && std::isfinite(max_range), "max_range", max_range,
+          "give metres, above min_range");
+  require(max_weight > 0.0, "max_weight", max_weight, "give a number above 0");
+  require(clear_radius >= 0.0 && clear_radius <= max_range, "clear_radius", clear_radius,
+          "give metres, 0 for none");
+}
+
+struct TsdfFusion::State {
+  FusionConfig config;
+  detail::TsdfBlocks blocks;
+  std::vector<Point> places;  // of the sensor
+
+  /// Remembers where the sensor was, with blocks around it if they are to be cleared.
+  void visit(const Point& place) {
+    places.push_back(place);
+    if (config.clear_radius <= 0.0) return;
+    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(config.clear_radius);
+    const BlockIndex low = block_of(voxel_at(place - reach, config.voxel_size));
+    const BlockIndex high = block_of(voxel_at(place + reach, config.voxel_size));
+    detail::require_room(blocks, static_cast<std::size_t>(high.x - low.x + 1) *
+                                     static_cast<std::size_t>(high.y - low.y + 1) *
+                                     static_cast<std::size_t>(high.z - low.z + 1));
+    for (int z = low.z; z <= high.z; ++z)
+      for (int y = low.y; y <= high.y; ++y)
+        for (int x = low.x; x <= high.x; ++x) blocks.find_or_add({x, y, z});
+  }
+};
+
+TsdfFusion::TsdfFusion(const FusionConfig& config) : state_(std::make_unique<State>()) {
+  config.validate();
+  state_->config = config;
+  if (config.truncation == 0.0) state_->config.truncation = kDefaultTruncation * config.voxel_size;
+  if (config.depth_behind == 0.0) state_->config.depth_behind = kDefaultDepth * config.voxel_size;
+}
+TsdfFusion::~TsdfFusion() = default;
+TsdfFusion::TsdfFusion(TsdfFusion&&) noexcept = default;
+TsdfFusion& TsdfFusion::operator=(TsdfFusion&&) noexcept = default;
+
+void TsdfFusion::integrate(const DepthImage& image, const PinholeCamera& camera,
+                           const Eigen::Isometry3d& T_world_camera) {
+  require_fits(image, camera);
+  validate_transform(T_world_camera);
+  State& s = *state_;
+  s.visit(T_world_camera.translation());
+  const DepthImage kept = within_range(image, camera, s.config);
+  if (s.config.integrator == Integrator::kProjective)
+    detail::integrate_projective(kept, camera, T_world_camera, s.config, s.blocks);
+  else
+    detail::integrate_rays(points_of(kept, camera, T_world_camera), s.places.back(), s.config,
+                           s.blocks);
+}
+
+void TsdfFusion::integrate(std::span<const Point> points, const Eigen::Isometry3d& T_world_sensor) {
+  validate_transform(T_world_sensor);
+  State& s = *state_;
+  s.visit(T_world_sensor.translation());
+  std::vector<detail::SurfacePoint> kept;
+  for (const Point& p : points) {
+    const double range = p.norm();
+    if (range > 0.0 && range >= s.config.min_range && range <= s.config.max_range)
+      kept.push_back({T_world_sensor * p});
+  }
+  detail::integrate_rays(kept, s.places.back(), s.config, s.blocks);
+}
+
+TsdfMap TsdfFusion::map() const {
+  const State& s = *state_;
+  TsdfMap map;
+  map.voxel_size = s.config.voxel_size;
+  map.truncation = s.config.truncation;
+  s.blocks.copy_to(map);
+  if (s.config.clear_radius > 0.0)
+    for (const Point& place : s.places) clear_sphere(place, s.config.clear_radius, map);
+  return map;
+}
+
+OccupancyMap occupancy_of(const TsdfMap& tsdf) {
+  OccupancyMap map;
+  map.voxel_size = tsdf.voxel_size;
+  map.layout = tsdf.layout;
+  map.state = VoxelField<VoxelState>(tsdf.layout);
+  for (VoxelId id = 0; id < tsdf.layout.voxel_count(); ++id)
+    if (tsdf.weight[id] > 0.0f)
+      map.state[id] = tsdf.distance[id] > 0.0f ? VoxelState::kFree : VoxelState::kOccupied;
+  return map;
+}
+
+}  // namespace ridgeway

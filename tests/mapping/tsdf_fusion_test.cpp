@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/mapping/tsdf_fusion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/common/parallel.hpp"
+#include "ridgeway/io/world_file.hpp"
+#include "ridgeway/sensing/poses.hpp"
+
+namespace ridgeway {
+namespace {
+
+World house() { return load_world(std::string(RIDGEWAY_WORLDS_DIR) + "/house.yaml"); }
+
+std::vector<Eigen::Isometry3d> poses_in_house(std::size_t count) {
+  return sample_poses(house(), {.low = {1, 1, 1}, .high = {14, 10, 5}, .count = count, .seed = 1});
+}
+
+TsdfMap fuse_house(const FusionConfig& config, std::size_t count, double sigma = 0.0) {
+  const World world = house();
+  DepthSensor sensor;
+  sensor.range_sigma = sigma;
+  TsdfFusion fusion(config);
+  std::uint64_t seed = 0;
+  for (const Eigen::Isometry3d& pose : poses_in_house(count))
+    fusion.integrate(render_depth(world, sensor, pose, seed++), sensor.camera, pose);
+  return fusion.map();
+}
+
+struct Errors {
+  double mean = 0.0, p99 = 0.0;
+  std::size_t voxels = 0;
+};
+
+/// Off the exact distance, in voxels, where the map says that it is within the truncation.
+Errors errors_of(const TsdfMap& map, const World& world) {
+  std::vector<double> off;
+  double sum = 0.0;
+  for (VoxelId id = 0; id < map.layout.voxel_count(); ++id) {
+    if (map.weight[id] <= 0.0f || std::abs(map.distance[id]) >= 0.99 * map.truncation) continue;
+    const Point centre = centre_of(map.layout.index_of(id), map.voxel_size);
+    off.push_back(std::abs(map.distance[id] - surface_distance(world, centre).distance) /
+                  map.voxel_size);
+    sum += off.back();
+  }
+  std::sort(off.begin(), off.end());
+  if (off.empty()) return {};
+  return {sum / static_cast<double>(off.size()), off[off.size() * 99 / 100], off.size()};
+}
+
+TEST(TsdfFusion, HouseWithoutNoiseIsThatOfTheExactDistance) {
+  const Errors errors = errors_of(fuse_house({.truncation = 0.4}, 200), house());
+  EXPECT_GT(errors.voxels, 300000u);
+  EXPECT_LE(errors.mean, 0.1);
+  EXPECT_LT(errors.p99, 1.001);
+}
+
+TEST(TsdfFusion, HouseByRaysIsNearlyAsGood) {
+  const FusionConfig config{.truncation = 0.4, .integrator = Integrator::kRayCasting};
+  const Errors errors = errors_of(fuse_house(config, 200), house());
+  EXPECT_GT(errors.voxels, 300000u);
+  EXPECT_LE(errors.mean, 0.25);
+  EXPECT_LE(errors.p99, 1.5);
+}
+
+TEST(TsdfFusion, AWallIsWhereItIsAtAnySlant) {
+  World world;
+  world.planes.push_back({-Eigen::Vector3d::UnitX(), -4.03});
+  for (const Integrator integrator : {Integrator::kProjective, Integrator::kRayCasting})
+    for (const double heading : {0.0, 0.5, 1.0, -1.2}) {
+      const DepthSensor sensor;
+      TsdfFusion fusion({.integrator = integrator});
+      const Eigen::Isometry3d pose = level_pose(Point::Zero(), heading);
+      fusion.integrate(render_depth(world, sensor, pose), sensor.camera, pose);
+      const Errors errors = errors_of(fusion.map(), world);
+      EXPECT_GT(errors.voxels, 5000u);
+      EXPECT_LT(errors.mean, 0.02) << heading;
+      EXPECT_LT(errors.p99, 0.2) << heading;
+    }
+}
+
+TEST(TsdfFusion, SpaceBeforeAWallIsFreeAndBehindItUnknown) {
+  World world;
+  world.planes.push_back({-Eigen::Vector3d::UnitX(), -4.0});
+  const DepthSensor sensor;
+  const Eigen::Isometry3d pose = level_pose({0.05, 0.05, 0.05}, 0.0);
+  for (const Integrator integrator : {Integrator::kProjective, Integrator::kRayCasting})
+    for (const bool carve : {true, false}) {
+      TsdfFusion fusion({.carve = carve, .integrator = integrator});
+      fusion.integrate(render_depth(world, sensor, pose), sensor.camera, pose);
+      const OccupancyMap map = occupancy_of(fusion.map());
+      for (int x = 5; x < 50; ++x) {
+        if (x == 41 || x == 42) continue;  // solid as far as is taken for granted, or unknown
+        const VoxelState expected = x > 42             ? VoxelState::kUnknown
+                                    : x == 40          ? VoxelState::kOccupied
+                                    : x >= 36 || carve ? VoxelState::kFree
+                                                       : VoxelState::kUnknown;
+        EXPECT_EQ(map.at({x, 0, 0}), expected) << x;
+      }
+    }
+}
+
+TEST(TsdfFusion, BitsDoNotDependOnThreads) {
+  for (const Integrator integrator : {Integrator::kProjective, Integrator::kRayCasting}) {
+    const auto fuse = [&](int threads) {
+      return with_threads(threads, [&] { return fuse_house({.integrator = integrator}, 10, 0.1); });
+    };
+    const TsdfMap one = fuse(1), two = fuse(2);
+    EXPECT_TRUE(one.layout == two.layout);
+    EXPECT_TRUE(one.distance.values() == two.distance.values());
+    EXPECT_TRUE(one.weight.values() == two.weight.values());
+  }
+}
+
+TEST(TsdfFusion, PointCloudsWorkLikeTheirImages) {
+  World world;
+  world.planes.push_back({-Eigen::Vector3d::UnitX(), -4.0});
+  const DepthSensor sensor;
+  const Eigen::Isometry3d pose = level_pose(Point::Zero(), 0.0);
+  const DepthImage image = render_depth(world, sensor, pose);
+  std::vector<Point> points = {Point::Constant(std::nan("")), Point::Zero(),
+                               Point::Constant(1e300)};
+  for (int v = 0; v < image.height; ++v)
+    for (int u = 0; u < image.width; ++u)
+      points.emplace_back(image.at(u, v) * sensor.camera.ray(u, v));
+  TsdfFusion fusion;
+  fusion.integrate(points, pose);
+  const OccupancyMap map = occupancy_of(fusion.map());
+  EXPECT_EQ(map.at({20, 0, 0}), VoxelState::kFree);
+  EXPECT_EQ(map.at({40, 0, 0}), VoxelState::kOccupied);
+  EXPECT_EQ(map.at({45, 0, 0}), VoxelState::kUnknown);
+}
+
+TEST(TsdfFusion, WhereTheRobotWasIsFree) {
+  World world;
+  world.planes.push_back({-Eigen::Vector3d::UnitX(), -4.0});
+  DepthSensor sensor;
+  sensor.min_range = 3.0;
+  const Eigen::Isometry3d pose = level_pose({0.05, 0.05, 0.05}, 0.0);
+  TsdfFusion fusion({.clear_radius = 0.3});
+  fusion.integrate(render_depth(world, sensor, pose), sensor.camera, pose);
+  const OccupancyMap map = occupancy_of(fusion.map());
+  EXPECT_EQ(map.at({0, 2, 0}), VoxelState::kFree);
+  EXPECT_EQ(map.at({-2, 0, 0}), VoxelState::kFree);
+  EXPECT_EQ(map.at({-5, 0, 0}), VoxelState::kUnknown);
+}
+
+TEST(TsdfFusion, WhatWouldSpoilTheMapIsRefused) {
+  const DepthSensor sensor;
+  const Eigen::Isometry3d level = level_pose(Point::Zero(), 0.0);
+  const DepthImage image = render_depth(house(), sensor, level_pose({1, 1, 1}, 0.0));
+  TsdfFusion fusion;
+  DepthImage small = image;
+  small.depth.pop_back();
+  EXPECT_THROW(fusion.integrate(small, sensor.camera, level), InputError);
+  PinholeCamera other = sensor.camera;
+  other.width = 640;
+  EXPECT_THROW(fusion.integrate(image, other, level), InputError);
+  Eigen::Isometry3d skewed = level;
+  skewed.linear() *= 1.1;
+  EXPECT_THROW(fusion.integrate(image, sensor.camera, skewed), InputError);
+  DepthImage odd = image;  // a sensor's odd values are no measurements
+  odd.depth[0] = std::nanf("");
+  odd.depth[1] = -1.0f;
+  odd.depth[2] = std::numeric_limits<float>::infinity();
+  EXPECT_NO_THROW(fusion.integrate(odd, sensor.camera, level));
+  const TsdfMap map = fusion.map();
+  for (const float distance : map.distance.values()) ASSERT_TRUE(std::isfinite(distance));
+  EXPECT_THROW(TsdfFusion({.voxel_size = 0.0}), InputError);
+  EXPECT_THROW(TsdfFusion({.voxel_size = 0.1, .truncation = 0.05}), InputError);
+  EXPECT_THROW(TsdfFusion({.min_range = 3.0, .max_range = 2.0}), InputError);
+  TsdfFusion fine({.voxel_size = 1e-4});
+  EXPECT_THROW(fine.integrate(image, sensor.camera, level), InputError);
+}
+
+}  // namespace
+}  // namespace ridgeway
