@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ridgeway/sensing/depth_camera.hpp"
+
+namespace ridgeway {
+
+struct DepthFrame {
+  std::filesystem::path image;  ///< 16-bit PNG
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+};
+
+/// A recording: depth images with poses, in the order of time. The images are read when needed.
+struct DepthSequence {
+  std::string layout;  ///< "tum" or "7-scenes"
+  PinholeCamera camera;
+  double units_per_metre = 5000.0;  ///< of the images
+  std::vector<DepthFrame> frames;
+  std::size_t without_pose = 0;  ///< images that no pose belongs to, passed over
+};
+
+struct SequenceConfig {
+  /// fx, fy, cx, cy in pixels; else those of camera-intrinsics.txt in the folder, else the
+  /// defaults of the layout (525, 525, 319.5, 239.5 and 585, 585, 320, 240 for 640 x 480).
+  std::optional<Eigen::Vector4d> intrinsics;
+  double longest_gap = 0.02;  ///< seconds between an image and its pose (TUM)
+};
+
+/// Opens a folder in the layout of TUM RGB-D (depth.txt, groundtruth.txt, images of 1/5000 m; times
+/// are matched nearest first, each once) or of 7-Scenes and 3DMatch (frame-*.depth.png in
+/// millimetres with frame-*.pose.txt, 4 x 4, camera to world). Throws InputError, with the file and
+/// the line, for what is missing or wrong; poses that are not finite ("lost") are passed over and
+/// counted.
+DepthSequence open_sequence(const std::filesystem::path& folder, const SequenceConfig& config = {});
+
+/// The image of a frame. Throws InputError where it does not have the camera's size.
+DepthImage read_frame(const DepthSequence& sequence, const DepthFrame& frame);
+
+/// Writes depth images and poses as a folder in the layout of TUM RGB-D, with the camera in
+/// camera-intrinsics.txt. The folder must not exist or be empty.
+class SequenceWriter {
+ public:
+  SequenceWriter(const std::filesystem::path& folder, const PinholeCamera& camera);
+  void add(const DepthImage& image, const Eigen::Isometry3d& T_world_camera);
+  /// Writes the lists; without it the folder is no sequence yet.
+  void finish();
+
+ private:
+  std::filesystem::path folder_;
+  PinholeCamera camera_;
+  std::string images_ = "# timestamp filename\n";
+  std::string poses_ = "# timestamp tx ty tz qx qy qz qw\n";
+  int count_ = 0;
+};
+
+}  // namespace ridgeway
