@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "arguments.hpp"
 
+#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -126,6 +127,11 @@ void require_writable(const std::vector<std::filesystem::path>& files,
         throw InputError(file->string(), "would be written twice", "give two names");
     const AtomicFile probe(*file);  // without commit it leaves nothing behind
   }
+}
+
+void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& help) {
+  constexpr double kLargest = 1.8e19;  // below 2^64
+  command.add_option("--seed", seed, help)->check(CLI::Range(0.0, kLargest))->capture_default_str();
 }
 
 std::vector<std::string> join_negative_values(int argc, const char* const* argv) {

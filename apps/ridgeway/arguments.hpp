@@ -3,12 +3,17 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "ridgeway/mapping/occupancy_map.hpp"
+
+namespace CLI {  // NOLINT(readability-identifier-naming): theirs
+class App;
+}
 
 namespace ridgeway::cli {
 
@@ -30,6 +35,9 @@ Eigen::Isometry3d parse_transform(std::string_view text, const std::string& opti
 /// read: to be known before the long work.
 void require_writable(const std::vector<std::filesystem::path>& files,
                       const std::vector<std::filesystem::path>& inputs);
+
+/// Adds --seed; what is no number from 0 to 1.8e19 is refused.
+void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& help);
 
 /// A list of numbers that begins with a minus sign looks like an option to a parser of command
 /// lines: "--from -1,2,0.5" becomes "--from=-1,2,0.5".

@@ -18,8 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kLargestSeed = 1.8e19;  // below 2^64
-constexpr int kMostQueries = 1000000;    // their paths are all kept
+constexpr int kMostQueries = 1000000;  // their paths are all kept
 
 struct Options {
   std::string file, paths;
@@ -106,9 +105,7 @@ void add_check_command(CLI::App& app, const Globals& globals, Command& chosen) {
   command->add_option("--queries", options->check.queries, "Random queries to compare with A*")
       ->check(CLI::Range(0, kMostQueries))
       ->capture_default_str();
-  command->add_option("--seed", options->check.seed, "Of the random queries")
-      ->check(CLI::Range(0.0, kLargestSeed))
-      ->capture_default_str();
+  add_seed_option(*command, options->check.seed, "Of the random queries");
   command->add_option("--paths", options->paths,
                       "File to write the checked paths to, as JSON, for other checkers");
   command->footer(

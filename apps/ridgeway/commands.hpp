@@ -30,5 +30,7 @@ void add_plan_command(CLI::App& app, const Globals& globals, Command& chosen);
 void add_check_command(CLI::App& app, const Globals& globals, Command& chosen);
 void add_info_command(CLI::App& app, const Globals& globals, Command& chosen);
 void add_export_command(CLI::App& app, const Globals& globals, Command& chosen);
+void add_world_command(CLI::App& app, const Globals& globals, Command& chosen);
+void add_simulate_command(CLI::App& app, const Globals& globals, Command& chosen);
 
 }  // namespace ridgeway::cli

@@ -35,6 +35,8 @@ void add_commands(CLI::App& app, Globals& globals, Command& chosen) {
   add_check_command(app, globals, chosen);
   add_info_command(app, globals, chosen);
   add_export_command(app, globals, chosen);
+  add_world_command(app, globals, chosen);
+  add_simulate_command(app, globals, chosen);
   for (CLI::App* command : app.get_subcommands({}))
     command->footer("Every command has --json, --quiet and --threads N: see ridgeway --help.\n" +
                     command->get_footer());

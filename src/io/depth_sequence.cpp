@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "ridgeway/io/depth_sequence.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -261,13 +263,21 @@ DepthImage read_frame(const DepthSequence& sequence, const DepthFrame& frame) {
 SequenceWriter::SequenceWriter(const fs::path& folder, const PinholeCamera& camera)
     : folder_(folder), camera_(camera) {
   camera.validate();
+  if (!folder_.has_filename()) folder_ = folder_.parent_path();  // "run/"
   std::error_code error;
-  if (fs::exists(folder, error) && !(fs::is_directory(folder, error) && fs::is_empty(folder)))
-    throw InputError(folder.string(), "exists and is not empty", "give a new folder");
-  fs::create_directories(folder / "depth", error);
+  if (fs::exists(folder_, error) && !(fs::is_directory(folder_, error) && fs::is_empty(folder_)))
+    throw InputError(folder_.string(), "exists and is not empty", "give a new folder");
+  temporary_ = folder_.parent_path() /
+               ("." + folder_.filename().string() + "." + std::to_string(::getpid()) + ".tmp");
+  fs::create_directories(temporary_ / "depth", error);
   if (error)
-    throw InputError(folder.string(), "cannot be made: " + error.message(),
+    throw InputError(folder_.string(), "cannot be made: " + error.message(),
                      "choose a folder that you may write to");
+}
+
+SequenceWriter::~SequenceWriter() {
+  std::error_code ignored;
+  if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
 }
 
 void SequenceWriter::add(const DepthImage& image, const Eigen::Isometry3d& T_world_camera) {
@@ -276,7 +286,7 @@ void SequenceWriter::add(const DepthImage& image, const Eigen::Isometry3d& T_wor
   name.width(6);
   name.fill('0');
   name << count_ << ".png";
-  write_depth_png(image, folder_ / name.str(), kTumUnits);
+  write_depth_png(image, temporary_ / name.str(), kTumUnits);
   const std::string time = number_text(count_ * kFrameSeconds);
   const Eigen::Quaterniond q(T_world_camera.linear());
   const Point& t = T_world_camera.translation();
@@ -292,11 +302,17 @@ void SequenceWriter::finish() {
   const auto row = [](double a, double b, double c) {
     return number_text(a) + " " + number_text(b) + " " + number_text(c) + "\n";
   };
-  write_text_file(
-      folder_ / kIntrinsicsFile,
-      row(camera_.fx, 0.0, camera_.cx) + row(0.0, camera_.fy, camera_.cy) + row(0.0, 0.0, 1.0));
-  write_text_file(folder_ / "depth.txt", images_);
-  write_text_file(folder_ / "groundtruth.txt", poses_);
+  const std::string intrinsics =
+      row(camera_.fx, 0.0, camera_.cx) + row(0.0, camera_.fy, camera_.cy) + row(0.0, 0.0, 1.0);
+  write_text_file(temporary_ / kIntrinsicsFile, intrinsics);
+  write_text_file(temporary_ / "depth.txt", images_);
+  write_text_file(temporary_ / "groundtruth.txt", poses_);
+  std::error_code error;
+  fs::rename(temporary_, folder_, error);
+  if (error)
+    throw InputError(folder_.string(), "cannot be written: " + error.message(),
+                     "give a new folder");
+  temporary_.clear();
 }
 
 }  // namespace ridgeway

@@ -2,7 +2,9 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "ridgeway/sensing/poses.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -17,6 +19,32 @@ void PoseSampling::validate() const {
     throw InputError("volume of poses", "is no box", "give the lesser corner first, metres");
   if (!(clearance >= 0.0 && std::isfinite(clearance)))
     throw InputError("clearance of poses", "is " + number_text(clearance), "give metres");
+}
+
+PoseSampling sampling_inside(const World& world) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Point low = Point::Constant(kInfinity), high = Point::Constant(-kInfinity);
+  const auto reach = [&](const Point& centre, const Eigen::Vector3d& half) {
+    low = low.cwiseMin(centre - half);
+    high = high.cwiseMax(centre + half);
+  };
+  for (const SolidBox& box : world.boxes) reach(box.centre, 0.5 * box.size);
+  for (const SolidSphere& ball : world.spheres) reach(ball.centre, Point::Constant(ball.radius));
+  for (const SolidCylinder& round : world.cylinders)
+    reach(round.centre, {round.radius, round.radius, 0.5 * round.height});
+  for (int axis = 0; axis < 3; ++axis) {
+    double floor = -kInfinity, ceiling = kInfinity;
+    for (const SolidPlane& plane : world.planes) {
+      if (plane.normal[axis] == 1.0) floor = std::max(floor, plane.offset);
+      if (plane.normal[axis] == -1.0) ceiling = std::min(ceiling, -plane.offset);
+    }
+    if (std::isfinite(floor)) low[axis] = floor;
+    if (std::isfinite(ceiling)) high[axis] = ceiling;
+  }
+  if (!low.allFinite() || !high.allFinite())
+    throw InputError("world", "has no walls and nothing in it to look at",
+                     "add planes or solids, or give the volume of the poses");
+  return {.low = low, .high = high};
 }
 
 Eigen::Isometry3d level_pose(const Point& place, double heading) {

@@ -12,6 +12,7 @@
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/sensing/poses.hpp"
+#include "ridgeway/sensing/world_generators.hpp"
 
 namespace ridgeway {
 namespace {
@@ -144,6 +145,11 @@ TEST(Poses, KeepTheirDistanceAndRepeat) {
   }
   EXPECT_EQ(poses[7].matrix(), sample_poses(world, sampling)[7].matrix());
   EXPECT_THROW(sample_poses(world, {.low = {-5, -5, -20}, .high = {5, 5, -15}}), InputError);
+
+  const PoseSampling inside = sampling_inside(make_maze({.cells = 4}));
+  EXPECT_EQ(inside.low, Point::Zero());
+  EXPECT_EQ(inside.high, Point(12.0, 12.0, 2.5));
+  EXPECT_THROW(sampling_inside(World{}), InputError);
 }
 
 }  // namespace

@@ -44,16 +44,19 @@ DepthSequence open_sequence(const std::filesystem::path& folder, const SequenceC
 DepthImage read_frame(const DepthSequence& sequence, const DepthFrame& frame);
 
 /// Writes depth images and poses as a folder in the layout of TUM RGB-D, with the camera in
-/// camera-intrinsics.txt. The folder must not exist or be empty.
+/// camera-intrinsics.txt. The folder must not exist or be empty; it appears whole, by finish(), or
+/// not at all.
 class SequenceWriter {
  public:
   SequenceWriter(const std::filesystem::path& folder, const PinholeCamera& camera);
+  ~SequenceWriter();
+  SequenceWriter(const SequenceWriter&) = delete;
+  SequenceWriter& operator=(const SequenceWriter&) = delete;
   void add(const DepthImage& image, const Eigen::Isometry3d& T_world_camera);
-  /// Writes the lists; without it the folder is no sequence yet.
   void finish();
 
  private:
-  std::filesystem::path folder_;
+  std::filesystem::path folder_, temporary_;
   PinholeCamera camera_;
   std::string images_ = "# timestamp filename\n";
   std::string poses_ = "# timestamp tx ty tz qx qy qz qw\n";

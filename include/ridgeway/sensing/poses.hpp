@@ -22,6 +22,10 @@ struct PoseSampling {
   void validate() const;
 };
 
+/// The box between the planes along the axes, and, where there are none, around the solids.
+/// Throws InputError for a world that has neither on some side.
+PoseSampling sampling_inside(const World& world);
+
 /// Pose (camera to world) of a level camera at a place; heading 0 looks along x, pi / 2 along y.
 Eigen::Isometry3d level_pose(const Point& place, double heading);
 

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "arguments.hpp"
+#include "commands.hpp"
+#include "console.hpp"
+#include "ridgeway/io/depth_sequence.hpp"
+#include "ridgeway/io/world_file.hpp"
+#include "ridgeway/sensing/poses.hpp"
+
+namespace ridgeway::cli {
+namespace {
+
+constexpr int kMostFrames = 1000000;
+
+struct Options {
+  std::string world, output, camera = "pinhole", volume;
+  int frames = 200;
+  double sigma = 0.0, clearance = 0.5, max_range = 10.0;
+  std::uint64_t seed = 1;
+};
+
+DepthSensor sensor_of(const Options& options) {
+  DepthSensor sensor = options.camera == "stereo" ? stereo_sensor() : DepthSensor{};
+  sensor.range_sigma = options.sigma;
+  sensor.max_range = options.max_range;
+  sensor.validate();
+  return sensor;
+}
+
+PoseSampling sampling_of(const Options& options, const World& world) {
+  PoseSampling sampling;
+  if (options.volume.empty()) {
+    sampling = sampling_inside(world);
+  } else {
+    const Box box = parse_box(options.volume, "--volume");
+    sampling.low = box.min;
+    sampling.high = box.max;
+  }
+  sampling.clearance = options.clearance;
+  sampling.count = static_cast<std::size_t>(options.frames);
+  sampling.seed = options.seed;
+  return sampling;
+}
+
+int run(const Options& options, const Globals& globals) {
+  const DepthSensor sensor = sensor_of(options);
+  const World world = load_world(options.world);
+  const auto poses = sample_poses(world, sampling_of(options, world));
+  SequenceWriter writer(options.output, sensor.camera);
+  ProgressBar bar(globals);
+  const Stopwatch watch;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    bar.show("simulate", static_cast<double>(i) / static_cast<double>(poses.size()));
+    // A frame's noise is its own, whatever the number of frames.
+    writer.add(render_depth(world, sensor, poses[i], options.seed * kMostFrames + i), poses[i]);
+  }
+  writer.finish();
+  bar.clear();
+  const double seconds = watch.seconds();
+  if (globals.json) {
+    print_json({{"folder", options.output},
+                {"frames", poses.size()},
+                {"width", sensor.camera.width},
+                {"height", sensor.camera.height},
+                {"seconds", seconds}});
+  } else {
+    print_row("frames", count_text(poses.size()) + " of " + std::to_string(sensor.camera.width) +
+                            " x " + std::to_string(sensor.camera.height) + " pixels");
+    print_row("folder", options.output);
+    print_row("time", seconds_text(seconds));
+  }
+  return kExitDone;
+}
+
+}  // namespace
+
+void add_simulate_command(CLI::App& app, const Globals& globals, Command& chosen) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("simulate", "Record depth images in a simulated world, TUM RGB-D layout");
+  command->add_option("world", options->world, "World, .yaml")->required();
+  command->add_option("-o,--output", options->output, "Folder to write, new or empty")->required();
+  command->add_option("--frames", options->frames, "Images to record, from random level poses")
+      ->check(CLI::Range(1, kMostFrames))
+      ->capture_default_str();
+  command->add_option("--camera", options->camera, "A perfect one, or a stereo pair")
+      ->check(CLI::IsMember({"pinhole", "stereo"}))
+      ->capture_default_str();
+  command->add_option("--sigma", options->sigma, "Gaussian noise on every range, metres")
+      ->capture_default_str();
+  command->add_option("--max-range", options->max_range, "Nothing farther is measured, metres")
+      ->capture_default_str();
+  command->add_option("--volume", options->volume,
+                      "Where the camera may be, x0,y0,z0,x1,y1,z1 (default: the whole world)");
+  command->add_option("--clearance", options->clearance, "Of the camera to all surfaces, metres")
+      ->capture_default_str();
+  add_seed_option(*command, options->seed, "Of poses and noise");
+  command->footer(
+      "Example:\n"
+      "  ridgeway simulate worlds/house.yaml -o house --volume 1,1,1,14,10,5 --sigma 0.1");
+  command->callback([options, &globals, &chosen] {
+    chosen = [options, &globals] { return run(*options, globals); };
+  });
+}
+
+}  // namespace ridgeway::cli

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "arguments.hpp"
+#include "commands.hpp"
+#include "console.hpp"
+#include "ridgeway/io/world_file.hpp"
+#include "ridgeway/sensing/world_generators.hpp"
+
+namespace ridgeway::cli {
+namespace {
+
+struct Options {
+  std::string kind, output;
+  std::uint64_t seed = 1;
+};
+
+int run(const Options& options, const Globals& globals) {
+  require_writable({options.output}, {});
+  const World world = options.kind == "maze" ? make_maze({.seed = options.seed})
+                                             : make_hall({.seed = options.seed});
+  save_world(world, options.output);
+  const std::size_t solids = world.planes.size() + world.boxes.size() + world.spheres.size() +
+                             world.cylinders.size();
+  if (globals.json) {
+    print_json({{"file", options.output}, {"name", world.name}, {"solids", solids}});
+  } else {
+    print_row("world", world.name + ", " + count_text(solids) + " solids");
+    print_row("file", options.output);
+  }
+  return kExitDone;
+}
+
+}  // namespace
+
+void add_world_command(CLI::App& app, const Globals& globals, Command& chosen) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("world", "Make a simulated world from a seed");
+  command->add_option("kind", options->kind, "A maze of 30 x 30 m or a machine hall of 20 x 22 m")
+      ->required()
+      ->check(CLI::IsMember({"maze", "hall"}));
+  command->add_option("-o,--output", options->output, "World to write, .yaml")->required();
+  add_seed_option(*command, options->seed, "Another seed, another world");
+  command->footer(
+      "Example:\n"
+      "  ridgeway world maze --seed 7 -o maze.yaml");
+  command->callback([options, &globals, &chosen] {
+    chosen = [options, &globals] { return run(*options, globals); };
+  });
+}
+
+}  // namespace ridgeway::cli

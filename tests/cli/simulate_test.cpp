@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "program.hpp"
+#include "ridgeway/io/depth_sequence.hpp"
+
+namespace ridgeway {
+namespace {
+
+class CliSimulate : public Program {
+ protected:
+  std::string house() { return std::string(RIDGEWAY_WORLDS_DIR) + "/house.yaml"; }
+};
+
+TEST_F(CliSimulate, WritesARecordingThatOpens) {
+  const Outcome outcome = run({"simulate", house(), "-o", path("house"), "--frames", "5",
+                               "--volume", "1,1,1,14,9,4", "--sigma", "0.1", "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.json()["frames"], 5);
+  const DepthSequence sequence = open_sequence(path("house"));
+  ASSERT_EQ(sequence.frames.size(), 5u);
+  EXPECT_EQ(sequence.camera.fx, 160.0);
+  for (const DepthFrame& frame : sequence.frames)
+    EXPECT_GT(read_frame(sequence, frame).at(160, 120), 0.0f);
+}
+
+TEST_F(CliSimulate, SameSeedSameBytesForAnyNumberOfThreads) {
+  const auto record = [&](const std::string& name, const std::string& threads,
+                          const std::string& seed) {
+    EXPECT_EQ(run({"simulate", house(), "-o", path(name), "--frames", "3", "--sigma", "0.1",
+                   "--threads", threads, "--seed", seed})
+                  .code,
+              0);
+    return read_whole(folder_ / name / "depth/000002.png") +
+           read_whole(folder_ / name / "groundtruth.txt");
+  };
+  EXPECT_EQ(record("one", "1", "5"), record("two", "2", "5"));
+  EXPECT_NE(record("three", "1", "5"), record("four", "1", "6"));
+}
+
+TEST_F(CliSimulate, WorldsFromSeeds) {
+  for (const char* kind : {"maze", "hall"}) {
+    const std::string file = std::string(kind) + ".yaml";
+    EXPECT_EQ(run({"world", kind, "-o", path(file), "--seed", "3"}).code, 0);
+    EXPECT_EQ(run({"simulate", path(file), "-o", path(kind), "--frames", "2", "--camera",
+                   "stereo"}).code, 0);
+    EXPECT_EQ(open_sequence(path(kind)).frames.size(), 2u);
+  }
+}
+
+TEST_F(CliSimulate, BadInputLeavesNothing) {
+  write_whole(folder_ / "balls.yaml", "balls: []\n");
+  write_whole(folder_ / "empty.yaml", "name: nothing\n");
+  std::filesystem::create_directory(folder_ / "full");
+  write_whole(folder_ / "full/file", "x");
+  expect_refused({"simulate", path("none.yaml"), "-o", path("out")}, {"none.yaml"});
+  expect_refused({"simulate", path("balls.yaml"), "-o", path("out")}, {"balls"});
+  expect_refused({"simulate", path("empty.yaml"), "-o", path("out")}, {"world"});
+  expect_refused({"simulate", house(), "-o", path("full")}, {"not empty"});
+  expect_refused({"simulate", house(), "-o", path("out"), "--sigma", "-1"}, {"range_sigma"});
+  expect_refused({"simulate", house(), "-o", path("out"), "--frames", "0"}, {"--frames"});
+  expect_refused({"simulate", house(), "-o", path("out"), "--clearance", "9"}, {"clearance"});
+  expect_refused({"simulate", house(), "-o", path("out"), "--volume", "1,1"}, {"--volume"});
+  expect_refused({"world", "castle", "-o", path("out.yaml")}, {"castle"});
+}
+
+}  // namespace
+}  // namespace ridgeway
