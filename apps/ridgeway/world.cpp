@@ -25,8 +25,8 @@ int run(const Options& options, const Globals& globals) {
   const World world = options.kind == "maze" ? make_maze({.seed = options.seed})
                                              : make_hall({.seed = options.seed});
   save_world(world, options.output);
-  const std::size_t solids = world.planes.size() + world.boxes.size() + world.spheres.size() +
-                             world.cylinders.size();
+  const std::size_t solids =
+      world.planes.size() + world.boxes.size() + world.spheres.size() + world.cylinders.size();
   if (globals.json) {
     print_json({{"file", options.output}, {"name", world.name}, {"solids", solids}});
   } else {

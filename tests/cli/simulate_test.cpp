@@ -41,8 +41,9 @@ TEST_F(CliSimulate, WorldsFromSeeds) {
   for (const char* kind : {"maze", "hall"}) {
     const std::string file = std::string(kind) + ".yaml";
     EXPECT_EQ(run({"world", kind, "-o", path(file), "--seed", "3"}).code, 0);
-    EXPECT_EQ(run({"simulate", path(file), "-o", path(kind), "--frames", "2", "--camera",
-                   "stereo"}).code, 0);
+    EXPECT_EQ(
+        run({"simulate", path(file), "-o", path(kind), "--frames", "2", "--camera", "stereo"}).code,
+        0);
     EXPECT_EQ(open_sequence(path(kind)).frames.size(), 2u);
   }
 }
