@@ -31,6 +31,7 @@ void add_check_command(CLI::App& app, const Globals& globals, Command& chosen);
 void add_info_command(CLI::App& app, const Globals& globals, Command& chosen);
 void add_export_command(CLI::App& app, const Globals& globals, Command& chosen);
 void add_world_command(CLI::App& app, const Globals& globals, Command& chosen);
+void add_fuse_command(CLI::App& app, const Globals& globals, Command& chosen);
 void add_simulate_command(CLI::App& app, const Globals& globals, Command& chosen);
 
 }  // namespace ridgeway::cli

@@ -16,6 +16,7 @@
 #include "ridgeway/io/ply_cloud.hpp"
 #include "ridgeway/io/point_cloud.hpp"
 #include "ridgeway/io/read_file.hpp"
+#include "ridgeway/io/tsdf_file.hpp"
 #include "ridgeway/io/xyz.hpp"
 
 namespace ridgeway::cli {
@@ -76,6 +77,7 @@ std::optional<OccupancyMap> try_voxels(const std::filesystem::path& file, const 
 
 bool is_roadmap_file(const std::filesystem::path& file) {
   constexpr std::string_view kMagic = "RIDGEWAY";
+  if (is_tsdf_file(file)) return false;
   if (file.extension() == ".ridge") return true;
   if (!std::filesystem::is_regular_file(file)) return false;  // opening a pipe would wait for ever
   std::string head(kMagic.size(), '\0');
@@ -91,7 +93,11 @@ Json describe_source(const std::filesystem::path& file, const Globals& globals) 
   if (!map)
     add_cloud(json, read_cloud(bytes, name));
   else
-    add_voxels(json, is_octomap(bytes) ? octomap_format(bytes, name) : "3dmap", *map);
+    add_voxels(json,
+               is_tsdf_file(file)  ? "tsdf"
+               : is_octomap(bytes) ? octomap_format(bytes, name)
+                                   : "3dmap",
+               *map);
   return json;
 }
 

@@ -17,6 +17,7 @@
 #include "ridgeway/io/ply_cloud.hpp"
 #include "ridgeway/io/point_cloud.hpp"
 #include "ridgeway/io/read_file.hpp"
+#include "ridgeway/io/tsdf_file.hpp"
 #include "ridgeway/io/xyz.hpp"
 #include "ridgeway/mapping/map_edits.hpp"
 #include "ridgeway/mapping/map_transform.hpp"
@@ -147,6 +148,25 @@ OccupancyMap load_benchmark_map(std::string_view bytes, const LoadConfig& config
   return load_voxels(source, config, name, notes);
 }
 
+OccupancyMap load_fused_map(const std::filesystem::path& file, const LoadConfig& config,
+                            LoadNotes* notes) {
+  const OccupancyMap fused = occupancy_of(load_tsdf(file));
+  const std::string name = file.string();
+  const VoxelSource source = {
+      fused.voxel_size, [&](const VoxelPlacement& placement) {
+        OccupancyBuilder builder(
+            fused.voxel_size,
+            {.clip = placement.clip, .bytes_per_voxel = placement.bytes_per_voxel, .name = name});
+        for (VoxelId id = 0; id < fused.layout.voxel_count(); ++id) {
+          const VoxelIndex voxel = fused.layout.index_of(id);
+          if (fused.state[id] != VoxelState::kUnknown)
+            builder.set(placement.motion({voxel, voxel}).min, fused.state[id]);
+        }
+        return std::move(builder).finish();
+      }};
+  return load_voxels(source, config, name, notes);
+}
+
 /// Text that begins with a number, or with column names, after comments.
 bool looks_like_xyz(std::string_view bytes) {
   const std::string_view head = bytes.substr(0, 4096);
@@ -186,6 +206,7 @@ void LoadConfig::validate() const {
 OccupancyMap load_map(const std::filesystem::path& file, const LoadConfig& config,
                       LoadNotes* notes) {
   config.validate();
+  if (is_tsdf_file(file)) return load_fused_map(file, config, notes);
   const std::string bytes = read_file(file), name = file.string();
   if (is_octomap(bytes)) {
     const VoxelSource source = {

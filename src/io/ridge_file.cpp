@@ -38,7 +38,7 @@ Roadmap load_roadmap(const std::filesystem::path& path) {
   roadmap.esdf.voxel_size = header.voxel_size;
   roadmap.esdf.unknown = header.unknown;
   roadmap.esdf.max_distance = header.max_distance;
-  roadmap.esdf.layout = load_blocks(reader, header);
+  roadmap.esdf.layout = load_blocks(reader, header.blocks);
   load_voxels(reader, header, roadmap);
   load_graph(reader, header, roadmap);
 

@@ -89,16 +89,20 @@ std::vector<std::byte> tree_bytes(const ClearanceTree& tree) {
 
 }  // namespace
 
+RidgeSectionSource blocks_section(const BlockLayout& layout) {
+  return plain_section("blocks", kBlocksType, block_bytes(layout));
+}
+
 std::vector<RidgeSectionSource> list_sections(const Roadmap& roadmap) {
-  return {plain_section("blocks", kBlocksType, block_bytes(roadmap.esdf.layout)),
+  return {blocks_section(roadmap.esdf.layout),
           plain_section("vertices", kVerticesType, vertex_bytes(roadmap.graph)),
           plain_section("edges", kEdgesType, edge_bytes(roadmap.graph)),
           plain_section("tree", kTreeType, tree_bytes(roadmap.tree))};
 }
 
-BlockLayout load_blocks(const RidgeReader& reader, const RidgeHeader& header) {
-  Planes planes(reader, "blocks", kBlocksType, header.blocks, kBlockBytes);
-  std::vector<BlockIndex> blocks(header.blocks);
+BlockLayout load_blocks(const RidgeReader& reader, std::uint32_t count) {
+  Planes planes(reader, "blocks", kBlocksType, count, kBlockBytes);
+  std::vector<BlockIndex> blocks(count);
   for (const auto axis : {&BlockIndex::x, &BlockIndex::y, &BlockIndex::z}) {
     std::uint32_t value = 0;
     planes.take<std::uint32_t>([&](std::size_t i, std::uint32_t difference) {

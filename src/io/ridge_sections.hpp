@@ -21,6 +21,7 @@ enum RidgeType : std::uint32_t {
   kVerticesType = 6,  ///< planes: voxel x, y, z (int32), clearance (double)
   kEdgesType = 7,     ///< planes: from, to (uint32), length, clearance (double)
   kTreeType = 8,      ///< planes: parent (uint32), clearance (double), place x, y, z (int32)
+  kTsdfType = 9,      ///< a chunk: planes of distance and weight (float) of 128 blocks
 };
 
 /// Sections with a value for every voxel: state, site, diagram, attach.
@@ -33,7 +34,8 @@ void load_voxels(const RidgeReader& reader, const RidgeHeader& header, Roadmap& 
 
 /// Sections blocks, vertices, edges and tree.
 std::vector<RidgeSectionSource> list_sections(const Roadmap& roadmap);
-BlockLayout load_blocks(const RidgeReader& reader, const RidgeHeader& header);
+RidgeSectionSource blocks_section(const BlockLayout& layout);
+BlockLayout load_blocks(const RidgeReader& reader, std::uint32_t count);
 /// Fills graph (with its links) and tree; the layout must stand.
 void load_graph(const RidgeReader& reader, const RidgeHeader& header, Roadmap& roadmap);
 

@@ -48,6 +48,51 @@ TEST_F(CliSimulate, WorldsFromSeeds) {
   }
 }
 
+TEST_F(CliSimulate, RecordingToMapToRoadmap) {
+  ASSERT_EQ(
+      run({"simulate", house(), "-o", path("run"), "--frames", "60", "--volume", "1,1,1,14,9,4"})
+          .code,
+      0);
+  const auto fuse = [&](const std::string& name, const std::string& threads) {
+    const Outcome fused = run({"fuse", path("run"), "-o", path(name), "--clear-radius", "0.3",
+                               "--threads", threads, "--json"});
+    EXPECT_EQ(fused.code, 0) << fused.err;
+    EXPECT_EQ(fused.json()["frames"], 60);
+    return read_whole(folder_ / name);
+  };
+  EXPECT_EQ(fuse("one.ridge", "1"), fuse("two.ridge", "2"));
+  const Json info = run({"info", path("one.ridge"), "--json"}).json();
+  EXPECT_EQ(info["format"], "tsdf");
+  EXPECT_GT(info["voxels"]["free"], 500000);  // of 750,000 in the house
+  ASSERT_EQ(
+      run({"build", path("one.ridge"), "-o", path("roadmap.ridge"), "--unknown", "ignore"}).code,
+      0);
+  // From the west room through two doorways to the north-east one.
+  const Outcome planned =
+      run({"plan", path("roadmap.ridge"), "--from", "1,1,1.5", "--to", "11,9,1.5", "--json"});
+  EXPECT_EQ(planned.code, 0) << planned.out;
+  EXPECT_EQ(run({"check", path("roadmap.ridge"), "--queries", "50"}).code, 0);
+}
+
+TEST_F(CliSimulate, FuseTakesRecordingsAsTheyAre) {
+  ASSERT_EQ(run({"simulate", house(), "-o", path("run"), "--frames", "4"}).code, 0);
+  std::filesystem::remove(folder_ / "run/depth/000001.png");
+  write_whole(folder_ / "run/depth/000002.png", "no image");
+  const Outcome fused = run({"fuse", path("run"), "-o", path("map.ridge"), "--json"});
+  EXPECT_EQ(fused.code, 0);
+  EXPECT_EQ(fused.json()["frames"], 2);
+  EXPECT_EQ(fused.json()["unreadable"], 2);
+  EXPECT_NE(fused.err.find("000001.png"), std::string::npos) << fused.err;
+  expect_refused({"fuse", path("none"), "-o", path("out.ridge")}, {"none"});
+  expect_refused({"fuse", path("run"), "-o", path("out.ridge"), "--voxel-size", "0"},
+                 {"voxel_size"});
+  expect_refused({"fuse", path("run"), "-o", path("out.ridge"), "--intrinsics", "1,2"}, {"fx,fy"});
+  expect_refused({"fuse", path("run"), "-o", path("out.ridge"), "--intrinsics", "160,160,900,120"},
+                 {"camera cx"});
+  expect_refused({"plan", path("map.ridge"), "--from", "1,1,1", "--to", "2,1,1"},
+                 {"map.ridge", "not a roadmap"});
+}
+
 TEST_F(CliSimulate, BadInputLeavesNothing) {
   write_whole(folder_ / "balls.yaml", "balls: []\n");
   write_whole(folder_ / "empty.yaml", "name: nothing\n");
