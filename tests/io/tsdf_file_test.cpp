@@ -18,6 +18,7 @@ namespace {
 TsdfMap random_tsdf(std::uint64_t seed, int blocks = 300) {
   Random random(seed);
   std::vector<BlockIndex> list;
+  list.reserve(static_cast<std::size_t>(blocks));
   for (int i = 0; i < blocks; ++i)
     list.push_back({static_cast<int>(random.below(9)) - 4, static_cast<int>(random.below(9)) - 4,
                     static_cast<int>(random.below(9)) - 4});
