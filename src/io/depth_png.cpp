@@ -8,7 +8,6 @@
 #include <csetjmp>
 #include <cstdint>
 #include <cstring>
-#include <memory>
 #include <string>
 #include <string_view>
 
@@ -97,38 +96,40 @@ struct Rows {
   }
 };
 
-struct Reader {
-  Report report;
-  png_structp png =
-      png_create_read_struct(PNG_LIBPNG_VER_STRING, &report, keep_text, ignore_warning);
-  png_infop info = png_create_info_struct(png);
-  Reader() = default;
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
-  ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
-};
+/// libpng's two structs, for reading or for writing.
+struct Png {
+  explicit Png(bool is_reader)
+      : reads(is_reader),
+        png(is_reader
+                ? png_create_read_struct(PNG_LIBPNG_VER_STRING, &report, keep_text, ignore_warning)
+                : png_create_write_struct(PNG_LIBPNG_VER_STRING, &report, keep_text,
+                                          ignore_warning)),
+        info(png_create_info_struct(png)) {}
+  Png(const Png&) = delete;
+  Png& operator=(const Png&) = delete;
+  ~Png() {
+    if (reads)
+      png_destroy_read_struct(&png, &info, nullptr);
+    else
+      png_destroy_write_struct(&png, &info);
+  }
 
-struct Writer {
+  const bool reads;
   Report report;
-  png_structp png =
-      png_create_write_struct(PNG_LIBPNG_VER_STRING, &report, keep_text, ignore_warning);
-  png_infop info = png_create_info_struct(png);
-  Writer() = default;
-  Writer(const Writer&) = delete;
-  Writer& operator=(const Writer&) = delete;
-  ~Writer() { png_destroy_write_struct(&png, &info); }
+  png_structp png;
+  png_infop info;
 };
 
 }  // namespace
 
 DepthImage read_depth_png(const std::filesystem::path& file, double units_per_metre, int none) {
   const std::string name = file.string(), bytes = read_file(file);
-  const auto damaged = [&](const Reader& reader) {
+  const auto damaged = [&](const Png& reader) {
     throw InputError(name, std::string("is no PNG image that can be read: ") + reader.report.text,
                      "copy or record it again");
   };
   Source source{bytes};
-  Reader reader;
+  Png reader(true);
   Grey16 header;
   if (!decode(reader.png, reader.info, source, header, nullptr)) damaged(reader);
   if (!header.is_grey16)
@@ -155,7 +156,7 @@ void write_depth_png(const DepthImage& image, const std::filesystem::path& file,
     rows.bytes[2 * i + 1] = static_cast<unsigned char>(unit & 255);
   }
   std::string bytes;
-  Writer writer;
+  Png writer(false);
   if (!encode(writer.png, writer.info, bytes, static_cast<unsigned>(image.width),
               static_cast<unsigned>(image.height), rows.starts.data()))
     throw InputError(file.string(), std::string("cannot be written: ") + writer.report.text,

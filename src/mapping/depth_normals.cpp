@@ -2,7 +2,6 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "depth_normals.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <limits>

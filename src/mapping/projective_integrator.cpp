@@ -186,7 +186,8 @@ class BlockUpdate {
       value = truncation_;
     }
     if (value <= -behind_ || (value >= truncation_ && !config_.carve)) return;
-    const float gain = gain_of(value, config_) * std::max(facing, kLeastFacing) / (p.z() * p.z());
+    const float gain = gain_of(value, config_) *
+                       std::max(facing, static_cast<float>(kLeastFacing)) / (p.z() * p.z());
     block.add(voxel, std::min(value, truncation_), gain, static_cast<float>(config_.max_weight));
   }
 
@@ -199,8 +200,6 @@ class BlockUpdate {
     const float depth = image_.at(pixel.u, pixel.v);
     return depth > 0.0f && std::abs(depth - foot.z()) < 0.5f * truncation_;
   }
-
-  static constexpr float kLeastFacing = 0.1f;
 
   const DepthImage& image_;
   const DepthNormals normals_;

@@ -7,13 +7,10 @@
 #include <limits>
 #include <unordered_map>
 
-#include "projective_integrator.hpp"
 #include "ridgeway/common/parallel.hpp"
 
 namespace ridgeway::detail {
 namespace {
-
-constexpr double kLeastFacing = 0.1;
 
 /// The points of one voxel as one.
 struct Ray {

@@ -4,14 +4,27 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <deque>
 #include <unordered_map>
 #include <vector>
 
 #include "ridgeway/mapping/memory_limit.hpp"
-#include "ridgeway/mapping/tsdf_map.hpp"
+#include "ridgeway/mapping/tsdf_fusion.hpp"
 
 namespace ridgeway::detail {
+
+/// Surfaces that are seen at a slant, or whose slant is not known, count at least so much.
+inline constexpr double kLeastFacing = 0.1;
+
+/// How much a measurement of the distance `value` counts: less far from the surface, where another
+/// surface that this ray did not see may be nearer (every measurement bounds the distance from
+/// above), and nothing at the depth behind it where nobody looked.
+inline float gain_of(float value, const FusionConfig& config) {
+  constexpr float kCarving = 0.005f;  // of a look at the surface itself
+  if (value > 0.0f) return std::max(1.0f - value / static_cast<float>(config.truncation), kCarving);
+  return std::max(1.0f + value / static_cast<float>(config.depth_behind), 0.0f);
+}
 
 /// Distance and weight of the voxels of one block, x fastest.
 struct TsdfBlock {

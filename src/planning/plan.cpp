@@ -78,8 +78,9 @@ void describe(const EsdfMap& esdf, const FreeSpace& space, const detail::EdgeStr
   result.unknown_share = result.length > 0.0 ? bordering / result.length : 0.0;
 }
 
-/// No path leaves unverified: its clearance, measured along every segment, must be the radius, and
-/// where unknown space is no obstacle it must keep to what is known.
+/// No path leaves unverified: its clearance, measured along every segment (along the graph's edges
+/// when they were made or loaded), must be the radius, and where unknown space is no obstacle it
+/// must keep to what is known.
 bool is_verified(const EsdfMap& esdf, const FreeSpace& space, const PlanResult& result,
                  double radius) {
   if (result.clearance < radius * (1.0 - 1e-9)) return false;
