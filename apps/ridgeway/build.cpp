@@ -282,9 +282,7 @@ void add_build_command(CLI::App& app, const Globals& globals, Command& chosen) {
       "Examples:\n"
       "  ridgeway build data/fr_079.bt -o office.ridge --min-clearance 0.3\n"
       "  ridgeway build mine.pcd -o mine.ridge --voxel-size 0.2 --bounds -50,-20,0,80,40,12");
-  command->callback([options, &globals, &chosen] {
-    chosen = [options, &globals] { return run(*options, globals); };
-  });
+  run_when_given(*command, options, globals, chosen, run);
 }
 
 }  // namespace ridgeway::cli

@@ -112,9 +112,7 @@ void add_check_command(CLI::App& app, const Globals& globals, Command& chosen) {
       "Exit code 1 when something is not as it must be.\n"
       "Example:\n"
       "  ridgeway check office.ridge --queries 1000 --seed 1");
-  command->callback([options, &globals, &chosen] {
-    chosen = [options, &globals] { return run(*options, globals); };
-  });
+  run_when_given(*command, options, globals, chosen, run);
 }
 
 }  // namespace ridgeway::cli

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 namespace CLI {  // NOLINT(readability-identifier-naming): theirs
 class App;
@@ -23,6 +24,15 @@ struct Globals {
 
 /// What was asked for, run once the command line has been understood; returns the exit code.
 using Command = std::function<int()>;
+
+/// Lets a subcommand, when given, put run(options, globals) into `chosen`.
+template <typename App, typename Options>
+void run_when_given(App& command, const std::shared_ptr<Options>& options, const Globals& globals,
+                    Command& chosen, int (*run)(const Options&, const Globals&)) {
+  command.callback([options, &globals, &chosen, run] {
+    chosen = [options, &globals, run] { return run(*options, globals); };
+  });
+}
 
 /// Each adds a subcommand to `app` that, when given, puts itself into `chosen`.
 void add_build_command(CLI::App& app, const Globals& globals, Command& chosen);

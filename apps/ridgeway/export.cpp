@@ -108,9 +108,7 @@ void add_export_command(CLI::App& app, const Globals& globals, Command& chosen) 
       "Examples:\n"
       "  ridgeway export office.ridge --picture office.png --path path.json\n"
       "  ridgeway export office.ridge -o graph.graphml -o graph.ply");
-  command->callback([options, &globals, &chosen] {
-    chosen = [options, &globals] { return run(*options, globals); };
-  });
+  run_when_given(*command, options, globals, chosen, run);
 }
 
 }  // namespace ridgeway::cli

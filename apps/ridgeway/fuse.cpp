@@ -131,9 +131,7 @@ void add_fuse_command(CLI::App& app, const Globals& globals, Command& chosen) {
       "Example:\n"
       "  ridgeway simulate worlds/house.yaml -o house && ridgeway fuse house -o house.ridge\n"
       "  ridgeway build house.ridge -o roadmap.ridge --unknown ignore");
-  command->callback([options, &globals, &chosen] {
-    chosen = [options, &globals] { return run(*options, globals); };
-  });
+  run_when_given(*command, options, globals, chosen, run);
 }
 
 }  // namespace ridgeway::cli

@@ -186,9 +186,7 @@ void add_info_command(CLI::App& app, const Globals& globals, Command& chosen) {
       "find them joined.\n"
       "Example:\n"
       "  ridgeway info office.ridge");
-  command->callback([options, &globals, &chosen] {
-    chosen = [options, &globals] { return run(*options, globals); };
-  });
+  run_when_given(*command, options, globals, chosen, run);
 }
 
 }  // namespace ridgeway::cli

@@ -180,9 +180,7 @@ void add_plan_command(CLI::App& app, const Globals& globals, Command& chosen) {
       "Exit code 2 when there is no path; the reason is in the output.\n"
       "Example:\n"
       "  ridgeway plan office.ridge --from 0,0,0.6 --to 10,0,0.6 -o path.json");
-  command->callback([options, &globals, &chosen] {
-    chosen = [options, &globals] { return run(*options, globals); };
-  });
+  run_when_given(*command, options, globals, chosen, run);
 }
 
 }  // namespace ridgeway::cli

@@ -104,9 +104,7 @@ void add_simulate_command(CLI::App& app, const Globals& globals, Command& chosen
   command->footer(
       "Example:\n"
       "  ridgeway simulate worlds/house.yaml -o house --volume 1,1,1,14,10,5 --sigma 0.1");
-  command->callback([options, &globals, &chosen] {
-    chosen = [options, &globals] { return run(*options, globals); };
-  });
+  run_when_given(*command, options, globals, chosen, run);
 }
 
 }  // namespace ridgeway::cli

@@ -49,9 +49,7 @@ void add_world_command(CLI::App& app, const Globals& globals, Command& chosen) {
   command->footer(
       "Example:\n"
       "  ridgeway world maze --seed 7 -o maze.yaml");
-  command->callback([options, &globals, &chosen] {
-    chosen = [options, &globals] { return run(*options, globals); };
-  });
+  run_when_given(*command, options, globals, chosen, run);
 }
 
 }  // namespace ridgeway::cli
