@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "depth_normals.hpp"
+#include "depth_surfaces.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/number_text.hpp"
 #include "ridgeway/common/parallel.hpp"
@@ -121,10 +121,10 @@ std::vector<BlockIndex> blocks_in(const View& view) {
 /// Brings one image to the voxels of a block.
 class BlockUpdate {
  public:
-  BlockUpdate(const DepthImage& image, const PinholeCamera& camera,
+  BlockUpdate(const DepthSurfaces& surfaces, const PinholeCamera& camera,
               const Eigen::Isometry3d& T_world_camera, const FusionConfig& config)
-      : image_(image),
-        normals_(image, camera),
+      : surfaces_(surfaces),
+        image_(surfaces.image()),
         T_camera_world_(T_world_camera.inverse()),
         voxel_size_(config.voxel_size),
         fx_(static_cast<float>(camera.fx)),
@@ -177,7 +177,7 @@ class BlockUpdate {
     const float beyond = (p.z() - depth) * stretch;
     if (depth == 0.0f || beyond > behind_) return;
     const Eigen::Vector3f surface = depth * ray;
-    const Eigen::Vector3f& normal = normals_.at(pixel.u, pixel.v);
+    const Eigen::Vector3f& normal = surfaces_.normal_at(pixel.u, pixel.v);
     const float facing = -normal.dot(ray) / stretch;  // cosine of incidence; 0 without a normal
     float value = facing > 0.0f ? normal.dot(p - surface) : -beyond;
     if (std::abs(value) < truncation_ && facing > 0.0f &&
@@ -201,8 +201,8 @@ class BlockUpdate {
     return depth > 0.0f && std::abs(depth - foot.z()) < 0.5f * truncation_;
   }
 
+  const DepthSurfaces& surfaces_;
   const DepthImage& image_;
-  const DepthNormals normals_;
   const Eigen::Isometry3d T_camera_world_;
   const double voxel_size_;
   const float fx_, fy_, cx_, cy_, nearby_, truncation_, behind_;
@@ -211,10 +211,10 @@ class BlockUpdate {
 
 }  // namespace
 
-void integrate_projective(const DepthImage& image, const PinholeCamera& camera,
+void integrate_projective(const DepthSurfaces& surfaces, const PinholeCamera& camera,
                           const Eigen::Isometry3d& T_world_camera, const FusionConfig& config,
                           TsdfBlocks& blocks) {
-  const View view(image, camera, T_world_camera, config);
+  const View view(surfaces.image(), camera, T_world_camera, config);
   if (view.sees_nothing()) return;
   if (view.block_count() > kMostBlocks)
     throw InputError("voxel_size " + number_text(config.voxel_size),
@@ -225,7 +225,7 @@ void integrate_projective(const DepthImage& image, const PinholeCamera& camera,
   std::vector<TsdfBlock*> targets;
   targets.reserve(seen.size());
   for (const BlockIndex& index : seen) targets.push_back(&blocks.find_or_add(index));
-  const BlockUpdate update(image, camera, T_world_camera, config);
+  const BlockUpdate update(surfaces, camera, T_world_camera, config);
   parallel_for_each_index(seen.size(), [&](std::size_t i) { update.run(seen[i], *targets[i]); });
 }
 

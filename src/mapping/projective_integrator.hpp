@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include "depth_surfaces.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
 #include "tsdf_blocks.hpp"
 
@@ -9,7 +10,7 @@ namespace ridgeway::detail {
 
 /// Updates every voxel that a pixel of an image sees. Depths outside the range limits are 0
 /// already.
-void integrate_projective(const DepthImage& image, const PinholeCamera& camera,
+void integrate_projective(const DepthSurfaces& surfaces, const PinholeCamera& camera,
                           const Eigen::Isometry3d& T_world_camera, const FusionConfig& config,
                           TsdfBlocks& blocks);
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "depth_normals.hpp"
+#include "depth_surfaces.hpp"
 #include "projective_integrator.hpp"
 #include "ray_integrator.hpp"
 #include "ridgeway/common/error.hpp"
@@ -48,16 +48,17 @@ DepthImage within_range(const DepthImage& image, const PinholeCamera& camera,
   return kept;
 }
 
-std::vector<detail::SurfacePoint> points_of(const DepthImage& image, const PinholeCamera& camera,
+std::vector<detail::SurfacePoint> points_of(const detail::DepthSurfaces& surfaces,
+                                            const PinholeCamera& camera,
                                             const Eigen::Isometry3d& T_world_camera) {
-  const detail::DepthNormals normals(image, camera);
+  const DepthImage& image = surfaces.image();
   std::vector<detail::SurfacePoint> points;
   for (int v = 0; v < image.height; ++v)
     for (int u = 0; u < image.width; ++u) {
       const auto depth = static_cast<double>(image.at(u, v));
       if (depth > 0.0)
         points.push_back({T_world_camera * Point(depth * camera.ray(u, v)),
-                          T_world_camera.linear() * normals.at(u, v).cast<double>()});
+                          T_world_camera.linear() * surfaces.normal_at(u, v).cast<double>()});
     }
   return points;
 }
@@ -120,7 +121,8 @@ TsdfFusion::TsdfFusion(const FusionConfig& config) : state_(std::make_unique<Sta
   config.validate();
   state_->config = config;
   if (config.truncation == 0.0) state_->config.truncation = kDefaultTruncation * config.voxel_size;
-  if (config.depth_behind == 0.0) state_->config.depth_behind = kDefaultDepth * config.voxel_size;
+  if (config.depth_behind == 0.0) state_->config.depth_behind =
+        std::min(kDefaultDepth * config.voxel_size, state_->config.truncation);
 }
 TsdfFusion::~TsdfFusion() = default;
 TsdfFusion::TsdfFusion(TsdfFusion&&) noexcept = default;
@@ -132,11 +134,11 @@ void TsdfFusion::integrate(const DepthImage& image, const PinholeCamera& camera,
   validate_transform(T_world_camera);
   State& s = *state_;
   s.visit(T_world_camera.translation());
-  const DepthImage kept = within_range(image, camera, s.config);
+  const detail::DepthSurfaces surfaces(within_range(image, camera, s.config), camera);
   if (s.config.integrator == Integrator::kProjective)
-    detail::integrate_projective(kept, camera, T_world_camera, s.config, s.blocks);
+    detail::integrate_projective(surfaces, camera, T_world_camera, s.config, s.blocks);
   else
-    detail::integrate_rays(points_of(kept, camera, T_world_camera), s.places.back(), s.config,
+    detail::integrate_rays(points_of(surfaces, camera, T_world_camera), s.places.back(), s.config,
                            s.blocks);
 }
 
