@@ -28,7 +28,7 @@ using Json = nlohmann::ordered_json;
 struct Options {
   std::string map, output;
   std::optional<double> voxel_size;
-  std::string unknown = "obstacle", edges = "neighbours", diagram = "full";
+  std::string unknown = "obstacle", edges = "neighbours", diagram = "full", graph = "simple";
   std::string bounds, transform;
   std::vector<std::string> exclude;
   int isolated = 0;
@@ -54,6 +54,7 @@ BuildConfig build_config(const Options& options) {
   if (options.unknown == "ignore") config.unknown = UnknownPolicy::kIgnore;
   config.basis_point_edges = options.edges == "basis-points";
   config.paper_diagram = options.diagram == "paper";
+  config.simplify = options.graph == "simple";
   config.validate();
   return config;
 }
@@ -69,7 +70,9 @@ std::string config_text(const Options& options, double voxel_size) {
                {"prune_radius", build.prune_radius},
                {"split_deviation", build.split_deviation},
                {"edges", options.edges},
-               {"diagram", options.diagram}};
+               {"significance", build.significance},
+               {"diagram", options.diagram},
+               {"graph", options.graph}};
   if (!options.bounds.empty()) json["bounds"] = options.bounds;
   if (!options.exclude.empty()) json["exclude"] = options.exclude;
   if (!options.transform.empty()) json["transform"] = options.transform;
@@ -250,6 +253,10 @@ void add_build_command(CLI::App& app, const Globals& globals, Command& chosen) {
                    "Greatest distance of an edge from its diagram, metres; 0 for two voxels")
       ->capture_default_str();
   command
+      ->add_option("--significance", build.significance,
+                   "Dead ends of the graph whose ball reaches less far beyond others go, metres")
+      ->capture_default_str();
+  command
       ->add_option("--edges", options->edges,
                    "What makes a ridge voxel an edge: 18 neighbours on the ridges, or three "
                    "obstacles in directions theta apart")
@@ -259,6 +266,11 @@ void add_build_command(CLI::App& app, const Globals& globals, Command& chosen) {
       ->add_option("--diagram", options->diagram,
                    "The full diagram, or the paper's thinned edges alone for comparison")
       ->check(CLI::IsMember({"full", "paper"}))
+      ->capture_default_str();
+  command
+      ->add_option("--graph", options->graph,
+                   "Without what noise and voxels put into it, or as fitted to the diagram")
+      ->check(CLI::IsMember({"simple", "fitted"}))
       ->capture_default_str();
   command->add_option("--bounds", options->bounds,
                       "Flight volume x0,y0,z0,x1,y1,z1, metres; required for point clouds");

@@ -139,7 +139,8 @@ std::vector<double> noise_of(const TileSums& sums) {
       around.clear();
       for (int b = std::max(y - kAround, 0); b <= std::min(y + kAround, sums.down() - 1); ++b)
         for (int a = std::max(x - kAround, 0); a <= std::min(x + kAround, sums.across() - 1); ++a) {
-          const double r = residual[static_cast<std::size_t>(b) * across + static_cast<std::size_t>(a)];
+          const double r =
+              residual[static_cast<std::size_t>(b) * across + static_cast<std::size_t>(a)];
           if (std::isfinite(r)) around.push_back(r);
         }
       if (around.empty()) continue;

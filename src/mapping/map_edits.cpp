@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/common/number_text.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/mapping/memory_limit.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
@@ -57,6 +58,28 @@ VoxelRange reach_of_no_fly(const OccupancyMap& map) {
   if (!bounds) return {{0, 0, 0}, {-1, -1, -1}};
   const VoxelRange known = grown(voxels_inside(*bounds, map.voxel_size), kBlockSide);
   return {voxel_of(block_of(known.min), 0), voxel_of(block_of(known.max), kBlockVoxels - 1)};
+}
+
+/// Gives every 26-connected cluster of fewer than `enough` voxels of a state another state.
+void change_small_clusters(OccupancyMap& map, VoxelState state, double enough, VoxelState to) {
+  if (enough <= 1.0) return;
+  VoxelMask seen(map.layout);
+  std::vector<VoxelId> cluster;
+  const auto visit = [&](VoxelId id) {
+    if (map.state[id] != state || seen.test(id)) return;
+    seen.set(id);
+    cluster.push_back(id);
+  };
+  for (VoxelId seed = 0; seed < map.state.size(); ++seed) {
+    cluster.clear();
+    visit(seed);
+    for (std::size_t next = 0; next < cluster.size(); ++next)
+      for (int direction = 0; direction < 27; ++direction)
+        if (const VoxelId id = map.layout.neighbour(cluster[next], direction); id != kNoVoxel)
+          visit(id);
+    if (static_cast<double>(cluster.size()) < enough)
+      for (const VoxelId id : cluster) map.state[id] = to;
+  }
 }
 
 }  // namespace
@@ -117,25 +140,17 @@ OccupancyMap remove_isolated(OccupancyMap map, int min_cluster) {
     throw InputError("isolated_below", "is " + std::to_string(min_cluster),
                      "give a number of voxels, 0 to keep all");
   }
-  if (min_cluster <= 1) return map;
-  const auto enough = static_cast<std::size_t>(min_cluster);
-  VoxelMask seen(map.layout);
-  std::vector<VoxelId> cluster;
-  const auto visit = [&](VoxelId id) {
-    if (map.state[id] != VoxelState::kOccupied || seen.test(id)) return;
-    seen.set(id);
-    cluster.push_back(id);
-  };
-  for (VoxelId seed = 0; seed < map.state.size(); ++seed) {
-    cluster.clear();
-    visit(seed);
-    for (std::size_t next = 0; next < cluster.size(); ++next)
-      for (int direction = 0; direction < 27; ++direction)
-        if (const VoxelId id = map.layout.neighbour(cluster[next], direction); id != kNoVoxel)
-          visit(id);
-    if (cluster.size() < enough)
-      for (const VoxelId id : cluster) map.state[id] = VoxelState::kFree;
+  change_small_clusters(map, VoxelState::kOccupied, min_cluster, VoxelState::kFree);
+  return map;
+}
+
+OccupancyMap remove_pockets(OccupancyMap map, double min_volume) {
+  if (!(min_volume >= 0.0)) {
+    throw InputError("min_volume", "is " + number_text(min_volume),
+                     "give cubic metres, 0 to keep all");
   }
+  change_small_clusters(map, VoxelState::kFree, min_volume / std::pow(map.voxel_size, 3),
+                        VoxelState::kUnknown);
   return map;
 }
 

@@ -121,7 +121,8 @@ TsdfFusion::TsdfFusion(const FusionConfig& config) : state_(std::make_unique<Sta
   config.validate();
   state_->config = config;
   if (config.truncation == 0.0) state_->config.truncation = kDefaultTruncation * config.voxel_size;
-  if (config.depth_behind == 0.0) state_->config.depth_behind =
+  if (config.depth_behind == 0.0)
+    state_->config.depth_behind =
         std::min(kDefaultDepth * config.voxel_size, state_->config.truncation);
 }
 TsdfFusion::~TsdfFusion() = default;

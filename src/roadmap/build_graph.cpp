@@ -80,15 +80,13 @@ SparseGraph make_graph(const EsdfMap& esdf, const DiagramCurves& diagram,
 SparseGraph build_graph(const EsdfMap& esdf, const VoxelMask& diagram, const GraphConfig& config) {
   const double s = esdf.voxel_size;
   const DiagramCurves curves = detail::index_diagram(esdf, diagram, config.min_clearance);
-  const std::vector<bool> followed = detail::significant_voxels(curves, config.significance / s);
   // On a coarse lattice a junction is a clump of a few voxels, however small the radius.
   const double prune_radius = std::max(config.prune_radius / s, 2.0);
-  const std::vector<DiagramNumber> vertices =
-      detail::select_vertices(curves, followed, prune_radius);
+  const std::vector<DiagramNumber> vertices = detail::select_vertices(curves, prune_radius);
   const detail::DiagramFlood flood = detail::flood_from(curves, vertices);
   // A loop round even the thinnest obstacle is longer than this.
   const double shortest_loop = 4.0 * config.min_clearance / s;
-  const std::vector<Curve> pieces = detail::follow_curves(curves, followed, flood, shortest_loop);
+  const std::vector<Curve> pieces = detail::follow_curves(curves, flood, shortest_loop);
   return make_graph(esdf, curves, vertices, fit_all(esdf, curves, pieces, config),
                     config.min_clearance);
 }

@@ -4,12 +4,15 @@
 
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/number_text.hpp"
 #include "ridgeway/esdf/esdf.hpp"
+#include "ridgeway/mapping/map_edits.hpp"
 #include "ridgeway/roadmap/build_graph.hpp"
+#include "ridgeway/roadmap/simplify_graph.hpp"
 #include "ridgeway/skeleton/diagram.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
 #include "ridgeway/skeleton/kernel.hpp"
@@ -39,6 +42,10 @@ class StageClock {
   Clock::time_point start_ = Clock::now();
 };
 
+double ball_volume(double radius) {
+  return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+}
+
 void require(bool holds, const char* field, double value, const char* remedy) {
   if (!holds) throw InputError(field, "is " + number_text(value), remedy);
 }
@@ -52,6 +59,8 @@ void BuildConfig::validate() const {
           "give a length above min_clearance, or leave it out for no limit");
   require(theta > 0.0 && theta < 3.1416, "theta", theta, "give an angle in radians in (0, pi)");
   require(prune_radius >= 0.0 && std::isfinite(prune_radius), "prune_radius", prune_radius,
+          "give a length in metres, 0 or more");
+  require(significance >= 0.0 && std::isfinite(significance), "significance", significance,
           "give a length in metres, 0 or more");
   require(split_deviation >= 0.0 && std::isfinite(split_deviation), "split_deviation",
           split_deviation, "give a length in metres, 0 for two voxels");
@@ -75,6 +84,9 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
   roadmap.min_clearance = config.min_clearance;
 
   clock.begin("esdf");
+  if (config.unknown ==
+      UnknownPolicy::kIgnore)  // where unknown space is solid, none is left anyway
+    map = remove_pockets(std::move(map), ball_volume(config.min_clearance));
   roadmap.esdf = compute_esdf(std::move(map), {config.unknown, config.max_distance});
   const EsdfMap& esdf = roadmap.esdf;
   const VoxelMask traversable = traversable_voxels(esdf, config.min_clearance);
@@ -117,6 +129,8 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
   graph.prune_radius = config.prune_radius;
   graph.split_deviation = config.split_deviation;
   roadmap.graph = build_graph(esdf, config.paper_diagram ? edges : diagram, graph);
+  if (config.simplify)
+    roadmap.graph = simplify_graph(esdf, roadmap.graph, {.significance = config.significance});
   roadmap.tree = build_clearance_tree(esdf, roadmap.graph, basins);
   report.graph_components = connected_components(roadmap.graph).count;
   clock.end(report.seconds.graph);

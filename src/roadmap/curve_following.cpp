@@ -70,14 +70,13 @@ void keep_best_of_groups(const DiagramCurves& curves, std::vector<Meeting>& meet
 
 }  // namespace
 
-std::vector<Curve> follow_curves(const DiagramCurves& curves, const std::vector<bool>& followed,
-                                 const DiagramFlood& flood, double shortest_loop) {
+std::vector<Curve> follow_curves(const DiagramCurves& curves, const DiagramFlood& flood,
+                                 double shortest_loop) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Meeting>> by_pair;
   for (DiagramNumber a = 0; a < curves.size(); ++a) {
-    if (!followed[a]) continue;
     for (const DiagramMove& move : curves.moves_of(a)) {
       const DiagramNumber b = move.to;
-      if (b <= a || !followed[b] || flood.toward[a] == b || flood.toward[b] == a) continue;
+      if (b <= a || flood.toward[a] == b || flood.toward[b] == a) continue;
       Meeting meeting{a, b, std::min({flood.width[a], move.width, flood.width[b]}),
                       static_cast<double>(flood.distance[a] + move.length + flood.distance[b])};
       const bool same = flood.vertex[a] == flood.vertex[b];

@@ -13,7 +13,7 @@ using Curve = std::vector<DiagramNumber>;
 /// their vertices (each group of adjacent meetings once, by its widest). Loops that could go round
 /// an obstacle (longer than `shortest_loop` voxels) become two curves with a voxel between them
 /// that counts as a vertex; shorter ones are gaps of the lattice and are left out.
-std::vector<Curve> follow_curves(const DiagramCurves& curves, const std::vector<bool>& followed,
-                                 const DiagramFlood& flood, double shortest_loop);
+std::vector<Curve> follow_curves(const DiagramCurves& curves, const DiagramFlood& flood,
+                                 double shortest_loop);
 
 }  // namespace ridgeway::detail

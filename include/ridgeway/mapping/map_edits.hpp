@@ -29,4 +29,8 @@ OccupancyMap add_no_fly(OccupancyMap map, std::span<const Box> boxes);
 /// obstacles (a wire, a lamp) just as well, so nothing uses it unless asked to.
 OccupancyMap remove_isolated(OccupancyMap map, int min_cluster);
 
+/// Every 26-connected cluster of free voxels of less than `min_volume` cubic metres becomes
+/// unknown: what a stray measurement opens behind a wall holds no robot.
+OccupancyMap remove_pockets(OccupancyMap map, double min_volume);
+
 }  // namespace ridgeway

@@ -11,15 +11,15 @@ namespace ridgeway {
 struct GraphConfig {
   double min_clearance = 0.4;
   double prune_radius = 0.35;    ///< vertices nearer than this along the diagram become one
-  double significance = 0.35;    ///< branches that reach less far beyond their base are left out
   double split_deviation = 0.0;  ///< edge's greatest distance from its curve; 0: two voxels
   double widest_kept = 0.0;      ///< up to this clearance edges are as wide as their curves, so
                                  ///< that the graph connects what the diagram does at larger
-                                 ///< radii too; 0: three times min_clearance
+                                 ///< radii too; 0: twice min_clearance
 };
 
 /// Fits the sparse graph to a diagram (paper: Sparse Graph Generation): vertices, pruning,
-/// following, splitting, and the contract that every edge is free along all of it.
+/// following, splitting, and the contract that every edge is free along all of it. It follows all
+/// of the diagram; simplify_graph leaves out what does not matter.
 SparseGraph build_graph(const EsdfMap& esdf, const VoxelMask& diagram,
                         const GraphConfig& config = {});
 

@@ -17,6 +17,8 @@ struct BuildConfig {
   double theta = 0.785;            ///< GVD: least angle between the directions to two sites
   double prune_radius = 0.35;      ///< vertices closer than this along the diagram become one
   double split_deviation = 0.0;    ///< edge's greatest distance from its diagram; 0: two voxels
+  double significance = 0.35;      ///< dead ends of the graph that reach less far go
+  bool simplify = true;            ///< leave out of the graph what noise and voxels put into it
   bool basis_point_edges = false;  ///< edges by basis points, not by the 18-of-26 rule
   bool paper_diagram = false;      ///< thinned edges alone, without the kernel, for comparison
 
@@ -49,7 +51,7 @@ struct BuildResult {
 };
 
 /// The whole pipeline: ESDF, GVD, edges, thinning, kernel, diagram, graph, attach field. Consumes
-/// the map. Same map and configuration give the same bytes for any number of threads (set by
+/// the map. Under UnknownPolicy::kIgnore free pockets smaller than the robot are taken as unknown. Same map and configuration give the same bytes for any number of threads (set by
 /// with_threads, common/parallel.hpp). Throws InputError where nothing is free.
 BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config = {},
                           const Progress& progress = {});

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include "ridgeway/esdf/esdf_map.hpp"
+#include "ridgeway/roadmap/sparse_graph.hpp"
+
+namespace ridgeway {
+
+/// Lengths in metres.
+struct SimplifyConfig {
+  double significance = 0.35;  ///< dead ends whose ball reaches less far beyond others go
+  double steepness = 0.6;      ///< and those that reach less far than this share of their length
+  double widest_kept = 0.0;    ///< up to this clearance ways stay as wide as they were; 0: twice
+                               ///< the graph's min_clearance
+  double stretch = 1.5;        ///< but may become longer by this factor
+};
+
+/// Leaves out of a graph what noise and voxels put into it, and nothing that matters: whatever is
+/// left out is swept over free space onto what stays, so no two ways that pass an obstacle on
+/// different sides become one. Until nothing changes:
+/// - a dead end goes if the ball at its end hardly reaches beyond the balls around (erosion
+///   thickness): noise makes short ones, and the curves into the corners of a room gain only 0.29
+///   or 0.42 of their length;
+/// - a vertex goes into a wider neighbour whose ball it lies in or, where the way does not fork,
+///   into any neighbour;
+/// - an edge goes if it can be swept onto another way between its ends, as wide and at most
+///   `stretch` times as long (a spanner that keeps homotopy).
+/// What the graph connects at a radius up to `widest_kept` it connects after, too.
+/// The contract of SparseGraph holds for the result. Components stay. Deterministic.
+SparseGraph simplify_graph(const EsdfMap& esdf, const SparseGraph& graph,
+                           const SimplifyConfig& config = {});
+
+}  // namespace ridgeway

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "editable_graph.hpp"
+
+#include <algorithm>
+#include <queue>
+#include <tuple>
+
+#include "ridgeway/voxel/disjoint_sets.hpp"
+
+namespace ridgeway::detail {
+
+EditableGraph::EditableGraph(const SparseGraph& graph)
+    : graph_(graph), links_(graph.vertices.size()) {
+  for (const Edge& edge : graph.edges)
+    link(static_cast<Number>(edge.from), static_cast<Number>(edge.to), {edge.clearance});
+}
+
+double EditableGraph::length(const std::vector<Number>& way) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) sum += length(way[i], way[i + 1]);
+  return sum;
+}
+
+void EditableGraph::mark_widest_ways(double most) {
+  std::vector<std::tuple<double, double, Number, Number>> edges;
+  for (Number v = 0; v < links_.size(); ++v)
+    for (auto& [w, link] : links_[v])
+      if (v < w) edges.emplace_back(-std::min(link.clearance, most), length(v, w), v, w);
+  std::sort(edges.begin(), edges.end());
+  DisjointSets parts(links_.size());
+  for (const auto& [width, length, v, w] : edges) {
+    const bool widest = parts.find(v) != parts.find(w);
+    if (widest) parts.join(v, w);
+    links_[v].at(w).widest = links_[w].at(v).widest = widest;
+  }
+}
+
+std::vector<EditableGraph::Number> EditableGraph::way_to_fork(Number end) const {
+  std::vector<Number> way{end, links_[end].begin()->first};
+  while (links_[way.back()].size() == 2) {
+    const Links& links = links_[way.back()];
+    const bool first_is_back = links.begin()->first == way[way.size() - 2];
+    way.push_back(first_is_back ? links.rbegin()->first : links.begin()->first);
+  }
+  return way;
+}
+
+std::vector<EditableGraph::Number> EditableGraph::other_way(Number from, Number to, double longest,
+                                                            double width) const {
+  using Entry = std::pair<double, Number>;
+  std::map<Number, Entry> best;  // length so far, vertex before
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  best[from] = {0.0, from};
+  queue.push({0.0, from});
+  while (!queue.empty()) {
+    const auto [distance, v] = queue.top();
+    queue.pop();
+    if (v == to) break;
+    if (distance > best.at(v).first) continue;
+    for (const auto& [w, link] : links_[v]) {
+      const double next = distance + length(v, w);
+      if (link.clearance < width || (v == from && w == to) || next + length(w, to) > longest)
+        continue;
+      const auto [known, is_new] = best.try_emplace(w, next, v);
+      if (!is_new && known->second.first <= next) continue;
+      known->second = {next, v};
+      queue.push({next, w});
+    }
+  }
+  std::vector<Number> way;
+  if (!best.contains(to)) return way;
+  for (Number v = to; v != from; v = best.at(v).second) way.push_back(v);
+  way.push_back(from);
+  std::reverse(way.begin(), way.end());
+  return way;
+}
+
+SparseGraph EditableGraph::result() const {
+  SparseGraph simple;
+  simple.min_clearance = graph_.min_clearance;
+  std::vector<VertexId> id(links_.size(), kNoVertex);
+  for (Number v = 0; v < links_.size(); ++v) {
+    const bool dropped = links_[v].empty() && !graph_.links_of(VertexId{v}).empty();
+    if (dropped) continue;
+    id[v] = VertexId{static_cast<Number>(simple.vertices.size())};
+    simple.vertices.push_back(graph_.vertices[v]);
+  }
+  for (Number v = 0; v < links_.size(); ++v)
+    for (const auto& [w, link] : links_[v])
+      if (v < w) simple.edges.push_back({id[v], id[w], length(v, w), link.clearance});
+  index_links(simple);
+  return simple;
+}
+
+}  // namespace ridgeway::detail

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "ridgeway/roadmap/sparse_graph.hpp"
+
+namespace ridgeway::detail {
+
+/// A sparse graph whose links come and go. Vertices keep their numbers and places.
+/// The SparseGraph must outlive it.
+class EditableGraph {
+ public:
+  using Number = std::uint32_t;
+  struct Link {
+    double clearance = 0.0;
+    bool widest = false;  ///< see mark_widest_ways
+  };
+  using Links = std::map<Number, Link>;  ///< by neighbour
+
+  explicit EditableGraph(const SparseGraph& graph);
+
+  Number size() const { return static_cast<Number>(links_.size()); }
+  const Links& links_of(Number v) const { return links_[v]; }
+  const Point& at(Number v) const { return graph_.vertices[v].position; }
+  double clearance(Number v) const { return graph_.vertices[v].clearance; }
+  double length(Number a, Number b) const { return (at(b) - at(a)).norm(); }
+  double length(const std::vector<Number>& way) const;
+
+  void link(Number a, Number b, Link value) { links_[a][b] = links_[b][a] = value; }
+  void unlink(Number a, Number b) {
+    links_[a].erase(b);
+    links_[b].erase(a);
+  }
+
+  /// Marks the links of a maximum spanning forest over clearances, those above `most` all alike:
+  /// at every radius up to it they connect as much as all links do.
+  void mark_widest_ways(double most);
+
+  /// The vertices from the end of a link to the next fork or end, both included.
+  std::vector<Number> way_to_fork(Number end) const;
+
+  /// Shortest way between the ends of a link without it, as wide as `width` and no longer than
+  /// `longest`; empty where there is none.
+  std::vector<Number> other_way(Number from, Number to, double longest, double width) const;
+
+  /// Without the vertices that have lost all their links.
+  SparseGraph result() const;
+
+ private:
+  const SparseGraph& graph_;
+  std::vector<Links> links_;
+};
+
+}  // namespace ridgeway::detail

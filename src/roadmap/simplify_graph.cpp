@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/roadmap/simplify_graph.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "editable_graph.hpp"
+#include "ridgeway/esdf/free_space.hpp"
+
+namespace ridgeway {
+namespace {
+
+using detail::EditableGraph;
+using Number = EditableGraph::Number;
+
+/// A pair of neighbours, shortest first.
+struct Candidate {
+  double length;
+  Number from, to;
+  bool operator<(const Candidate& other) const {
+    return std::tie(length, from, to) < std::tie(other.length, other.from, other.to);
+  }
+};
+
+class Simplification {
+ public:
+  Simplification(const EsdfMap& esdf, const SparseGraph& graph, const SimplifyConfig& config)
+      : space_(esdf),
+        radius_(graph.min_clearance),
+        widest_kept_(config.widest_kept > 0.0 ? config.widest_kept : 2.0 * graph.min_clearance),
+        config_(config),
+        graph_(graph) {}
+
+  SparseGraph run() {
+    for (bool again = true; again;) {
+      graph_.mark_widest_ways(widest_kept_);
+      again = drop_dead_ends();
+      again |= merge_vertices();
+      graph_.mark_widest_ways(widest_kept_);
+      again |= drop_parallel_ways();
+    }
+    return graph_.result();
+  }
+
+ private:
+  /// How much of a width matters.
+  double kept(double clearance) const { return std::min(clearance, widest_kept_); }
+
+  /// Whether the ball at a dead end (`way` leads from it to its base) reaches far enough beyond
+  /// those of the vertices around: of all that are no farther from its base than the end itself.
+  bool is_significant(const std::vector<Number>& way) const {
+    const Number end = way.front(), base = way.back(), inside = way[way.size() - 2];
+    const double along = graph_.length(way);
+    const double enough = std::max(config_.significance, config_.steepness * along);
+    if (graph_.clearance(end) + along - graph_.clearance(base) < enough) return false;
+    std::map<Number, double> distance{{base, 0.0}};
+    std::vector<Number> queue{base};
+    for (std::size_t i = 0; i < queue.size(); ++i)
+      for (const auto& [v, link] : graph_.links_of(queue[i])) {
+        const double next = distance.at(queue[i]) + graph_.length(queue[i], v);
+        if (v == inside || next > along || !distance.try_emplace(v, next).second) continue;
+        queue.push_back(v);
+        if (graph_.clearance(end) + graph_.length(end, v) - graph_.clearance(v) < enough &&
+            space_.is_free(graph_.at(end), graph_.at(v), radius_))
+          return false;
+      }
+    return true;
+  }
+
+  bool drop_dead_ends() {
+    bool changed = false;
+    for (bool again = true; again; changed |= again) {
+      again = false;
+      for (Number end = 0; end < graph_.size(); ++end) {
+        if (graph_.links_of(end).size() != 1) continue;
+        const std::vector<Number> way = graph_.way_to_fork(end);
+        if (graph_.links_of(way.back()).size() < 3 || is_significant(way)) continue;
+        for (std::size_t i = 0; i + 1 < way.size(); ++i) graph_.unlink(way[i], way[i + 1]);
+        again = true;
+      }
+    }
+    return changed;
+  }
+
+  /// Whether the triangle of a point and a segment can be swept by the segment between them.
+  bool sweeps(const Point& apex, const Point& a, const Point& b) const {
+    const int steps = static_cast<int>(std::ceil((b - a).norm() / radius_));
+    for (int i = 1; i < steps; ++i)
+      if (!space_.is_free(apex, a + (b - a) * (static_cast<double>(i) / steps), radius_))
+        return false;
+    return true;
+  }
+
+  /// What a link from `to` must be as wide as if it replaces that of `from`, so that the widest
+  /// ways stay as wide.
+  double width_needed(Number from, Number to, const EditableGraph::Link& replaced) const {
+    if (replaced.widest) {
+      const auto others =
+          std::count_if(graph_.links_of(from).begin(), graph_.links_of(from).end(),
+                        [&](const auto& l) { return l.first != to && l.second.widest; });
+      if (others > 1) return kept(replaced.clearance);
+    }
+    return kept(std::min(replaced.clearance, graph_.links_of(from).at(to).clearance));
+  }
+
+  bool may_merge(Number from, Number to) const {
+    if (graph_.links_of(from).size() == 1) return false;
+    if (graph_.links_of(from).size() > 2 &&
+        (graph_.length(from, to) > graph_.clearance(to) ||
+         std::pair(graph_.clearance(from), to) > std::pair(graph_.clearance(to), from)))
+      return false;
+    for (const auto& [other, link] : graph_.links_of(from)) {
+      if (other == to) continue;
+      const double needed = width_needed(from, to, link);
+      const auto known = graph_.links_of(to).find(other);
+      if (known != graph_.links_of(to).end()
+              ? known->second.clearance < needed
+              : !space_.is_free(graph_.at(to), graph_.at(other), needed))
+        return false;
+      if (!sweeps(graph_.at(to), graph_.at(from), graph_.at(other))) return false;
+    }
+    return true;
+  }
+
+  void merge(Number from, Number to) {
+    for (const auto& [other, replaced] : EditableGraph::Links(graph_.links_of(from))) {
+      graph_.unlink(from, other);
+      if (other == to) continue;
+      const auto known = graph_.links_of(to).find(other);
+      EditableGraph::Link link =
+          known != graph_.links_of(to).end()
+              ? known->second
+              : EditableGraph::Link{space_.clearance(graph_.at(to), graph_.at(other))};
+      link.widest |= replaced.widest;
+      graph_.link(to, other, link);
+    }
+  }
+
+  bool merge_vertices() {
+    bool changed = false;
+    std::vector<char> fresh(graph_.size(), true);  // may be worth another look
+    for (bool again = true; again; changed |= again) {
+      again = false;
+      std::vector<Candidate> candidates;
+      for (Number v = 0; v < graph_.size(); ++v)
+        for (const auto& [w, link] : graph_.links_of(v))
+          if (fresh[v] || fresh[w]) candidates.push_back({graph_.length(v, w), v, w});
+      std::sort(candidates.begin(), candidates.end());
+      fresh.assign(graph_.size(), false);
+      for (const Candidate& c : candidates) {
+        if (!graph_.links_of(c.from).contains(c.to) || !may_merge(c.from, c.to)) continue;
+        for (const auto& [other, link] : graph_.links_of(c.from)) fresh[other] = true;
+        merge(c.from, c.to);
+        again = true;
+      }
+    }
+    return changed;
+  }
+
+  /// Whether the segment between the ends of a way can be swept onto it, point by point at equal
+  /// shares of their lengths.
+  bool sweeps_onto(const std::vector<Number>& way) const {
+    const double total = graph_.length(way);
+    const Point a = graph_.at(way.front()), b = graph_.at(way.back());
+    double before = 0.0;
+    for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+      const double own = graph_.length(way[i], way[i + 1]);
+      const int steps = std::max(1, static_cast<int>(std::ceil(own / radius_)));
+      for (int k = 1; k <= steps; ++k) {
+        const double t = static_cast<double>(k) / steps;
+        const Point p = graph_.at(way[i]) + t * (graph_.at(way[i + 1]) - graph_.at(way[i]));
+        const Point q = a + (b - a) * ((before + t * own) / total);
+        if (!space_.is_free(p, q, radius_)) return false;
+      }
+      before += own;
+    }
+    return true;
+  }
+
+  bool drop_parallel_ways() {
+    std::vector<Candidate> longest_first;
+    for (Number v = 0; v < graph_.size(); ++v)
+      for (const auto& [w, link] : graph_.links_of(v))
+        if (v < w && !link.widest) longest_first.push_back({-graph_.length(v, w), v, w});
+    std::sort(longest_first.begin(), longest_first.end());
+    bool changed = false;
+    for (const Candidate& c : longest_first) {
+      const std::vector<Number> way =
+          graph_.other_way(c.from, c.to, -c.length * config_.stretch,
+                           kept(graph_.links_of(c.from).at(c.to).clearance));
+      if (way.empty() || !sweeps_onto(way)) continue;
+      graph_.unlink(c.from, c.to);
+      changed = true;
+    }
+    return changed;
+  }
+
+  const FreeSpace space_;
+  const double radius_, widest_kept_;
+  const SimplifyConfig& config_;
+  EditableGraph graph_;
+};
+
+}  // namespace
+
+SparseGraph simplify_graph(const EsdfMap& esdf, const SparseGraph& graph,
+                           const SimplifyConfig& config) {
+  return Simplification(esdf, graph, config).run();
+}
+
+}  // namespace ridgeway
