@@ -97,6 +97,18 @@ struct Passages {
   std::vector<std::vector<std::uint32_t>> rays;
 };
 
+/// Throws InputError unless there is memory for the passages of all rays.
+void require_room_for_passages(const std::vector<Ray>& rays, const FusionConfig& config) {
+  constexpr double kBytes = 48.0;  // of a passage, while they are gathered
+  double passages = 0.0;
+  for (const Ray& ray : rays) {
+    const auto [near, far] = stretch_of(ray, config);
+    passages += 1.0 + ray.along.lpNorm<1>() * (far - near) / (kBlockSide * config.voxel_size);
+  }
+  require_memory(kBytes * passages, "a scan's rays",
+                 "use a larger voxel size or a smaller max_range");
+}
+
 Passages find_passages(const std::vector<Ray>& rays, const Point& sensor,
                        const FusionConfig& config) {
   constexpr std::size_t kChunk = 256;
@@ -176,8 +188,9 @@ void update(const Ray& ray, const Point& sensor, const BlockIndex& index,
 void integrate_rays(const std::vector<SurfacePoint>& points, const Point& sensor,
                     const FusionConfig& config, TsdfBlocks& blocks) {
   const std::vector<Ray> rays = bundle(points, sensor, config.voxel_size);
+  require_room_for_passages(rays, config);
   const Passages passages = find_passages(rays, sensor, config);
-  require_room(blocks, passages.blocks.size());
+  require_room(blocks, static_cast<double>(passages.blocks.size()));
   std::vector<TsdfBlock*> targets;
   targets.reserve(passages.blocks.size());
   for (const BlockIndex& index : passages.blocks) targets.push_back(&blocks.find_or_add(index));
