@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -11,6 +14,7 @@
 #include "console.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/io/depth_sequence.hpp"
+#include "ridgeway/io/scan_sequence.hpp"
 #include "ridgeway/io/tsdf_file.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
 
@@ -18,14 +22,20 @@ namespace ridgeway::cli {
 namespace {
 
 struct Options {
-  std::string folder, output, intrinsics, integrator = "projective";
+  std::string folder, output, intrinsics, integrator;
   FusionConfig fusion;
 };
 
+struct PointCounts {
+  std::size_t fused = 0, out_of_range = 0, not_finite = 0;
+};
+
 struct Fused {
+  std::string layout;
   TsdfMap map;
-  std::size_t frames = 0, unreadable = 0;
-  double seconds = 0.0;  // of fusing alone
+  std::size_t frames = 0, unreadable = 0, without_pose = 0;
+  std::optional<PointCounts> points;  // of scans
+  double seconds = 0.0;               // of fusing alone
 };
 
 SequenceConfig sequence_config(const Options& options) {
@@ -39,66 +49,157 @@ SequenceConfig sequence_config(const Options& options) {
   return config;
 }
 
+/// Runs one step of the fusion; complaints name the frame.
+template <typename Integrate>
+void fuse_frame(const std::filesystem::path& frame, Fused& fused, const Integrate& integrate) {
+  const Stopwatch watch;
+  try {
+    integrate();
+  } catch (const InputError& error) {
+    throw error.within(frame.string());
+  }
+  fused.seconds += watch.seconds();
+  ++fused.frames;
+}
+
 /// Images that are missing or damaged are passed over, as real recordings have them; not all.
-Fused fuse(const DepthSequence& sequence, const FusionConfig& config, const Globals& globals) {
+Fused fuse_images(const Options& options, const FusionConfig& config, const Globals& globals) {
+  const DepthSequence sequence = open_sequence(options.folder, sequence_config(options));
   TsdfFusion fusion(config);
   Fused fused;
+  fused.layout = sequence.layout;
+  fused.without_pose = sequence.without_pose;
   ProgressBar bar(globals);
   std::string first_problem;
   for (std::size_t i = 0; i < sequence.frames.size(); ++i) {
     bar.show("fuse", static_cast<double>(i) / static_cast<double>(sequence.frames.size()));
+    const DepthFrame& frame = sequence.frames[i];
     std::optional<DepthImage> image;
     try {
-      image = read_frame(sequence, sequence.frames[i]);
+      image = read_frame(sequence, frame);
     } catch (const InputError& error) {
       if (fused.unreadable++ == 0) first_problem = error.what();
       continue;
     }
-    const Stopwatch watch;
-    fusion.integrate(*image, sequence.camera, sequence.frames[i].T_world_camera);
-    fused.seconds += watch.seconds();
-    ++fused.frames;
+    fuse_frame(frame.image, fused,
+               [&] { fusion.integrate(*image, sequence.camera, frame.T_world_camera); });
   }
   bar.clear();
   if (fused.unreadable > 0)
     warn(globals,
          count_text(fused.unreadable) + " images were passed over, the first: " + first_problem);
-  if (sequence.without_pose > 0)
-    note(globals, count_text(sequence.without_pose) + " images have no pose and were passed over");
   fused.map = fusion.map();
   return fused;
 }
 
-int run(const Options& options, const Globals& globals) {
+/// Scans are few and large: one that cannot be read is a mistake.
+Fused fuse_scans(const Options& options, const FusionConfig& config, const Globals& globals) {
+  const ScanSequence sequence = open_scans(options.folder);
+  TsdfFusion fusion(config);
+  Fused fused;
+  fused.layout = sequence.layout;
+  fused.without_pose = sequence.without_pose;
+  PointCounts& points = fused.points.emplace();
+  ProgressBar bar(globals);
+  for (std::size_t i = 0; i < sequence.scans.size(); ++i) {
+    bar.show("fuse", static_cast<double>(i) / static_cast<double>(sequence.scans.size()));
+    const Scan& scan = sequence.scans[i];
+    const PointCloud cloud = read_scan(scan);
+    fuse_frame(scan.cloud, fused, [&] { fusion.integrate(cloud.points, scan.T_world_sensor); });
+    points.not_finite += cloud.skipped;
+    for (const Point& point : cloud.points)
+      ++(config.takes(point.norm()) ? points.fused : points.out_of_range);
+  }
+  bar.clear();
+  if (points.out_of_range + points.not_finite > 0)
+    note(globals, count_text(points.out_of_range) + " points out of range and " +
+                      count_text(points.not_finite) + " that are not finite were passed over");
+  fused.map = fusion.map();
+  return fused;
+}
+
+enum class Kind : std::uint8_t { kImages, kScans };
+
+Kind kind_of(const std::string& folder) {
+  if (holds_depth_images(folder)) return Kind::kImages;
+  if (holds_scans(folder)) return Kind::kScans;
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error))
+    throw InputError(folder, "is no folder", "give the folder of a recording");
+  throw InputError(folder, "holds no recording",
+                   "give a folder with depth.txt (TUM RGB-D), frame-*.depth.png (7-Scenes, "
+                   "3DMatch), or scans and their poses in poses.txt");
+}
+
+FusionConfig fusion_config(const Options& options, Kind kind) {
   FusionConfig config = options.fusion;
-  if (options.integrator == "rays") config.integrator = Integrator::kRayCasting;
+  if (kind == Kind::kScans) {
+    if (options.integrator == "projective")
+      throw InputError("--integrator projective", "is for depth images", "leave it out for scans");
+    if (!options.intrinsics.empty())
+      throw InputError("--intrinsics", "are those of depth images", "leave them out for scans");
+  }
+  if (kind == Kind::kScans || options.integrator == "rays")
+    config.integrator = Integrator::kRayCasting;
   config.validate();
-  const DepthSequence sequence = open_sequence(options.folder, sequence_config(options));
+  return config;
+}
+
+void print(const Options& options, const Fused& fused, const VoxelCounts& voxels,
+           const Globals& globals) {
+  const double milliseconds = 1e3 * fused.seconds / static_cast<double>(fused.frames);
+  if (globals.json) {
+    nlohmann::ordered_json json = {
+        {"file", options.output},
+        {"layout", fused.layout},
+        {"frames", fused.frames},
+        {"unreadable", fused.unreadable},
+        {"without_pose", fused.without_pose},
+        {"voxel_size", fused.map.voxel_size},
+        {"truncation", fused.map.truncation},
+        {"voxels", {{"free", voxels.free}, {"occupied", voxels.occupied}}},
+        {"frame_milliseconds", milliseconds},
+        {"peak_memory_bytes", peak_memory_bytes()}};
+    if (fused.points)
+      json["points"] = {{"fused", fused.points->fused},
+                        {"out_of_range", fused.points->out_of_range},
+                        {"not_finite", fused.points->not_finite}};
+    print_json(json);
+    return;
+  }
+  print_row("frames", count_text(fused.frames) + " (" + fused.layout + ")");
+  if (fused.points) print_row("points", count_text(fused.points->fused));
+  print_row("voxels",
+            count_text(voxels.free) + " free, " + count_text(voxels.occupied) + " occupied");
+  print_row("time", seconds_text(1e-3 * milliseconds) + " a frame");
+  print_row("file", options.output);
+}
+
+/// The map must not be written over what it is made of.
+void require_outside(const std::filesystem::path& output, const std::filesystem::path& folder) {
+  std::error_code error;
+  const auto whole = std::filesystem::weakly_canonical(folder, error);
+  const auto file = std::filesystem::weakly_canonical(output, error);
+  if (std::filesystem::exists(file, error) && file.extension() != ".ridge" &&
+      std::mismatch(whole.begin(), whole.end(), file.begin(), file.end()).first == whole.end())
+    throw InputError(output.string(), "is part of the recording", "give another file to write to");
+}
+
+int run(const Options& options, const Globals& globals) {
+  const Kind kind = kind_of(options.folder);
+  const FusionConfig config = fusion_config(options, kind);
+  require_outside(options.output, options.folder);
   require_writable({options.output}, {});
-  const Fused fused = fuse(sequence, config, globals);
+  const Fused fused = kind == Kind::kScans ? fuse_scans(options, config, globals)
+                                           : fuse_images(options, config, globals);
+  if (fused.without_pose > 0)
+    note(globals, count_text(fused.without_pose) + " frames have no pose and were passed over");
   const VoxelCounts voxels = count_voxels(occupancy_of(fused.map));
   if (voxels.free == 0)
     throw InputError(options.folder, "shows no free space",
-                     "check --min-range, --max-range and the scale of the images");
+                     "check --min-range, --max-range and the scale of the recording");
   save_tsdf(fused.map, options.folder, options.output);
-  const double milliseconds = 1e3 * fused.seconds / static_cast<double>(fused.frames);
-  if (globals.json) {
-    print_json({{"file", options.output},
-                {"frames", fused.frames},
-                {"unreadable", fused.unreadable},
-                {"without_pose", sequence.without_pose},
-                {"voxel_size", fused.map.voxel_size},
-                {"truncation", fused.map.truncation},
-                {"voxels", {{"free", voxels.free}, {"occupied", voxels.occupied}}},
-                {"frame_milliseconds", milliseconds},
-                {"peak_memory_bytes", peak_memory_bytes()}});
-  } else {
-    print_row("frames", count_text(fused.frames) + " (" + sequence.layout + ")");
-    print_row("voxels",
-              count_text(voxels.free) + " free, " + count_text(voxels.occupied) + " occupied");
-    print_row("time", seconds_text(1e-3 * milliseconds) + " a frame");
-    print_row("file", options.output);
-  }
+  print(options, fused, voxels, globals);
   return kExitDone;
 }
 
@@ -107,10 +208,11 @@ int run(const Options& options, const Globals& globals) {
 void add_fuse_command(CLI::App& app, const Globals& globals, Command& chosen) {
   const auto options = std::make_shared<Options>();
   FusionConfig& fusion = options->fusion;
-  CLI::App* command = app.add_subcommand("fuse", "Fuse depth images with poses to a map");
+  CLI::App* command = app.add_subcommand("fuse", "Fuse depth images or scans with poses to a map");
   command
       ->add_option("folder", options->folder,
-                   "Recording in the layout of TUM RGB-D, 7-Scenes or 3DMatch")
+                   "Recording: depth images in the layout of TUM RGB-D, 7-Scenes or 3DMatch, or "
+                   "point clouds with poses.txt")
       ->required();
   command->add_option("-o,--output", options->output, "Map to write, .ridge")->required();
   command->add_option("--voxel-size", fusion.voxel_size, "Metres")->capture_default_str();
@@ -121,13 +223,20 @@ void add_fuse_command(CLI::App& app, const Globals& globals, Command& chosen) {
   command->add_option("--max-range", fusion.max_range, "Nothing farther is taken, metres")
       ->capture_default_str();
   command->add_option("--clear-radius", fusion.clear_radius,
-                      "Space this near to where the camera was is free, metres");
-  command->add_option("--integrator", options->integrator, "By voxels or by rays")
-      ->check(CLI::IsMember({"projective", "rays"}))
-      ->capture_default_str();
+                      "Space this near to where the sensor was is free, metres");
+  command
+      ->add_option("--integrator", options->integrator,
+                   "By voxels or by rays (default: projective; scans go by rays alone)")
+      ->check(CLI::IsMember({"projective", "rays"}));
   command->add_option("--intrinsics", options->intrinsics,
                       "fx,fy,cx,cy in pixels (default: the recording's, or its layout's)");
   command->footer(
+      "Folders:\n"
+      "  TUM RGB-D          depth.txt, groundtruth.txt, images of 1/5000 m\n"
+      "  7-Scenes, 3DMatch  frame-*.depth.png in millimetres, frame-*.pose.txt\n"
+      "  scans              .xyz, .ply or .pcd clouds in the sensor's frame, and poses.txt with\n"
+      "                     a line for each: cloud tx ty tz qx qy qz qw (sensor to world)\n"
+      "  registered scans   S_raw.xyz and registration_metrics.json, which moves each to one\n"
       "Example:\n"
       "  ridgeway simulate worlds/house.yaml -o house && ridgeway fuse house -o house.ridge\n"
       "  ridgeway build house.ridge -o roadmap.ridge --unknown ignore");

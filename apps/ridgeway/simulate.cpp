@@ -20,13 +20,19 @@ constexpr int kMostFrames = 1000000;
 
 struct Options {
   std::string world, output, camera = "pinhole", volume;
-  int frames = 200;
+  int frames = 200, width = 320;
   double sigma = 0.0, clearance = 0.5, max_range = 10.0;
   std::uint64_t seed = 1;
 };
 
 DepthSensor sensor_of(const Options& options) {
   DepthSensor sensor = options.camera == "stereo" ? stereo_sensor() : DepthSensor{};
+  PinholeCamera& camera = sensor.camera;
+  camera.width = options.width;
+  camera.height = 3 * options.width / 4;
+  camera.fx = camera.fy = 0.5 * options.width;
+  camera.cx = 0.5 * (camera.width - 1);
+  camera.cy = 0.5 * (camera.height - 1);
   sensor.range_sigma = options.sigma;
   sensor.max_range = options.max_range;
   sensor.validate();
@@ -91,6 +97,9 @@ void add_simulate_command(CLI::App& app, const Globals& globals, Command& chosen
       ->capture_default_str();
   command->add_option("--camera", options->camera, "A perfect one, or a stereo pair")
       ->check(CLI::IsMember({"pinhole", "stereo"}))
+      ->capture_default_str();
+  command->add_option("--width", options->width, "Pixels across, of 90 degrees; 3/4 as many down")
+      ->check(CLI::Range(4, 16384))
       ->capture_default_str();
   command->add_option("--sigma", options->sigma, "Gaussian noise on every range, metres")
       ->capture_default_str();

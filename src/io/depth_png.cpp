@@ -14,6 +14,7 @@
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/io/atomic_file.hpp"
 #include "ridgeway/io/read_file.hpp"
+#include "ridgeway/mapping/memory_limit.hpp"
 
 namespace ridgeway {
 namespace {
@@ -120,6 +121,17 @@ struct Png {
   png_infop info;
 };
 
+/// A header can promise more than the file holds, or than fusion has room for.
+void require_plausible(const Grey16& header, std::size_t bytes, const std::string& name) {
+  constexpr double kMostDeflated = 1032.0;  // to one byte, by the format of zlib
+  constexpr double kBytesPerPixel = 200.0;  // with the rays and normals that are made of it
+  const double pixels = static_cast<double>(header.width) * header.height;
+  if (2.0 * pixels > kMostDeflated * static_cast<double>(bytes))
+    throw InputError(name, "is no PNG image that can be read: it ends too early",
+                     "copy or record it again");
+  require_memory(kBytesPerPixel * pixels, name, "give images of fewer pixels");
+}
+
 }  // namespace
 
 DepthImage read_depth_png(const std::filesystem::path& file, double units_per_metre, int none) {
@@ -134,6 +146,7 @@ DepthImage read_depth_png(const std::filesystem::path& file, double units_per_me
   if (!decode(reader.png, reader.info, source, header, nullptr)) damaged(reader);
   if (!header.is_grey16)
     throw InputError(name, "is no 16-bit grey image", "give depths, not colours");
+  require_plausible(header, bytes.size(), name);
   Rows rows(header.width, header.height);
   if (!decode(reader.png, reader.info, source, header, rows.starts.data())) damaged(reader);
   DepthImage image{static_cast<int>(header.width), static_cast<int>(header.height),

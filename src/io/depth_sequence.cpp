@@ -2,94 +2,26 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "ridgeway/io/depth_sequence.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <map>
-#include <sstream>
+#include <queue>
 #include <system_error>
 #include <tuple>
 
+#include "depth_layouts.hpp"
+#include "pose_text.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
-#include "ridgeway/io/atomic_file.hpp"
 #include "ridgeway/io/depth_png.hpp"
-#include "ridgeway/io/read_file.hpp"
 
 namespace ridgeway {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kTumUnits = 5000.0, kSevenScenesUnits = 1000.0;  // of an image, a metre
-constexpr double kFrameSeconds = 0.1;                             // between simulated images
-const char* const kIntrinsicsFile = "camera-intrinsics.txt";
-
-/// The lines of a text file, split at blanks and commas, without comments and empty lines.
-struct Line {
-  std::size_t number;
-  std::vector<std::string> words;
-};
-
-std::vector<Line> read_lines(const fs::path& file) {
-  std::istringstream text(read_file(file));
-  std::vector<Line> lines;
-  std::size_t number = 0;
-  for (std::string line; std::getline(text, line);) {
-    ++number;
-    line.resize(std::min(line.size(), line.find('#')));
-    std::replace_if(
-        line.begin(), line.end(), [](char c) { return c == ',' || c == '\r'; }, ' ');
-    std::istringstream words(line);
-    Line split{number, {}};
-    for (std::string word; words >> word;) split.words.push_back(word);
-    if (!split.words.empty()) lines.push_back(std::move(split));
-  }
-  return lines;
-}
-
-[[noreturn]] void refuse(const fs::path& file, std::size_t line, const std::string& what,
-                         const std::string& remedy) {
-  throw InputError(file.string() + " line " + std::to_string(line), what, remedy);
-}
-
-/// A number; "nan" and "inf" are numbers too.
-double number_in(const fs::path& file, const Line& line, std::size_t place,
-                 const std::string& remedy) {
-  double value = 0.0;
-  if (place >= line.words.size()) refuse(file, line.number, "is too short", remedy);
-  const std::string& word = line.words[place];
-  const char* first = word.data() + (word.front() == '+' ? 1 : 0);
-  const auto [end, error] = std::from_chars(first, word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size())
-    refuse(file, line.number, "has '" + word + "', which is no number", remedy);
-  return value;
-}
-
-/// All numbers of a file of rows.
-std::vector<double> numbers_of(const fs::path& file, std::size_t count, const char* remedy) {
-  std::vector<double> numbers;
-  for (const Line& line : read_lines(file))
-    for (std::size_t i = 0; i < line.words.size(); ++i)
-      numbers.push_back(number_in(file, line, i, remedy));
-  if (numbers.size() != count)
-    throw InputError(file.string(), "has " + std::to_string(numbers.size()) + " numbers", remedy);
-  return numbers;
-}
-
-/// A rotation that text has rounded, made exact; nothing if it is none.
-std::optional<Eigen::Matrix3d> rotation_near(const Eigen::Matrix3d& matrix) {
-  constexpr double kRounding = 1e-2;
-  if (!((matrix.transpose() * matrix - Eigen::Matrix3d::Identity()).norm() < kRounding) ||
-      matrix.determinant() < 0.0)
-    return std::nullopt;
-  return Eigen::Quaterniond(matrix).normalized().toRotationMatrix();
-}
+constexpr std::string_view kSevenScenesImage = ".depth.png", kSevenScenesPose = ".pose.txt";
+constexpr double kSevenScenesUnits = 1000.0;  // of an image, a metre
 
 // --- TUM RGB-D
-// ------------------------------------------------------------------------------------
 
 struct StampedImage {
   double time;
@@ -100,68 +32,108 @@ struct StampedPose {
   Eigen::Isometry3d T_world_camera;
 };
 
+/// In the order of time.
 std::vector<StampedImage> read_image_list(const fs::path& file) {
   const char* remedy = "give lines of: timestamp filename";
   std::vector<StampedImage> images;
-  for (const Line& line : read_lines(file)) {
-    if (line.words.size() < 2) refuse(file, line.number, "names no image", remedy);
-    images.push_back({number_in(file, line, 0, remedy), file.parent_path() / line.words[1]});
-  }
+  for_each_row(file, [&](const TextRow& row) {
+    const double time = row.number(0, remedy);
+    if (!std::isfinite(time)) row.refuse("has a time that is not finite", remedy);
+    if (row.words.size() < 2) row.refuse("names no image", remedy);
+    images.push_back({time, file.parent_path() / row.words[1]});
+  });
+  std::stable_sort(images.begin(), images.end(),
+                   [](const auto& a, const auto& b) { return a.time < b.time; });
   return images;
 }
 
 std::vector<StampedPose> read_trajectory(const fs::path& file) {
   const char* remedy = "give lines of: timestamp tx ty tz qx qy qz qw";
   std::vector<StampedPose> poses;
-  for (const Line& line : read_lines(file)) {
-    std::array<double, 8> v;
-    for (std::size_t i = 0; i < v.size(); ++i) v[i] = number_in(file, line, i, remedy);
-    if (!std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); })) continue;
-    const Eigen::Quaterniond turn(v[7], v[4], v[5], v[6]);
-    if (std::abs(turn.norm() - 1.0) > 1e-2)
-      refuse(file, line.number, "has a quaternion of length " + number_text(turn.norm()), remedy);
-    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-    pose.linear() = turn.normalized().toRotationMatrix();
-    pose.translation() = Point(v[1], v[2], v[3]);
-    poses.push_back({v[0], pose});
-  }
+  for_each_row(file, [&](const TextRow& row) {
+    const double time = row.number(0, remedy);
+    const auto pose = pose_in_row(row, 1, remedy);
+    if (pose && std::isfinite(time)) poses.push_back({time, *pose});
+  });
   return poses;
 }
 
-/// For each image the place of the pose nearest in time, each pose once, nearest pairs first.
-std::vector<std::optional<std::size_t>> associate(const std::vector<StampedImage>& images,
-                                                  const std::vector<StampedPose>& poses,
-                                                  double longest_gap) {
-  std::multimap<double, std::size_t> by_time;
-  for (std::size_t k = 0; k < poses.size(); ++k) by_time.emplace(poses[k].time, k);
-  std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
-  for (std::size_t i = 0; i < images.size(); ++i)
-    for (auto p = by_time.lower_bound(images[i].time - longest_gap);
-         p != by_time.end() && p->first <= images[i].time + longest_gap; ++p)
-      pairs.emplace_back(std::abs(p->first - images[i].time), i, p->second);
-  std::sort(pairs.begin(), pairs.end());
-  std::vector<std::optional<std::size_t>> pose_of(images.size());
-  std::vector<bool> taken(poses.size(), false);
-  for (const auto& [gap, image, pose] : pairs) {
-    if (pose_of[image] || taken[pose]) continue;
-    pose_of[image] = pose;
-    taken[pose] = true;
+/// For each image the place of the pose nearest in time, each pose once, nearest pairs first. The
+/// nearest pair of those left are always neighbours in time.
+class Association {
+ public:
+  Association(const std::vector<StampedImage>& images, const std::vector<StampedPose>& poses,
+              double longest_gap)
+      : longest_gap_(longest_gap), pose_of_(images.size()) {
+    for (std::size_t i = 0; i < images.size(); ++i) stamps_.push_back({images[i].time, false, i});
+    for (std::size_t k = 0; k < poses.size(); ++k) stamps_.push_back({poses[k].time, true, k});
+    std::sort(stamps_.begin(), stamps_.end(), [](const Stamp& a, const Stamp& b) {
+      return std::tie(a.time, a.is_pose, a.place) < std::tie(b.time, b.is_pose, b.place);
+    });
+    const std::size_t count = stamps_.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      stamps_[i].previous = i == 0 ? kNone : i - 1;
+      stamps_[i].next = i + 1 == count ? kNone : i + 1;
+    }
+    for (std::size_t i = 0; i < count; ++i) offer(i, stamps_[i].next);
+    while (!pairs_.empty()) {
+      const Pair nearest = pairs_.top();
+      pairs_.pop();
+      take(nearest);
+    }
   }
-  return pose_of;
-}
+
+  const std::optional<std::size_t>& pose_of(std::size_t image) const { return pose_of_[image]; }
+
+ private:
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  struct Stamp {
+    double time;
+    bool is_pose;
+    std::size_t place;  // among the images, or the poses
+    std::size_t previous = kNone, next = kNone;
+    bool is_taken = false;
+  };
+  struct Pair {
+    double gap;
+    std::size_t left, right;
+    bool operator>(const Pair& other) const {
+      return std::tie(gap, left) > std::tie(other.gap, other.left);
+    }
+  };
+
+  void offer(std::size_t left, std::size_t right) {
+    if (left == kNone || right == kNone || stamps_[left].is_pose == stamps_[right].is_pose) return;
+    const double gap = stamps_[right].time - stamps_[left].time;
+    if (gap <= longest_gap_) pairs_.push({gap, left, right});
+  }
+
+  void take(const Pair& pair) {
+    Stamp &left = stamps_[pair.left], &right = stamps_[pair.right];
+    if (left.is_taken || right.is_taken) return;
+    left.is_taken = right.is_taken = true;
+    pose_of_[left.is_pose ? right.place : left.place] = left.is_pose ? left.place : right.place;
+    if (left.previous != kNone) stamps_[left.previous].next = right.next;
+    if (right.next != kNone) stamps_[right.next].previous = left.previous;
+    offer(left.previous, right.next);
+  }
+
+  double longest_gap_;
+  std::vector<std::optional<std::size_t>> pose_of_;
+  std::vector<Stamp> stamps_;
+  std::priority_queue<Pair, std::vector<Pair>, std::greater<>> pairs_;
+};
 
 DepthSequence open_tum(const fs::path& folder, const SequenceConfig& config) {
   DepthSequence sequence;
   sequence.layout = "tum";
   sequence.units_per_metre = kTumUnits;
-  std::vector<StampedImage> images = read_image_list(folder / "depth.txt");
-  std::stable_sort(images.begin(), images.end(),
-                   [](const auto& a, const auto& b) { return a.time < b.time; });
-  const std::vector<StampedPose> poses = read_trajectory(folder / "groundtruth.txt");
-  const auto pose_of = associate(images, poses, config.longest_gap);
+  const std::vector<StampedImage> images = read_image_list(folder / kTumImages);
+  const std::vector<StampedPose> poses = read_trajectory(folder / kTumPoses);
+  const Association association(images, poses, config.longest_gap);
   for (std::size_t i = 0; i < images.size(); ++i) {
-    if (pose_of[i])
-      sequence.frames.push_back({images[i].image, poses[*pose_of[i]].T_world_camera});
+    if (const auto pose = association.pose_of(i))
+      sequence.frames.push_back({images[i].image, poses[*pose].T_world_camera});
     else
       ++sequence.without_pose;
   }
@@ -169,39 +141,43 @@ DepthSequence open_tum(const fs::path& folder, const SequenceConfig& config) {
 }
 
 // --- 7-Scenes and 3DMatch
-// -------------------------------------------------------------------------
+
+/// In the order of their names.
+std::vector<fs::path> seven_scenes_images(const fs::path& folder) {
+  std::vector<fs::path> images;
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error))
+    if (entry->path().filename().string().ends_with(kSevenScenesImage))
+      images.push_back(entry->path());
+  if (error)
+    throw InputError(folder.string(), "cannot be read: " + error.message(),
+                     "check its permissions");
+  std::sort(images.begin(), images.end());
+  return images;
+}
 
 /// The pose of a file of 4 x 4 numbers; nothing where tracking was lost.
 std::optional<Eigen::Isometry3d> read_pose(const fs::path& file) {
   const char* remedy = "give a 4 x 4 matrix, camera to world, with a rotation in it";
-  const std::vector<double> v = numbers_of(file, 16, remedy);
-  if (!std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); }))
-    return std::nullopt;
+  const std::vector<double> v = read_numbers(file, 16, remedy);
   const Eigen::Matrix4d matrix =
       Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(v.data());
-  const auto rotation = rotation_near(matrix.topLeftCorner<3, 3>());
-  if (!rotation || matrix.row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0))
-    throw InputError(file.string(), "is no pose", remedy);
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = *rotation;
-  pose.translation() = matrix.topRightCorner<3, 1>();
+  if (!matrix.allFinite()) return std::nullopt;
+  const auto pose = pose_of_matrix(matrix);
+  if (!pose) throw InputError(file.string(), "is no pose", remedy);
   return pose;
 }
 
 DepthSequence open_seven_scenes(const fs::path& folder) {
-  constexpr std::string_view kEnd = ".depth.png";
   DepthSequence sequence;
   sequence.layout = "7-scenes";
   sequence.units_per_metre = kSevenScenesUnits;
-  std::vector<fs::path> images;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.path().filename().string().ends_with(kEnd)) images.push_back(entry.path());
-  std::sort(images.begin(), images.end());
-  for (const fs::path& image : images) {
+  for (const fs::path& image : seven_scenes_images(folder)) {
     std::string name = image.filename().string();
-    name.replace(name.size() - kEnd.size(), kEnd.size(), ".pose.txt");
-    const fs::path pose_file = folder / name;
-    const auto pose = fs::exists(pose_file) ? read_pose(pose_file) : std::nullopt;
+    name.replace(name.size() - kSevenScenesImage.size(), kSevenScenesImage.size(),
+                 kSevenScenesPose);
+    const auto pose = is_there(folder / name) ? read_pose(folder / name) : std::nullopt;
     if (pose)
       sequence.frames.push_back({image, *pose});
     else
@@ -210,109 +186,83 @@ DepthSequence open_seven_scenes(const fs::path& folder) {
   return sequence;
 }
 
-// --- both
-// -----------------------------------------------------------------------------------------
+/// 3DMatch packs the images into a folder of their own.
+fs::path image_folder(const fs::path& folder) {
+  std::error_code error;
+  return fs::is_directory(folder / "data", error) ? folder / "data" : folder;
+}
 
-/// fx, fy, cx, cy.
-Eigen::Vector4d intrinsics_of(const fs::path& folder, const DepthSequence& sequence,
-                              const SequenceConfig& config) {
-  if (config.intrinsics) return *config.intrinsics;
-  for (const fs::path& file : {folder / kIntrinsicsFile, folder.parent_path() / kIntrinsicsFile}) {
-    if (!fs::exists(file)) continue;
-    const auto v = numbers_of(file, 9, "give a 3 x 3 matrix: fx 0 cx, 0 fy cy, 0 0 1");
-    return {v[0], v[4], v[2], v[5]};
+// --- both
+
+/// The first image that can be read: recordings have images that cannot.
+DepthImage first_readable(const DepthSequence& sequence, const fs::path& folder) {
+  std::optional<InputError> first_problem;
+  for (const DepthFrame& frame : sequence.frames) {
+    try {
+      return read_frame(sequence, frame);
+    } catch (const InputError& error) {
+      if (!first_problem) first_problem = error;
+    }
   }
-  if (sequence.layout == "tum") return {525.0, 525.0, 319.5, 239.5};
-  return {585.0, 585.0, 320.0, 240.0};
+  throw first_problem->within(folder.string() + " has no image that can be read, the first:");
+}
+
+PinholeCamera camera_of(const DepthImage& image, const fs::path& folder,
+                        const DepthSequence& sequence, const SequenceConfig& config) {
+  const auto camera = [&](double fx, double fy, double cx, double cy) {
+    return PinholeCamera{image.width, image.height, fx, fy, cx, cy};
+  };
+  if (config.intrinsics) {
+    const Eigen::Vector4d& k = *config.intrinsics;
+    return camera(k[0], k[1], k[2], k[3]);
+  }
+  for (const fs::path& file : {folder / kIntrinsicsFile, folder.parent_path() / kIntrinsicsFile}) {
+    if (!is_there(file)) continue;
+    const auto v = read_numbers(file, 9, "give a 3 x 3 matrix: fx 0 cx, 0 fy cy, 0 0 1");
+    const PinholeCamera read = camera(v[0], v[4], v[2], v[5]);
+    try {
+      read.validate();
+    } catch (const InputError& error) {
+      throw error.within(file.string());
+    }
+    return read;
+  }
+  if (image.width != 640 || image.height != 480)
+    throw InputError(folder.string(),
+                     "has no " + std::string(kIntrinsicsFile) + ", and its images are " +
+                         std::to_string(image.width) + " x " + std::to_string(image.height),
+                     "give the intrinsics: the layout's are for 640 x 480");
+  return sequence.layout == "tum" ? camera(525.0, 525.0, 319.5, 239.5)
+                                  : camera(585.0, 585.0, 320.0, 240.0);
 }
 
 }  // namespace
+
+bool holds_depth_images(const fs::path& folder) {
+  std::error_code error;
+  return fs::is_directory(folder, error) &&
+         (is_there(folder / kTumImages) || !seven_scenes_images(image_folder(folder)).empty());
+}
 
 DepthSequence open_sequence(const fs::path& folder, const SequenceConfig& config) {
   std::error_code error;
   if (!fs::is_directory(folder, error))
     throw InputError(folder.string(), "is no folder", "give the folder of a recording");
-  const fs::path inner = fs::exists(folder / "data") && !fs::exists(folder / "depth.txt")
-                             ? folder / "data"
-                             : folder;  // as 3DMatch packs it
-  DepthSequence sequence =
-      fs::exists(folder / "depth.txt") ? open_tum(folder, config) : open_seven_scenes(inner);
+  const bool is_tum = is_there(folder / kTumImages);
+  const fs::path inner = is_tum ? folder : image_folder(folder);
+  DepthSequence sequence = is_tum ? open_tum(folder, config) : open_seven_scenes(inner);
   if (sequence.frames.empty())
     throw InputError(folder.string(),
                      sequence.without_pose > 0 ? "has no image with a pose" : "holds no recording",
                      "give depth.txt, groundtruth.txt and the images (TUM), or frame-*.depth.png "
                      "and frame-*.pose.txt (7-Scenes)");
-  const DepthImage first = read_depth_png(sequence.frames.front().image, sequence.units_per_metre);
-  const Eigen::Vector4d k = intrinsics_of(inner, sequence, config);
-  sequence.camera = {first.width, first.height, k[0], k[1], k[2], k[3]};
+  sequence.camera = camera_of(first_readable(sequence, folder), inner, sequence, config);
   sequence.camera.validate();
   return sequence;
 }
 
 DepthImage read_frame(const DepthSequence& sequence, const DepthFrame& frame) {
-  DepthImage image = read_depth_png(frame.image, sequence.units_per_metre);
-  if (image.width != sequence.camera.width || image.height != sequence.camera.height)
-    throw InputError(frame.image.string(),
-                     "is " + std::to_string(image.width) + " x " + std::to_string(image.height) +
-                         " where the first image is " + std::to_string(sequence.camera.width) +
-                         " x " + std::to_string(sequence.camera.height),
-                     "give images of one camera");
-  return image;
-}
-
-SequenceWriter::SequenceWriter(const fs::path& folder, const PinholeCamera& camera)
-    : folder_(folder), camera_(camera) {
-  camera.validate();
-  if (!folder_.has_filename()) folder_ = folder_.parent_path();  // "run/"
-  std::error_code error;
-  if (fs::exists(folder_, error) && !(fs::is_directory(folder_, error) && fs::is_empty(folder_)))
-    throw InputError(folder_.string(), "exists and is not empty", "give a new folder");
-  temporary_ = folder_.parent_path() /
-               ("." + folder_.filename().string() + "." + std::to_string(::getpid()) + ".tmp");
-  fs::create_directories(temporary_ / "depth", error);
-  if (error)
-    throw InputError(folder_.string(), "cannot be made: " + error.message(),
-                     "choose a folder that you may write to");
-}
-
-SequenceWriter::~SequenceWriter() {
-  std::error_code ignored;
-  if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
-}
-
-void SequenceWriter::add(const DepthImage& image, const Eigen::Isometry3d& T_world_camera) {
-  std::ostringstream name;
-  name << "depth/";
-  name.width(6);
-  name.fill('0');
-  name << count_ << ".png";
-  write_depth_png(image, temporary_ / name.str(), kTumUnits);
-  const std::string time = number_text(count_ * kFrameSeconds);
-  const Eigen::Quaterniond q(T_world_camera.linear());
-  const Point& t = T_world_camera.translation();
-  images_ += time + " " + name.str() + "\n";
-  poses_ += time;
-  for (const double value : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()})
-    poses_ += " " + number_text(value);
-  poses_ += "\n";
-  ++count_;
-}
-
-void SequenceWriter::finish() {
-  const auto row = [](double a, double b, double c) {
-    return number_text(a) + " " + number_text(b) + " " + number_text(c) + "\n";
-  };
-  const std::string intrinsics =
-      row(camera_.fx, 0.0, camera_.cx) + row(0.0, camera_.fy, camera_.cy) + row(0.0, 0.0, 1.0);
-  write_text_file(temporary_ / kIntrinsicsFile, intrinsics);
-  write_text_file(temporary_ / "depth.txt", images_);
-  write_text_file(temporary_ / "groundtruth.txt", poses_);
-  std::error_code error;
-  fs::rename(temporary_, folder_, error);
-  if (error)
-    throw InputError(folder_.string(), "cannot be written: " + error.message(),
-                     "give a new folder");
-  temporary_.clear();
+  return read_depth_png(frame.image, sequence.units_per_metre);
 }
 
 }  // namespace ridgeway

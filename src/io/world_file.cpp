@@ -137,7 +137,7 @@ World load_world(const std::filesystem::path& file) {
     reader.fail(error.mark, "is no YAML: " + error.msg, "see the worlds that come with Ridgeway");
   } catch (const InputError& error) {
     if (error.where().starts_with(file.string())) throw;
-    throw InputError(file.string() + " " + error.where(), error.what(), error.remedy());
+    throw error.within(file.string());
   }
 }
 

@@ -45,14 +45,18 @@ std::uint64_t available_memory_bytes() {
                   control_group_available().value_or(no_limit));
 }
 
-void require_memory_for_blocks(double blocks, int bytes_per_voxel, const std::string& name) {
-  const double needed = blocks * kBlockVoxels * bytes_per_voxel;
+void require_memory(double bytes, const std::string& name, const std::string& remedy) {
   const double available = static_cast<double>(available_memory_bytes());
-  if (needed <= available) return;
+  if (bytes <= available) return;
   throw InputError(
       name,
-      "needs about " + gigabytes(needed) + " of memory, " + gigabytes(available) + " are available",
-      "use a larger --voxel-size or smaller --bounds");
+      "needs about " + gigabytes(bytes) + " of memory, " + gigabytes(available) + " are available",
+      remedy);
+}
+
+void require_memory_for_blocks(double blocks, int bytes_per_voxel, const std::string& name) {
+  require_memory(blocks * kBlockVoxels * bytes_per_voxel, name,
+                 "use a larger --voxel-size or smaller --bounds");
 }
 
 }  // namespace ridgeway

@@ -46,6 +46,10 @@ class View {
         low_ = low_.cwiseMin(corner);
         high_ = high_.cwiseMax(corner);
       }
+    // Corners lie farther out than the pixels that are in range.
+    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(config.max_range + behind_);
+    low_ = low_.cwiseMax(T_world_camera.translation() - reach);
+    high_ = high_.cwiseMin(T_world_camera.translation() + reach);
   }
 
   bool sees_nothing() const { return farthest_ == 0.0; }
@@ -221,7 +225,7 @@ void integrate_projective(const DepthSurfaces& surfaces, const PinholeCamera& ca
                      "is too small for images that reach so far",
                      "use a larger voxel size or a smaller max_range");
   const std::vector<BlockIndex> seen = blocks_in(view);
-  require_room(blocks, seen.size());
+  require_room(blocks, static_cast<double>(seen.size()));
   std::vector<TsdfBlock*> targets;
   targets.reserve(seen.size());
   for (const BlockIndex& index : seen) targets.push_back(&blocks.find_or_add(index));

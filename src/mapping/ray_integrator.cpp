@@ -7,6 +7,8 @@
 #include <limits>
 #include <unordered_map>
 
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/common/number_text.hpp"
 #include "ridgeway/common/parallel.hpp"
 
 namespace ridgeway::detail {
@@ -97,9 +99,26 @@ struct Passages {
   std::vector<std::vector<std::uint32_t>> rays;
 };
 
+/// Throws InputError unless the passages of all rays are few enough to be gathered.
+void require_room_for_passages(const std::vector<Ray>& rays, const FusionConfig& config) {
+  constexpr double kMostPassages = 1e8, kBytes = 48.0;  // of each, while they are gathered
+  double passages = 0.0;
+  for (const Ray& ray : rays) {
+    const auto [near, far] = stretch_of(ray, config);
+    passages += 1.0 + ray.along.lpNorm<1>() * (far - near) / (kBlockSide * config.voxel_size);
+  }
+  if (passages > kMostPassages)
+    throw InputError("voxel_size " + number_text(config.voxel_size),
+                     "is too small for rays that reach so far",
+                     "use a larger voxel size or a smaller max_range");
+  require_memory(kBytes * passages, "a scan's rays",
+                 "use a larger voxel size or a smaller max_range");
+}
+
 Passages find_passages(const std::vector<Ray>& rays, const Point& sensor,
-                       const FusionConfig& config) {
+                       const FusionConfig& config, const TsdfBlocks& blocks) {
   constexpr std::size_t kChunk = 256;
+  std::size_t next_check = 100000;  // blocks: a map that does not fit is refused early
   const double side = kBlockSide * config.voxel_size;
   std::vector<std::vector<std::pair<BlockIndex, std::uint32_t>>> parts((rays.size() + kChunk - 1) /
                                                                        kChunk);
@@ -124,6 +143,9 @@ Passages find_passages(const std::vector<Ray>& rays, const Point& sensor,
         passages.rays.emplace_back();
       }
       passages.rays[found->second].push_back(ray);
+      if (passages.blocks.size() < next_check) continue;
+      require_room(blocks, static_cast<double>(next_check));
+      next_check *= 2;
     }
   return passages;
 }
@@ -176,8 +198,9 @@ void update(const Ray& ray, const Point& sensor, const BlockIndex& index,
 void integrate_rays(const std::vector<SurfacePoint>& points, const Point& sensor,
                     const FusionConfig& config, TsdfBlocks& blocks) {
   const std::vector<Ray> rays = bundle(points, sensor, config.voxel_size);
-  const Passages passages = find_passages(rays, sensor, config);
-  require_room(blocks, passages.blocks.size());
+  require_room_for_passages(rays, config);
+  const Passages passages = find_passages(rays, sensor, config, blocks);
+  require_room(blocks, static_cast<double>(passages.blocks.size()));
   std::vector<TsdfBlock*> targets;
   targets.reserve(passages.blocks.size());
   for (const BlockIndex& index : passages.blocks) targets.push_back(&blocks.find_or_add(index));

@@ -35,7 +35,7 @@ struct TsdfBlock {
     if (gain <= 0.0f) return;
     float& w = weight[static_cast<std::size_t>(voxel)];
     float& d = distance[static_cast<std::size_t>(voxel)];
-    d = (w * d + gain * value) / (w + gain);
+    d += gain / (w + gain) * (value - d);  // equal values stay as they are, to the bit
     w = std::min(w + gain, most);
   }
 };
@@ -75,10 +75,9 @@ class TsdfBlocks {
 };
 
 /// Throws InputError unless there is memory for more blocks, here and in the map made of them.
-inline void require_room(const TsdfBlocks& blocks, std::size_t more) {
-  constexpr int kBytesPerVoxel = 2 * sizeof(float);
-  require_memory_for_blocks(static_cast<double>(blocks.size() + 2 * more), kBytesPerVoxel,
-                            "the map");
+inline void require_room(const TsdfBlocks& blocks, double more) {
+  require_memory((static_cast<double>(blocks.size()) + 2.0 * more) * sizeof(TsdfBlock), "the map",
+                 "use a larger voxel size or a smaller max_range");
 }
 
 }  // namespace ridgeway::detail

@@ -12,12 +12,15 @@
 #include "ridgeway/common/number_text.hpp"
 #include "ridgeway/mapping/map_transform.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
+#include "ridgeway/mapping/voxel_range.hpp"
 #include "tsdf_blocks.hpp"
 
 namespace ridgeway {
 namespace {
 
 constexpr double kDefaultTruncation = 4.0, kDefaultDepth = 2.0;  // voxels
+constexpr double kMostVoxels = 1e8;                              // along a ray
+constexpr double kFarthestVoxel = 0.5 * kMaxVoxelIndex;          // as .ridge files have it
 
 void require(bool holds, const char* field, double value, const char* remedy) {
   if (!holds) throw InputError(field, "is " + number_text(value), remedy);
@@ -41,8 +44,7 @@ DepthImage within_range(const DepthImage& image, const PinholeCamera& camera,
   DepthImage kept = image;
   for (int v = 0; v < image.height; ++v)
     for (int u = 0; u < image.width; ++u) {
-      const double range = static_cast<double>(image.at(u, v)) * camera.ray(u, v).norm();
-      if (!(range > 0.0 && range >= config.min_range && range <= config.max_range))
+      if (!config.takes(static_cast<double>(image.at(u, v)) * camera.ray(u, v).norm()))
         kept.depth[static_cast<std::size_t>(v * image.width + u)] = 0.0f;
     }
   return kept;
@@ -83,14 +85,18 @@ void clear_sphere(const Point& centre, double radius, TsdfMap& map) {
 
 void FusionConfig::validate() const {
   validate_voxel_size(voxel_size, "voxel_size");
-  require(truncation == 0.0 || (truncation >= voxel_size && std::isfinite(truncation)),
-          "truncation", truncation, "give a voxel's length or more, or 0 for four voxels");
-  require(depth_behind == 0.0 || (depth_behind >= voxel_size && std::isfinite(depth_behind)),
-          "depth_behind", depth_behind, "give a voxel's length or more, or 0 for two voxels");
   require(min_range >= 0.0 && std::isfinite(min_range), "min_range", min_range,
           "give metres, 0 or more");
   require(max_range > min_range && std::isfinite(max_range), "max_range", max_range,
           "give metres, above min_range");
+  require(voxel_size <= max_range, "voxel_size", voxel_size, "give max_range or less");
+  require(max_range <= kMostVoxels * voxel_size, "max_range", max_range,
+          "give 1e8 voxels or less, or a larger voxel_size");
+  require(truncation == 0.0 || (truncation >= voxel_size && truncation <= max_range), "truncation",
+          truncation, "give a voxel's length or more, to max_range, or 0 for four voxels");
+  require(depth_behind == 0.0 || (depth_behind >= voxel_size && depth_behind <= max_range),
+          "depth_behind", depth_behind,
+          "give a voxel's length or more, to max_range, or 0 for two voxels");
   require(max_weight > 0.0, "max_weight", max_weight, "give a number above 0");
   require(clear_radius >= 0.0 && clear_radius <= max_range, "clear_radius", clear_radius,
           "give metres, 0 for none");
@@ -103,14 +109,17 @@ struct TsdfFusion::State {
 
   /// Remembers where the sensor was, with blocks around it if they are to be cleared.
   void visit(const Point& place) {
+    const double farthest = place.cwiseAbs().maxCoeff() + config.max_range + config.depth_behind;
+    if (!(farthest < kFarthestVoxel * config.voxel_size))
+      throw InputError("pose", "lies farther than 5e8 voxels from the origin",
+                       "check its units and the voxel size");
     places.push_back(place);
     if (config.clear_radius <= 0.0) return;
     const Eigen::Vector3d reach = Eigen::Vector3d::Constant(config.clear_radius);
     const BlockIndex low = block_of(voxel_at(place - reach, config.voxel_size));
     const BlockIndex high = block_of(voxel_at(place + reach, config.voxel_size));
-    detail::require_room(blocks, static_cast<std::size_t>(high.x - low.x + 1) *
-                                     static_cast<std::size_t>(high.y - low.y + 1) *
-                                     static_cast<std::size_t>(high.z - low.z + 1));
+    detail::require_room(blocks,
+                         (high.x - low.x + 1.0) * (high.y - low.y + 1.0) * (high.z - low.z + 1.0));
     for (int z = low.z; z <= high.z; ++z)
       for (int y = low.y; y <= high.y; ++y)
         for (int x = low.x; x <= high.x; ++x) blocks.find_or_add({x, y, z});
@@ -148,11 +157,8 @@ void TsdfFusion::integrate(std::span<const Point> points, const Eigen::Isometry3
   State& s = *state_;
   s.visit(T_world_sensor.translation());
   std::vector<detail::SurfacePoint> kept;
-  for (const Point& p : points) {
-    const double range = p.norm();
-    if (range > 0.0 && range >= s.config.min_range && range <= s.config.max_range)
-      kept.push_back({T_world_sensor * p});
-  }
+  for (const Point& p : points)
+    if (s.config.takes(p.norm())) kept.push_back({T_world_sensor * p});
   detail::integrate_rays(kept, s.places.back(), s.config, s.blocks);
 }
 

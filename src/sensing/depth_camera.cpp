@@ -13,7 +13,8 @@
 namespace ridgeway {
 namespace {
 
-constexpr int kMostPixels = 16384;  // along one side
+constexpr int kMostPixels = 16384;                      // along one side
+constexpr double kLeastFocal = 1e-3, kMostFocal = 1e6;  // in sides: from 179.9 degrees to none
 
 void require(bool holds, const char* field, double value, const char* remedy) {
   if (!holds) throw InputError(field, "is " + number_text(value), remedy);
@@ -38,8 +39,11 @@ double measure(const DepthSensor& sensor, double range, double stretch, int u, R
 void PinholeCamera::validate() const {
   require(width > 0 && width <= kMostPixels, "camera width", width, "give 1 to 16384 pixels");
   require(height > 0 && height <= kMostPixels, "camera height", height, "give 1 to 16384 pixels");
-  require(fx > 0.0 && std::isfinite(fx), "camera fx", fx, "give the focal length in pixels");
-  require(fy > 0.0 && std::isfinite(fy), "camera fy", fy, "give the focal length in pixels");
+  const auto sees = [](double focal, int pixels) {
+    return focal > kLeastFocal * pixels && focal < kMostFocal * pixels;
+  };
+  require(sees(fx, width), "camera fx", fx, "give the focal length in pixels");
+  require(sees(fy, height), "camera fy", fy, "give the focal length in pixels");
   require(
       cx > -0.5 && cx < width - 0.5, "camera cx", cx,
       "the principal point lies in the image: check that the intrinsics are those of this size");

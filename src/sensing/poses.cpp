@@ -15,7 +15,7 @@
 namespace ridgeway {
 
 void PoseSampling::validate() const {
-  if (!low.allFinite() || !high.allFinite() || (low.array() > high.array()).any())
+  if (!low.allFinite() || !(high - low).allFinite() || (low.array() > high.array()).any())
     throw InputError("volume of poses", "is no box", "give the lesser corner first, metres");
   if (!(clearance >= 0.0 && std::isfinite(clearance)))
     throw InputError("clearance of poses", "is " + number_text(clearance), "give metres");
@@ -57,12 +57,12 @@ Eigen::Isometry3d level_pose(const Point& place, double heading) {
 }
 
 std::vector<Eigen::Isometry3d> sample_poses(const World& world, const PoseSampling& sampling) {
-  constexpr std::size_t kTriesEach = 10000;
+  constexpr std::size_t kTriesEach = 100000;
   sampling.validate();
   Random random(sampling.seed);
   std::vector<Eigen::Isometry3d> poses;
   for (std::size_t tries = 0; poses.size() < sampling.count; ++tries) {
-    if (tries >= kTriesEach * sampling.count)
+    if (tries >= kTriesEach * (poses.size() + 1))
       throw InputError(
           "volume of poses",
           "has hardly any place " + number_text(sampling.clearance) + " m from all surfaces",

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "program.hpp"
+#include "ridgeway/io/depth_png.hpp"
 
 namespace ridgeway {
 namespace {
@@ -16,6 +17,19 @@ class CliBadInput : public Program {
     std::vector<std::string> arguments = {"build", map, "-o", path("out.ridge")};
     arguments.insert(arguments.end(), options.begin(), options.end());
     expect_refused(arguments, words);
+  }
+
+  /// A recording of one good image, 64 x 48, and a second one.
+  std::string record(const std::string& second_pose) {
+    const std::filesystem::path run = folder_ / "run";
+    std::filesystem::create_directories(run);
+    const DepthImage wall{64, 48, std::vector<float>(64 * 48, 2.0f)};
+    write_depth_png(wall, run / "a.png", 5000.0);
+    write_depth_png(wall, run / "b.png", 5000.0);
+    write_whole(run / "camera-intrinsics.txt", "58 0 31.5\n0 58 23.5\n0 0 1\n");
+    write_whole(run / "depth.txt", "0 a.png\n1 b.png\n");
+    write_whole(run / "groundtruth.txt", "0 0 0 0 0 0 0 1\n1 " + second_pose + "\n");
+    return run.string();
   }
 
   /// An OctoMap of eight occupied voxels about (0.1, 0.1, 0.1): one path of inner nodes.
@@ -84,6 +98,28 @@ TEST_F(CliBadInput, PointsThatAreNotFiniteAreSkippedAndCounted) {
 
   write_whole(folder_ / "void.xyz", "nan nan nan\n");
   expect_build_refused(path("void.xyz"), room_options(), {"void.xyz", "finite"});
+}
+
+TEST_F(CliBadInput, FramesThatWouldSpoilAMapAreNamed) {
+  const auto expect_fuse_refused = [&](const std::string& run,
+                                       const std::vector<std::string>& words) {
+    expect_refused({"fuse", run, "-o", path("map.ridge")}, words);
+  };
+  expect_fuse_refused(record("1e300 0 0 0 0 0 1"), {"b.png", "pose", "5e8 voxels"});
+  expect_fuse_refused(record("0 0 0 0 0 0 2"), {"groundtruth.txt line 2", "quaternion"});
+  const std::string run = record("0 0 0 0 0 0 1");
+  write_depth_png({32, 24, std::vector<float>(32 * 24, 2.0f)}, folder_ / "run/b.png", 5000.0);
+  expect_fuse_refused(run, {"b.png", "32 x 24", "64 x 48"});
+  expect_refused({"fuse", run, "-o", path("run/depth.txt")}, {"depth.txt", "recording"});
+  expect_refused({"fuse", run, "-o", path("no/map.ridge")}, {"no/map.ridge", "folder"});
+  for (const char* size : {"1e-9", "1e9", "1e-6", "1e-5", "11", "nan"})
+    expect_refused({"fuse", run, "-o", path("map.ridge"), "--voxel-size", size}, {"voxel"});
+  expect_refused({"fuse", run, "-o", path("map.ridge"), "--truncation", "0.05"}, {"truncation"});
+  for (const char* image : {"run/a.png", "run/b.png"}) write_whole(folder_ / image, "no image");
+  expect_fuse_refused(run, {"no image that can be read", "a.png"});
+  for (const char* image : {"run/a.png", "run/b.png"})
+    write_depth_png({64, 48, std::vector<float>(64 * 48, 0.0f)}, folder_ / image, 5000.0);
+  expect_fuse_refused(run, {"shows no free space"});
 }
 
 TEST_F(CliBadInput, PlacesThatAreNoPoints) {

@@ -93,6 +93,70 @@ TEST_F(CliSimulate, FuseTakesRecordingsAsTheyAre) {
                  {"map.ridge", "not a roadmap"});
 }
 
+TEST_F(CliSimulate, WidthOfTheImages) {
+  ASSERT_EQ(run({"simulate", house(), "-o", path("run"), "--frames", "1", "--width", "81"}).code,
+            0);
+  const PinholeCamera camera = open_sequence(path("run")).camera;
+  EXPECT_EQ(camera.width, 81);
+  EXPECT_EQ(camera.height, 60);
+  EXPECT_EQ(camera.fx, 40.5);
+  EXPECT_EQ(camera.cx, 40.0);
+  EXPECT_EQ(camera.cy, 29.5);
+}
+
+TEST_F(CliSimulate, FolderIsWhereItWasAskedFor) {
+  std::filesystem::create_directories(folder_ / "empty/real");
+  std::filesystem::create_directory_symlink(folder_ / "empty/real", folder_ / "link");
+  for (const char* name :
+       {"new", "new/../other", "slash/", "deep/in/new", "empty/real/.", "link"}) {
+    ASSERT_EQ(run({"simulate", house(), "-o", path(name), "--frames", "1", "--width", "8"}).code, 0)
+        << name;
+    EXPECT_TRUE(std::filesystem::exists(folder_ / name / "depth/000000.png")) << name;
+    std::filesystem::remove_all(folder_ / "empty/real/depth");
+    for (const char* file : {"depth.txt", "groundtruth.txt", "camera-intrinsics.txt"})
+      std::filesystem::remove(folder_ / "empty/real" / file);
+  }
+}
+
+TEST_F(CliSimulate, FuseTakesScansByWhatTheFolderHolds) {
+  std::filesystem::create_directory(folder_ / "scans");
+  std::string cloud;  // walls of a cube of 4 m around the sensor
+  for (int a = -20; a <= 20; ++a)
+    for (int b = -20; b <= 20; ++b)
+      for (const int side : {-20, 20}) {
+        const std::string u = std::to_string(a) + "e-1 ", v = std::to_string(b) + "e-1 ",
+                          w = std::to_string(side) + "e-1 ";
+        cloud.append(u).append(v).append(w).append("\n");
+        cloud.append(u).append(w).append(v).append("\n");
+        cloud.append(w).append(u).append(v).append("\n");
+      }
+  write_whole(folder_ / "scans/cube.xyz", cloud + "nan 0 0\n0 0 99\n");
+  write_whole(folder_ / "scans/poses.txt",
+              "cube.xyz 10 0 0 0 0 0 1\ncube.xyz.old nan 0 0 0 0 0 1\n");
+  const Outcome fused = run({"fuse", path("scans"), "-o", path("map.ridge"), "--json"});
+  ASSERT_EQ(fused.code, 0) << fused.err;
+  const Json json = fused.json();
+  EXPECT_EQ(json["layout"], "scans");
+  EXPECT_EQ(json["frames"], 1);
+  EXPECT_EQ(json["without_pose"], 1);
+  EXPECT_EQ(json["points"]["fused"], 6 * 41 * 41);
+  EXPECT_EQ(json["points"]["out_of_range"], 1);
+  EXPECT_EQ(json["points"]["not_finite"], 1);
+  EXPECT_NEAR(json["voxels"]["free"].get<double>(), 64000.0, 4000.0);
+  const Json info = run({"info", path("map.ridge"), "--json"}).json();
+  EXPECT_NEAR(info["bounds"]["min"][0].get<double>(), 7.8, 0.31);
+  EXPECT_NEAR(info["bounds"]["max"][0].get<double>(), 12.2, 0.31);
+
+  expect_refused({"fuse", path("scans"), "-o", path("no.ridge"), "--integrator", "projective"},
+                 {"--integrator projective"});
+  expect_refused({"fuse", path("scans"), "-o", path("no.ridge"), "--intrinsics", "1,1,1,1"},
+                 {"--intrinsics"});
+  expect_refused({"fuse", path("scans"), "-o", path("scans/cube.xyz")}, {"part of the recording"});
+  std::filesystem::create_directory(folder_ / "nothing");
+  expect_refused({"fuse", path("nothing"), "-o", path("no.ridge")},
+                 {"holds no recording", "depth.txt", "frame-*.depth.png", "poses.txt"});
+}
+
 TEST_F(CliSimulate, BadInputLeavesNothing) {
   write_whole(folder_ / "balls.yaml", "balls: []\n");
   write_whole(folder_ / "empty.yaml", "name: nothing\n");
@@ -106,6 +170,14 @@ TEST_F(CliSimulate, BadInputLeavesNothing) {
   expect_refused({"simulate", house(), "-o", path("out"), "--frames", "0"}, {"--frames"});
   expect_refused({"simulate", house(), "-o", path("out"), "--clearance", "9"}, {"clearance"});
   expect_refused({"simulate", house(), "-o", path("out"), "--volume", "1,1"}, {"--volume"});
+  expect_refused({"simulate", house(), "-o", path("out"), "--volume", "-1e308,0,0,1e308,1,1"},
+                 {"volume"});
+  expect_refused({"simulate", house(), "-o", path("out"), "--volume", "50,50,50,51,51,51",
+                  "--frames", "1000000"},
+                 {"hardly any place"});
+  expect_refused({"simulate", house(), "-o", path("out"), "--width", "0"}, {"--width"});
+  expect_refused({"simulate", house(), "-o", ""}, {"new folder"});
+  expect_refused({"simulate", house(), "-o", "/"}, {"new folder"});
   expect_refused({"world", "castle", "-o", path("out.yaml")}, {"castle"});
 }
 

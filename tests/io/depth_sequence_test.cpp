@@ -4,76 +4,27 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
 
+#include "random_image.hpp"
+#include "refusal.hpp"
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/common/number_text.hpp"
 #include "ridgeway/io/depth_png.hpp"
+#include "ridgeway/io/world_file.hpp"
+#include "ridgeway/mapping/tsdf_fusion.hpp"
 #include "ridgeway/sensing/poses.hpp"
 #include "ridgeway/sensing/random.hpp"
+#include "support/map_errors.hpp"
 #include "temporary_folder.hpp"
 
 namespace ridgeway {
 namespace {
 
 namespace fs = std::filesystem;
-
-DepthImage random_image(int width, int height, std::uint64_t seed) {
-  Random random(seed);
-  DepthImage image{width, height, {}};
-  for (int i = 0; i < width * height; ++i)
-    image.depth.push_back(random.below(5) == 0 ? 0.0f
-                                               : static_cast<float>(random.uniform(0.1, 10.0)));
-  return image;
-}
-
-std::string refusal(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
-}
-
-TEST(DepthPng, GivesBackDepthsToTheUnit) {
-  const TemporaryFolder folder;
-  for (const auto& [width, height] : {std::pair(1, 1), std::pair(37, 5), std::pair(320, 240)}) {
-    const DepthImage image = random_image(width, height, 3);
-    write_depth_png(image, folder / "depth.png", 5000.0);
-    const DepthImage read = read_depth_png(folder / "depth.png", 5000.0);
-    ASSERT_EQ(read.width, width);
-    ASSERT_EQ(read.height, height);
-    for (std::size_t i = 0; i < image.depth.size(); ++i)
-      ASSERT_NEAR(read.depth[i], image.depth[i], 0.5 / 5000.0 + 1e-6);
-  }
-  DepthImage far{2, 1, {20.0f, 65535.0f / 5000.0f}};  // does not fit, and would mean "none"
-  write_depth_png(far, folder / "far.png", 5000.0);
-  EXPECT_EQ(read_depth_png(folder / "far.png", 5000.0).depth, std::vector<float>(2, 0.0f));
-}
-
-TEST(DepthPng, DamagedAndOtherImagesAreRefused) {
-  const TemporaryFolder folder;
-  write_depth_png(random_image(40, 30, 1), folder / "good.png", 5000.0);
-  const std::string bytes = read_whole(folder / "good.png");
-  for (std::size_t length = 0; length < bytes.size(); length += 1 + length / 8) {
-    write_whole(folder / "bad.png", bytes.substr(0, length));
-    EXPECT_NE(refusal([&] { read_depth_png(folder / "bad.png", 5000.0); }).find("bad.png"),
-              std::string::npos)
-        << length;
-  }
-  Random random(2);
-  for (int i = 0; i < 300; ++i) {  // a refusal or an image, never a crash
-    std::string bad = bytes;
-    for (int k = 0; k < 3; ++k)
-      bad[random.below(bad.size())] = static_cast<char>(random.below(256));
-    write_whole(folder / "bad.png", bad);
-    refusal([&] { read_depth_png(folder / "bad.png", 5000.0); });
-  }
-  std::string shallow = bytes;
-  shallow[24] = 8;  // bits; the checksum is then wrong as well
-  write_whole(folder / "bad.png", shallow);
-  EXPECT_FALSE(refusal([&] { read_depth_png(folder / "bad.png", 5000.0); }).empty());
-}
 
 TEST(DepthSequence, GivesBackWhatWasWritten) {
   const TemporaryFolder folder;
@@ -124,6 +75,73 @@ TEST_F(TumFolder, TimesAreMatchedNearestFirst) {
   EXPECT_EQ(sequence.camera.fx, 525.0);
 }
 
+TEST_F(TumFolder, TimesAreMatchedAsByBruteForce) {
+  SequenceConfig config;
+  config.longest_gap = 0.03;
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    Random random(seed);
+    std::map<double, double> images;  // time -> pose
+    std::vector<double> poses;
+    std::string image_lines, pose_lines;
+    for (int i = 0; i < 40; ++i) images[random.uniform(0.0, 1.0)] = -1.0;
+    for (int k = 0; k < 60; ++k) poses.push_back(random.uniform(0.0, 1.0));
+    for (const auto& [time, pose] : images) image_lines += number_text(time) + " a.png\n";
+    for (std::size_t k = 0; k < poses.size(); ++k)
+      pose_lines += number_text(poses[k]) + " " + std::to_string(k) + " 0 0 0 0 0 1\n";
+    write_whole(folder_ / "depth.txt", image_lines);
+    write_whole(folder_ / "groundtruth.txt", pose_lines);
+
+    std::vector<std::tuple<double, double, std::size_t>> pairs;  // gap, image, pose
+    for (const auto& [time, pose] : images)
+      for (std::size_t k = 0; k < poses.size(); ++k)
+        pairs.emplace_back(std::abs(time - poses[k]), time, k);
+    std::sort(pairs.begin(), pairs.end());
+    std::set<std::size_t> taken;
+    for (const auto& [gap, time, pose] : pairs)
+      if (gap <= config.longest_gap && images[time] < 0.0 && taken.insert(pose).second)
+        images[time] = static_cast<double>(pose);
+    std::vector<double> expected, found;
+    for (const auto& [time, pose] : images)
+      if (pose >= 0.0) expected.push_back(pose);
+    const DepthSequence sequence = open_sequence(folder_.path(), config);
+    for (const DepthFrame& frame : sequence.frames)
+      found.push_back(frame.T_world_camera.translation().x());
+    EXPECT_EQ(found, expected) << seed;
+    EXPECT_EQ(found.size() + sequence.without_pose, 40u);
+  }
+}
+
+TEST_F(TumFolder, TextsAreTakenAsTheyAreWritten) {
+  write_whole(folder_ / "depth.txt",
+              "\xef\xbb\xbf# depth\r\n5.0\ta.png\r\n\r\n 1.00,a.png # ok\r\n");
+  write_whole(folder_ / "groundtruth.txt",
+              "1.0 +1 0 0 0 0 0 1.001\r\n2.0 nan 0 0 0 0 0 1\r\n5e0,2,0,0,0,0,0,1");
+  const DepthSequence sequence = open_sequence(folder_.path());
+  ASSERT_EQ(sequence.frames.size(), 2u);  // in the order of time
+  EXPECT_EQ(sequence.frames[0].T_world_camera.translation().x(), 1.0);
+  EXPECT_EQ(sequence.frames[1].T_world_camera.translation().x(), 2.0);
+  EXPECT_TRUE(sequence.frames[0].T_world_camera.linear().isIdentity(1e-12));
+}
+
+TEST_F(TumFolder, TheCameraIsThatOfTheFirstImageThatCanBeRead) {
+  write_whole(folder_ / "bad.png", "no image");
+  write_whole(folder_ / "depth.txt", "1.00 none.png\n1.02 bad.png\n1.10 a.png\n");
+  EXPECT_EQ(open_sequence(folder_.path()).camera.width, 640);
+  write_whole(folder_ / "depth.txt", "1.00 none.png\n1.02 bad.png\n");
+  EXPECT_NE(refused().find("none.png: there is no such file"), std::string::npos) << refused();
+}
+
+TEST_F(TumFolder, ManyEqualTimesTakeNoLongTime) {
+  std::string images, poses;
+  for (int i = 0; i < 20000; ++i) {
+    images += "1.0 a.png\n";
+    poses += "1.0 0 0 0 0 0 0 1\n";
+  }
+  write_whole(folder_ / "depth.txt", images);
+  write_whole(folder_ / "groundtruth.txt", poses);
+  EXPECT_EQ(open_sequence(folder_.path()).frames.size(), 20000u);
+}
+
 TEST_F(TumFolder, MistakesAreNamedWithFileAndLine) {
   const auto with = [&](const char* file, const std::string& text) {
     const std::string before = read_whole(folder_ / file);
@@ -138,12 +156,24 @@ TEST_F(TumFolder, MistakesAreNamedWithFileAndLine) {
   has(with("depth.txt", "1.0\n"), "depth.txt line 1");
   has(with("depth.txt", "# a\nsoon a.png\n"), "depth.txt line 2");
   has(with("depth.txt", "1.0 none.png\n"), "none.png");
+  has(with("depth.txt", "nan a.png\n"), "depth.txt line 1");
+  has(with("depth.txt", std::string("1.0 a.p\0ng\n", 11)), "zero byte");
+  has(with("depth.txt", ""), "depth.txt: is empty");
+  has(with("groundtruth.txt", std::string(10000, ',') + "1\n"), "is too short");
+  has(with("groundtruth.txt", "1 1 1 1 1 1 1 1 1" + std::string(200, '\t') + "\x01\n"),
+      "quaternion");
+  has(with("groundtruth.txt", "soon\x1b[2J 1 0 0 0 0 0 1\n"), "'soon?[2J'");
   has(with("groundtruth.txt", "1.0 1 0 0 0 0\n"), "groundtruth.txt line 1");
   has(with("groundtruth.txt", "1.0 1 0 0 0 0 0 2\n"), "quaternion");
   has(with("groundtruth.txt", "1.0 nan 0 0 0 0 0 1\n"), "no image with a pose");
   has(with("groundtruth.txt", "9.0 1 0 0 0 0 0 1\n"), "no image with a pose");
   write_whole(folder_ / "camera-intrinsics.txt", "525 0 900\n0 525 240\n0 0 1\n");
-  has(refused(), "camera cx");
+  has(refused(), "camera-intrinsics.txt camera cx");
+  for (const char* focal : {"0", "-525", "nan", "inf", "1e-300", "1e300"}) {
+    write_whole(folder_ / "camera-intrinsics.txt",
+                focal + std::string(" 0 320\n0 525 240\n0 0 1\n"));
+    has(refused(), "camera-intrinsics.txt camera fx");
+  }
   write_whole(folder_ / "camera-intrinsics.txt", "525 0\n");
   has(refused(), "camera-intrinsics.txt");
   const TemporaryFolder empty;
@@ -168,34 +198,33 @@ TEST(DepthSequence, SevenScenesLayout) {
   EXPECT_EQ(sequence.frames[1].T_world_camera.translation().x(), 2.0);
   EXPECT_EQ(sequence.camera.fx, 58.0);
   write_whole(folder / "frame-000000.pose.txt", "2 0 0 0\n0 2 0 0\n0 0 2 0\n0 0 0 1\n");
-  EXPECT_NE(refusal([&] { open_sequence(folder.path()); }).find("frame-000000.pose.txt"),
-            std::string::npos);
-}
-
-/// A recording made here, and the real one of a room where RIDGEWAY_MAPS names its folder.
-std::vector<fs::path> recordings(const TemporaryFolder& made) {
-  SequenceWriter writer(made / "run", {.width = 64, .height = 48, .cx = 31.5, .cy = 23.5});
-  for (int i = 0; i < 4; ++i)
-    writer.add(random_image(64, 48, static_cast<std::uint64_t>(i)), level_pose({0, 0, 1}, i));
-  writer.finish();
-  std::vector<fs::path> folders = {made / "run"};
-  const char* maps = std::getenv("RIDGEWAY_MAPS");
-  if (maps != nullptr && fs::exists(fs::path(maps) / "rgbd_room"))
-    folders.push_back(fs::path(maps) / "rgbd_room");
-  return folders;
-}
-
-TEST(DepthSequence, FramesShowMostOfWhatIsBeforeTheCamera) {
-  const TemporaryFolder made;
-  for (const fs::path& folder : recordings(made)) {
-    SCOPED_TRACE(folder.string());
-    const DepthSequence sequence = open_sequence(folder);
-    EXPECT_EQ(sequence.without_pose, 0u);
-    const DepthImage image = read_frame(sequence, sequence.frames[sequence.frames.size() / 2]);
-    std::size_t seen = 0;
-    for (const float depth : image.depth) seen += depth > 0.1f && depth < 10.0f;
-    EXPECT_GT(seen, image.depth.size() / 2);
+  for (const char* bad :
+       {"2 0 0 0\n0 2 0 0\n0 0 2 0\n0 0 0 1\n", "-1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n",
+        "1 0.1 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 1 1\n",
+        "1 0 0 0\n0 1 0 0\n0 0 1 0\n", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n7\n", "",
+        "-1.#IND\n"}) {
+    write_whole(folder / "frame-000000.pose.txt", bad);
+    EXPECT_NE(refusal([&] { open_sequence(folder.path()); }).find("frame-000000.pose.txt"),
+              std::string::npos)
+        << bad;
   }
+  write_whole(folder / "frame-000000.pose.txt", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+  std::filesystem::remove(folder / "camera-intrinsics.txt");
+  EXPECT_NE(refusal([&] { open_sequence(folder.path()); }).find("64 x 48"), std::string::npos);
+}
+
+TEST(DepthSequence, FusesToTheExactDistanceOfTheHouse) {
+  const DepthSequence sequence = open_sequence(fs::path(RIDGEWAY_DATA_DIR) / "house_depth");
+  ASSERT_EQ(sequence.frames.size(), 24u);
+  EXPECT_EQ(sequence.without_pose, 0u);
+  TsdfFusion fusion;
+  for (const DepthFrame& frame : sequence.frames)
+    fusion.integrate(read_frame(sequence, frame), sequence.camera, frame.T_world_camera);
+  const World house = load_world(std::string(RIDGEWAY_WORLDS_DIR) + "/house.yaml");
+  const MapErrors errors = errors_of(fusion.map(), house);
+  EXPECT_GT(errors.voxels, 180000u);
+  EXPECT_LT(errors.mean, 0.15);  // voxels
+  EXPECT_LT(errors.p99, 2.0);
 }
 
 }  // namespace

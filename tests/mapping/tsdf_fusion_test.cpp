@@ -4,13 +4,15 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/io/world_file.hpp"
 #include "ridgeway/sensing/poses.hpp"
+#include "ridgeway/sensing/random.hpp"
+#include "support/map_errors.hpp"
 
 namespace ridgeway {
 namespace {
@@ -32,29 +34,8 @@ TsdfMap fuse_house(const FusionConfig& config, std::size_t count, double sigma =
   return fusion.map();
 }
 
-struct Errors {
-  double mean = 0.0, p99 = 0.0;
-  std::size_t voxels = 0;
-};
-
-/// Off the exact distance, in voxels, where the map says that it is within the truncation.
-Errors errors_of(const TsdfMap& map, const World& world) {
-  std::vector<double> off;
-  double sum = 0.0;
-  for (VoxelId id = 0; id < map.layout.voxel_count(); ++id) {
-    if (map.weight[id] <= 0.0f || std::abs(map.distance[id]) >= 0.99 * map.truncation) continue;
-    const Point centre = centre_of(map.layout.index_of(id), map.voxel_size);
-    off.push_back(std::abs(map.distance[id] - surface_distance(world, centre).distance) /
-                  map.voxel_size);
-    sum += off.back();
-  }
-  std::sort(off.begin(), off.end());
-  if (off.empty()) return {};
-  return {sum / static_cast<double>(off.size()), off[off.size() * 99 / 100], off.size()};
-}
-
 TEST(TsdfFusion, HouseWithoutNoiseIsThatOfTheExactDistance) {
-  const Errors errors = errors_of(fuse_house({.truncation = 0.4}, 200), house());
+  const MapErrors errors = errors_of(fuse_house({.truncation = 0.4}, 200), house());
   EXPECT_GT(errors.voxels, 300000u);
   EXPECT_LE(errors.mean, 0.1);
   EXPECT_LT(errors.p99, 1.001);
@@ -62,7 +43,7 @@ TEST(TsdfFusion, HouseWithoutNoiseIsThatOfTheExactDistance) {
 
 TEST(TsdfFusion, HouseByRaysIsNearlyAsGood) {
   const FusionConfig config{.truncation = 0.4, .integrator = Integrator::kRayCasting};
-  const Errors errors = errors_of(fuse_house(config, 200), house());
+  const MapErrors errors = errors_of(fuse_house(config, 200), house());
   EXPECT_GT(errors.voxels, 300000u);
   EXPECT_LE(errors.mean, 0.25);
   EXPECT_LE(errors.p99, 1.5);
@@ -77,7 +58,7 @@ TEST(TsdfFusion, AWallIsWhereItIsAtAnySlant) {
       TsdfFusion fusion({.integrator = integrator});
       const Eigen::Isometry3d pose = level_pose(Point::Zero(), heading);
       fusion.integrate(render_depth(world, sensor, pose), sensor.camera, pose);
-      const Errors errors = errors_of(fusion.map(), world);
+      const MapErrors errors = errors_of(fusion.map(), world);
       EXPECT_GT(errors.voxels, 5000u);
       EXPECT_LT(errors.mean, 0.02) << heading;
       EXPECT_LT(errors.p99, 0.2) << heading;
@@ -136,6 +117,20 @@ TEST(TsdfFusion, PointCloudsWorkLikeTheirImages) {
   EXPECT_EQ(map.at({45, 0, 0}), VoxelState::kUnknown);
 }
 
+TEST(TsdfFusion, DistancesStayWithinTheTruncationHoweverOftenSpaceIsSeen) {
+  Random random(3);
+  TsdfFusion fusion;
+  for (int scan = 0; scan < 10; ++scan) {  // thousands of rays through the sensor's own voxel
+    std::vector<Point> points;
+    for (int i = 0; i < 10000; ++i)
+      points.push_back(2.0 * Point(random.normal(), random.normal(), random.normal()).normalized());
+    fusion.integrate(points, level_pose({0.01, 0.02, 0.03}, 0.1 * scan));
+  }
+  const TsdfMap map = fusion.map();
+  for (const float distance : map.distance.values())
+    ASSERT_LE(std::abs(distance), map.truncation * (1.0 + 1e-6));
+}
+
 TEST(TsdfFusion, WhereTheRobotWasIsFree) {
   World world;
   world.planes.push_back({-Eigen::Vector3d::UnitX(), -4.0});
@@ -174,8 +169,36 @@ TEST(TsdfFusion, WhatWouldSpoilTheMapIsRefused) {
   EXPECT_THROW(TsdfFusion({.voxel_size = 0.0}), InputError);
   EXPECT_THROW(TsdfFusion({.voxel_size = 0.1, .truncation = 0.05}), InputError);
   EXPECT_THROW(TsdfFusion({.min_range = 3.0, .max_range = 2.0}), InputError);
-  TsdfFusion fine({.voxel_size = 1e-4});
-  EXPECT_THROW(fine.integrate(image, sensor.camera, level), InputError);
+}
+
+TEST(TsdfFusion, VoxelsAndPosesThatNoMapHoldsAreRefused) {
+  for (const double size : {1e-300, 1e-9, 1e-8, 11.0, 1e9, 1e300, std::nan("")})
+    EXPECT_THROW(TsdfFusion({.voxel_size = size}), InputError) << size;
+  EXPECT_THROW(TsdfFusion({.truncation = 1e300}), InputError);
+  EXPECT_THROW(TsdfFusion({.depth_behind = 1e300}), InputError);
+  EXPECT_THROW(TsdfFusion({.max_range = 1e300}), InputError);
+  const DepthSensor sensor;
+  const DepthImage image = render_depth(house(), sensor, level_pose({1, 1, 1}, 0.0));
+  const std::vector<Point> points = {{1.0, 2.0, 9.0}};
+  for (const Integrator integrator : {Integrator::kProjective, Integrator::kRayCasting}) {
+    TsdfFusion fusion({.integrator = integrator});
+    for (const double far : {5e7, -5e7, 1e8, 1e300, -1e300, std::nan("")}) {
+      const Eigen::Isometry3d pose = level_pose({0.0, far, 0.0}, 0.3);
+      EXPECT_THROW(fusion.integrate(image, sensor.camera, pose), InputError) << far;
+      EXPECT_THROW(fusion.integrate(points, pose), InputError) << far;
+    }
+    EXPECT_NO_THROW(fusion.integrate(points, level_pose({0.0, 4.9e7, 0.0}, 0.3)));
+    TsdfFusion fine({.voxel_size = 1e-5, .integrator = integrator});  // room for no block of it
+    EXPECT_THROW(fine.integrate(image, sensor.camera, level_pose(Point::Zero(), 0.0)), InputError);
+    TsdfFusion cleared({.voxel_size = 1e-6, .clear_radius = 10.0, .integrator = integrator});
+    EXPECT_THROW(cleared.integrate(points, level_pose(Point::Zero(), 0.0)), InputError);
+  }
+  for (const double focal : {1e-300, 1e-3, 1e300, 0.0, -160.0, std::nan("")}) {
+    PinholeCamera camera = sensor.camera;
+    camera.fx = focal;
+    TsdfFusion fusion;
+    EXPECT_THROW(fusion.integrate(image, camera, level_pose(Point::Zero(), 0.0)), InputError);
+  }
 }
 
 }  // namespace

@@ -27,20 +27,24 @@ struct DepthSequence {
 };
 
 struct SequenceConfig {
-  /// fx, fy, cx, cy in pixels; else those of camera-intrinsics.txt in the folder, else the
-  /// defaults of the layout (525, 525, 319.5, 239.5 and 585, 585, 320, 240 for 640 x 480).
+  /// fx, fy, cx, cy in pixels; else those of camera-intrinsics.txt in the folder, else, for images
+  /// of 640 x 480, the defaults of the layout (525, 525, 319.5, 239.5 and 585, 585, 320, 240).
   std::optional<Eigen::Vector4d> intrinsics;
   double longest_gap = 0.02;  ///< seconds between an image and its pose (TUM)
 };
+
+/// Whether open_sequence() knows the layout of a folder.
+bool holds_depth_images(const std::filesystem::path& folder);
 
 /// Opens a folder in the layout of TUM RGB-D (depth.txt, groundtruth.txt, images of 1/5000 m; times
 /// are matched nearest first, each once) or of 7-Scenes and 3DMatch (frame-*.depth.png in
 /// millimetres with frame-*.pose.txt, 4 x 4, camera to world). Throws InputError, with the file and
 /// the line, for what is missing or wrong; poses that are not finite ("lost") are passed over and
-/// counted.
+/// counted. The camera has the size of the first image that can be read.
 DepthSequence open_sequence(const std::filesystem::path& folder, const SequenceConfig& config = {});
 
-/// The image of a frame. Throws InputError where it does not have the camera's size.
+/// The image of a frame. Throws InputError where it cannot be read. Its size is as it is: fusion
+/// refuses one that does not fit the camera.
 DepthImage read_frame(const DepthSequence& sequence, const DepthFrame& frame);
 
 /// Writes depth images and poses as a folder in the layout of TUM RGB-D, with the camera in

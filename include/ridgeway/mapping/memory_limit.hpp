@@ -16,6 +16,9 @@ inline constexpr int kMapBytesPerVoxel = 3;
 /// process's control group if that is less. Where neither can be read: no limit (2^63).
 std::uint64_t available_memory_bytes();
 
+/// Throws InputError, naming the bytes needed and available, where there is less than `bytes`.
+void require_memory(double bytes, const std::string& name, const std::string& remedy);
+
 /// Refuses a map before it is allocated: throws InputError naming the bytes needed and available
 /// and the remedy where `blocks` blocks of 8^3 voxels need more than there is. `name` is the file
 /// or the value the map comes from.

@@ -28,6 +28,9 @@ struct FusionConfig {
   double clear_radius = 0.0;  ///< around every pose: the robot was there, so it is free; 0: none
   Integrator integrator = Integrator::kProjective;
 
+  /// Whether a measurement at a range, metres along the ray, is taken; none is that is no number.
+  bool takes(double range) const { return range > 0.0 && range >= min_range && range <= max_range; }
+
   /// Throws InputError naming the bad field.
   void validate() const;
 };
