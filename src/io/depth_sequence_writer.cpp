@@ -33,8 +33,9 @@ SequenceWriter::SequenceWriter(const fs::path& folder, const PinholeCamera& came
   if (fs::exists(folder_, error) &&
       !(fs::is_directory(folder_, error) && fs::is_empty(folder_, error)))
     throw InputError(folder_.string(), "exists and is not empty", "give a new folder");
-  temporary_ = folder_.parent_path() /
-               ("." + folder_.filename().string() + "." + std::to_string(::getpid()) + ".tmp");
+  temporary_ = folder_;
+  temporary_ += '.';
+  temporary_ += std::to_string(::getpid()) + ".tmp";
   fs::create_directories(temporary_ / "depth", error);
   if (error)
     throw InputError(folder_.string(), "cannot be made: " + error.message(),
@@ -59,7 +60,7 @@ void SequenceWriter::add(const DepthImage& image, const Eigen::Isometry3d& T_wor
   images_ += time + " " + name.str() + "\n";
   poses_ += time;
   for (const double value : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()})
-    poses_ += " " + number_text(value);
+    poses_.append(" ").append(number_text(value));
   poses_ += "\n";
   ++count_;
 }

@@ -97,9 +97,9 @@ TEST(RemoveIsolated, FreesClustersBelowTheNumberOnly) {
 
 TEST(RemovePockets, ForgetsFreeSpaceBelowTheVolumeOnly) {
   OccupancyBuilder builder(0.1);
-  builder.fill({{0, 0, 0}, {9, 9, 9}}, VoxelState::kFree);          // a cubic metre
-  builder.fill({{20, 0, 0}, {21, 1, 1}}, VoxelState::kFree);        // 8 litres
-  builder.set({22, 2, 2}, VoxelState::kFree);                       // touches it at a corner
+  builder.fill({{0, 0, 0}, {9, 9, 9}}, VoxelState::kFree);    // a cubic metre
+  builder.fill({{20, 0, 0}, {21, 1, 1}}, VoxelState::kFree);  // 8 litres
+  builder.set({22, 2, 2}, VoxelState::kFree);                 // touches it at a corner
   builder.fill({{12, 0, 0}, {12, 9, 9}}, VoxelState::kOccupied);
   const OccupancyMap map = std::move(builder).finish();
   EXPECT_EQ(count_voxels(remove_pockets(map, 0.0)).free, 1009u);
