@@ -17,13 +17,16 @@ class InputError : public std::runtime_error {
              const std::string& remedy)
       : std::runtime_error(where + ": " + what_went_wrong + " (" + remedy + ")"),
         where_(where),
+        problem_(what_went_wrong),
         remedy_(remedy) {}
 
   const std::string& where() const noexcept { return where_; }
+  const std::string& problem() const noexcept { return problem_; }
   const std::string& remedy() const noexcept { return remedy_; }
 
  private:
   std::string where_;
+  std::string problem_;
   std::string remedy_;
 };
 
