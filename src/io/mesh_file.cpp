@@ -47,13 +47,12 @@ std::string format_of(const std::filesystem::path& file) {
 /// Leaves an importer the one format alone: by itself it tries all that it knows on any bytes.
 void keep_format(const std::string& format, Assimp::Importer& importer) {
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
-    std::unique_ptr<Assimp::BaseImporter> one(importer.GetImporter(i));
+    Assimp::BaseImporter* const one = importer.GetImporter(i);
     std::set<std::string> extensions;
     one->GetExtensionList(extensions);
-    if (extensions.contains(format))
-      one.release();  // stays the importer's
-    else
-      importer.UnregisterLoader(one.get());
+    if (extensions.contains(format)) continue;
+    importer.UnregisterLoader(one);
+    const std::unique_ptr<Assimp::BaseImporter> removed(one);  // it is ours now
   }
 }
 

@@ -23,9 +23,10 @@ struct TriangleList {
 /// Faces of two triangles each, fronts outwards.
 inline TriangleList box_mesh(const Point& centre, const Eigen::Vector3d& size) {
   TriangleList mesh;
-  for (int c = 0; c < 8; ++c)
-    mesh.vertices.emplace_back(centre + 0.5 * size.cwiseProduct(Eigen::Vector3d(
-                                                  (c & 1) * 2 - 1, (c & 2) - 1, (c & 4) / 2 - 1)));
+  for (int c = 0; c < 8; ++c) {
+    const Eigen::Vector3d corner(c & 1, c >> 1 & 1, c >> 2);
+    mesh.vertices.emplace_back(centre + size.cwiseProduct(corner - Point::Constant(0.5)));
+  }
   for (unsigned axis = 0; axis < 3; ++axis) {
     const unsigned one = 1u << (axis + 1) % 3, other = 1u << (axis + 2) % 3, up = 1u << axis;
     mesh.triangles.push_back({up, up | one, up | one | other});
