@@ -123,7 +123,8 @@ Triangles unpacked(const Bytes& bytes) {
   Triangles all;
   all.vertices.resize(number_at<std::uint64_t>(bytes, 1, 0));
   all.triangles.resize(number_at<std::uint64_t>(bytes, 1, 1));
-  const std::size_t first = 1 + 2 * sizeof(std::uint64_t), size = 24 * all.vertices.size();
+  const std::size_t first = 1 + 2 * sizeof(std::uint64_t),
+                    size = sizeof(Point) * all.vertices.size();
   std::memcpy(all.vertices.front().data(), bytes.data() + first, size);
   std::memcpy(all.triangles.front().data(), bytes.data() + first + size,
               sizeof(Triangle) * all.triangles.size());

@@ -9,11 +9,13 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <span>
 #include <system_error>
 
+#include "little_endian.hpp"
 #include "ridgeway/common/error.hpp"
 
 namespace ridgeway {
@@ -22,11 +24,19 @@ namespace {
 using Bytes = std::vector<std::byte>;
 using Stream = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
-constexpr std::byte kComplete{1};  // ends what came over whole
+constexpr std::size_t kLength = sizeof(std::uint64_t);  // sent first, to tell what came over whole
 
 [[noreturn]] void fail() {
   throw InputError("reader", "cannot be started: " + std::generic_category().message(errno),
                    "close other programs");
+}
+
+void write_all(int pipe, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(pipe, bytes.data(), bytes.size());
+    if (count < 0 && errno != EINTR) return;
+    if (count > 0) bytes = bytes.subspan(static_cast<std::size_t>(count));
+  }
 }
 
 /// The life of the child. It leaves by _exit: what the parent has open and buffered is not its own.
@@ -37,13 +47,10 @@ constexpr std::byte kComplete{1};  // ends what came over whole
   if (const int nowhere = ::open("/dev/null", O_WRONLY); nowhere >= 0)
     for (const int printed : {STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, printed);
   try {
-    Bytes bytes = work();
-    bytes.push_back(kComplete);
-    for (std::span<const std::byte> rest(bytes); !rest.empty();) {
-      const ssize_t count = ::write(pipe, rest.data(), rest.size());
-      if (count < 0 && errno != EINTR) break;
-      if (count > 0) rest = rest.subspan(static_cast<std::size_t>(count));
-    }
+    const Bytes bytes = work();
+    const std::uint64_t length = bytes.size();
+    write_all(pipe, std::as_bytes(std::span(&length, 1)));
+    write_all(pipe, bytes);
   } catch (...) {  // told by what is missing
   }
   ::_exit(0);
@@ -70,8 +77,9 @@ std::optional<Bytes> run_apart(const std::function<Bytes()>& work, unsigned seco
   Bytes bytes = read_all(in.get());
   while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
   }
-  if (bytes.empty() || bytes.back() != kComplete) return std::nullopt;
-  bytes.pop_back();
+  if (bytes.size() < kLength || number_at<std::uint64_t>(bytes, 0) != bytes.size() - kLength)
+    return std::nullopt;
+  bytes.erase(bytes.begin(), bytes.begin() + kLength);
   return bytes;
 }
 

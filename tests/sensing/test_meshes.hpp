@@ -2,10 +2,12 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
-#include <Eigen/Geometry>
+#include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
@@ -88,6 +90,37 @@ inline TriangleList random_soup(std::uint64_t seed, std::size_t triangles) {
     mesh.triangles.push_back(triangle);
   }
   return mesh;
+}
+
+/// A closed surface with deep dents and sharp spikes.
+inline TriangleList spiky_mesh(std::uint64_t seed) {
+  TriangleList mesh = sphere_mesh(1.0, 2);
+  Random random(seed, 3);
+  for (Point& v : mesh.vertices) v *= random.uniform(0.2, 2.0);
+  return mesh;
+}
+
+inline double segment_distance(const Point& p, const Point& a, const Point& b) {
+  const double length = (b - a).squaredNorm();
+  const double t = length > 0.0 ? std::clamp((p - a).dot(b - a) / length, 0.0, 1.0) : 0.0;
+  return (p - (a + t * (b - a))).norm();
+}
+
+/// Every edge and every plane of every triangle.
+inline double brute_distance(const TriangleList& mesh, const Point& p) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto& [ia, ib, ic] : mesh.triangles) {
+    const Point &a = mesh.vertices[ia], &b = mesh.vertices[ib], &c = mesh.vertices[ic];
+    for (const double d :
+         {segment_distance(p, a, b), segment_distance(p, b, c), segment_distance(p, c, a)})
+      nearest = std::min(nearest, d);
+    Eigen::Matrix<double, 3, 2> sides;
+    sides << b - a, c - a;
+    const Eigen::Vector2d share = sides.colPivHouseholderQr().solve(p - a);
+    if (share.minCoeff() >= 0.0 && share.sum() <= 1.0)
+      nearest = std::min(nearest, (p - a - sides * share).norm());
+  }
+  return nearest;
 }
 
 }  // namespace ridgeway::testing
