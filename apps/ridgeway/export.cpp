@@ -12,15 +12,17 @@
 #include "console.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/io/graph_export.hpp"
+#include "ridgeway/io/mesh_export.hpp"
 #include "ridgeway/io/path_io.hpp"
 #include "ridgeway/io/picture.hpp"
 #include "ridgeway/io/ridge_file.hpp"
+#include "ridgeway/io/tsdf_file.hpp"
 
 namespace ridgeway::cli {
 namespace {
 
 struct Options {
-  std::string file, json_graph, picture, path, what = "graph";
+  std::string file, json_graph, picture, path, mesh, what = "graph";
   std::vector<std::string> outputs;
 };
 
@@ -51,7 +53,7 @@ std::vector<std::filesystem::path> list_outputs(const Options& options) {
   if (!options.json_graph.empty()) files.emplace_back(options.json_graph);
   if (files.empty())
     throw InputError("export", "nothing to write was asked for",
-                     "give -o FILE, --json-graph FILE or --picture FILE");
+                     "give -o FILE, --json-graph FILE, --picture FILE or --mesh FILE");
   std::vector<std::filesystem::path> inputs = {options.file};
   if (!options.path.empty()) inputs.emplace_back(options.path);
   require_writable(files, inputs);
@@ -70,14 +72,9 @@ void write(const Roadmap& roadmap, const std::vector<Point>& path, const Options
     write_graph(roadmap.graph, file);
 }
 
-int run(const Options& options, const Globals& globals) {
-  const std::vector<std::filesystem::path> files = list_outputs(options);
-  const std::vector<Point> path =
-      options.path.empty() ? std::vector<Point>{} : read_path(options.path);
-  const Roadmap roadmap = load_roadmap(options.file);
+int report(const std::vector<std::filesystem::path>& files, const Globals& globals) {
   nlohmann::ordered_json written = nlohmann::ordered_json::array();
   for (const auto& file : files) {
-    write(roadmap, path, options, file);
     const auto bytes = std::filesystem::file_size(file);
     written.push_back({{"file", file.string()}, {"bytes", bytes}});
     if (!globals.json) print_row("written", file.string() + ", " + bytes_text(bytes));
@@ -86,12 +83,41 @@ int run(const Options& options, const Globals& globals) {
   return kExitDone;
 }
 
+/// The surface of a fused map.
+int run_mesh(const Options& options, const Globals& globals) {
+  if (!options.outputs.empty() || !options.json_graph.empty() || !options.picture.empty())
+    throw InputError("--mesh", "shows a fused map, the other outputs show a roadmap",
+                     "export the two one after the other");
+  const std::filesystem::path file(options.mesh);
+  if (file.extension() != ".ply")
+    throw InputError(options.mesh, "names no format of meshes", "use .ply");
+  require_writable({file}, {options.file});
+  const SurfaceMesh mesh = surface_of(load_tsdf(options.file));
+  if (mesh.triangles.empty())
+    throw InputError(options.file, "holds no surface between known free and known solid voxels",
+                     "fuse a recording that sees one");
+  write_mesh_ply(mesh, file);
+  return report({file}, globals);
+}
+
+int run(const Options& options, const Globals& globals) {
+  if (!options.mesh.empty()) return run_mesh(options, globals);
+  const std::vector<std::filesystem::path> files = list_outputs(options);
+  const std::vector<Point> path =
+      options.path.empty() ? std::vector<Point>{} : read_path(options.path);
+  const Roadmap roadmap = load_roadmap(options.file);
+  for (const auto& file : files) write(roadmap, path, options, file);
+  return report(files, globals);
+}
+
 }  // namespace
 
 void add_export_command(CLI::App& app, const Globals& globals, Command& chosen) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("export", "Write a roadmap in other formats");
-  command->add_option("roadmap", options->file, "Roadmap, .ridge")->required();
+  CLI::App* command = app.add_subcommand(
+      "export", "Write a roadmap, or the surface of a fused map, in other formats");
+  command->add_option("roadmap", options->file, "Roadmap or, for --mesh, fused map, .ridge")
+      ->required();
   command
       ->add_option("-o,--output", options->outputs,
                    "File to write, by its extension: .json, .graphml, .ply, .png, .svg; "
@@ -104,10 +130,12 @@ void add_export_command(CLI::App& app, const Globals& globals, Command& chosen) 
   command->add_option("--picture", options->picture,
                       "Map, graph and path from above, .png or .svg");
   command->add_option("--path", options->path, "Path to draw over pictures, .json or .csv of plan");
+  command->add_option("--mesh", options->mesh, "Surface of a fused map, .ply");
   command->footer(
       "Examples:\n"
       "  ridgeway export office.ridge --picture office.png --path path.json\n"
-      "  ridgeway export office.ridge -o graph.graphml -o graph.ply");
+      "  ridgeway export office.ridge -o graph.graphml -o graph.ply\n"
+      "  ridgeway export house.ridge --mesh house.ply");
   run_when_given(*command, options, globals, chosen, run);
 }
 

@@ -4,14 +4,18 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <map>
+#include <numbers>
 #include <string_view>
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/number_text.hpp"
 #include "ridgeway/io/atomic_file.hpp"
+#include "ridgeway/io/mesh_file.hpp"
 #include "ridgeway/io/read_file.hpp"
 
 namespace ridgeway {
@@ -20,7 +24,8 @@ namespace {
 /// Reads values out of YAML nodes; every complaint names the file and the line.
 class WorldReader {
  public:
-  explicit WorldReader(std::string name) : name_(std::move(name)) {}
+  explicit WorldReader(const std::filesystem::path& file)
+      : name_(file.string()), folder_(std::filesystem::absolute(file).parent_path()) {}
 
   [[noreturn]] void fail(const YAML::Mark& mark, const std::string& what,
                          const std::string& remedy) const {
@@ -43,12 +48,20 @@ class WorldReader {
     return scalar(present(map, key), key);
   }
 
-  Eigen::Vector3d vector(const YAML::Node& map, const char* key) const {
+  Eigen::Vector3d vector(const YAML::Node& map, const char* key,
+                         const char* remedy = "give [x, y, z] in metres") const {
     const YAML::Node list = present(map, key);
     if (!list.IsSequence() || list.size() != 3)
-      fail(list.Mark(), "has a " + std::string(key) + " that is no list of three numbers",
-           "give [x, y, z] in metres");
+      fail(list.Mark(), "has a " + std::string(key) + " that is no list of three numbers", remedy);
     return {scalar(list[0], key), scalar(list[1], key), scalar(list[2], key)};
+  }
+
+  /// A file beside the one that is read.
+  std::filesystem::path file(const YAML::Node& map, const char* key) const {
+    const YAML::Node node = present(map, key);
+    if (!node.IsScalar() || node.Scalar().empty())
+      fail(node.Mark(), "has a " + std::string(key) + " that is no path", "give one");
+    return (folder_ / node.Scalar()).lexically_normal();
   }
 
   /// Calls read(node) for every entry of a list that may be left out.
@@ -76,10 +89,51 @@ class WorldReader {
   }
 
   std::string name_;
+  std::filesystem::path folder_;
 };
 
+/// The rotation by roll, pitch and yaw, degrees, yaw applied last.
+Eigen::Matrix3d rotation_of(const Eigen::Vector3d& degrees) {
+  const Eigen::Vector3d angles = degrees * (std::numbers::pi / 180.0);
+  return (Eigen::AngleAxisd(angles.z(), Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(angles.y(), Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(angles.x(), Eigen::Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
+Eigen::Vector3d degrees_of(const Eigen::Matrix3d& rotation) {
+  const Eigen::Vector3d yaw_pitch_roll = rotation.eulerAngles(2, 1, 0);
+  return yaw_pitch_roll.reverse() * (180.0 / std::numbers::pi);
+}
+
+/// Meshes by their files: each is read once.
+using Meshes = std::map<std::filesystem::path, std::shared_ptr<const SolidMesh>>;
+
+PlacedMesh read_mesh(const YAML::Node& node, const WorldReader& reader, Meshes& meshes) {
+  reader.require_keys(node, {"file", "scale", "translation", "rotation"});
+  PlacedMesh placed;
+  if (node["scale"]) placed.scale = reader.number(node, "scale");
+  if (!(placed.scale > 0.0))
+    reader.fail(node["scale"].Mark(), "has a scale that is not above 0",
+                "give 1 for metres, 0.001 for millimetres");
+  if (node["translation"]) placed.T_world_mesh.translation() = reader.vector(node, "translation");
+  if (node["rotation"])
+    placed.T_world_mesh.linear() =
+        rotation_of(reader.vector(node, "rotation", "give [roll, pitch, yaw] in degrees"));
+  const std::filesystem::path file = reader.file(node, "file");
+  std::shared_ptr<const SolidMesh>& mesh = meshes[file];
+  try {
+    if (mesh == nullptr) mesh = load_mesh(file);
+  } catch (const InputError& error) {
+    reader.fail(node["file"].Mark(), error.where() + " " + error.problem(), error.remedy());
+  }
+  placed.mesh = mesh;
+  placed.file = file.string();
+  return placed;
+}
+
 World read_world(const YAML::Node& root, const WorldReader& reader) {
-  reader.require_keys(root, {"name", "planes", "boxes", "spheres", "cylinders"});
+  reader.require_keys(root, {"name", "planes", "boxes", "spheres", "cylinders", "meshes"});
   World world;
   if (const YAML::Node name = root["name"]; name && name.IsScalar()) world.name = name.Scalar();
   reader.for_each(root, "planes", [&](const YAML::Node& node) {
@@ -102,6 +156,10 @@ World read_world(const YAML::Node& root, const WorldReader& reader) {
     reader.require_keys(node, {"centre", "radius", "height"});
     world.cylinders.push_back({reader.vector(node, "centre"), reader.number(node, "radius"),
                                reader.number(node, "height")});
+  });
+  Meshes meshes;
+  reader.for_each(root, "meshes", [&](const YAML::Node& node) {
+    world.meshes.push_back(read_mesh(node, reader, meshes));
   });
   return world;
 }
@@ -127,7 +185,7 @@ std::string list_of(const char* key, const Solids& solids, const Line& line) {
 }  // namespace
 
 World load_world(const std::filesystem::path& file) {
-  const WorldReader reader(file.string());
+  const WorldReader reader(file);
   const std::string text = read_file(file);
   try {
     World world = read_world(YAML::Load(text), reader);
@@ -155,6 +213,13 @@ std::string world_yaml(const World& world) {
   text += list_of("cylinders", world.cylinders, [](const SolidCylinder& cylinder) {
     return "centre: " + text_of(cylinder.centre) + ", radius: " + number_text(cylinder.radius) +
            ", height: " + number_text(cylinder.height);
+  });
+  text += list_of("meshes", world.meshes, [](const PlacedMesh& placed) {
+    if (placed.file.empty())
+      throw InputError("mesh", "comes from no file", "save its triangles to one and read that");
+    return "file: " + quoted(placed.file) + ", scale: " + number_text(placed.scale) +
+           ", translation: " + text_of(placed.T_world_mesh.translation()) +
+           ", rotation: " + text_of(degrees_of(placed.T_world_mesh.linear()));
   });
   return text;
 }

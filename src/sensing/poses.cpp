@@ -32,6 +32,11 @@ PoseSampling sampling_inside(const World& world) {
   for (const SolidSphere& ball : world.spheres) reach(ball.centre, Point::Constant(ball.radius));
   for (const SolidCylinder& round : world.cylinders)
     reach(round.centre, {round.radius, round.radius, 0.5 * round.height});
+  for (const PlacedMesh& placed : world.meshes) {
+    const Eigen::Vector3d half = 0.5 * placed.scale * (placed.mesh->high() - placed.mesh->low());
+    const Point centre = placed.scale * placed.mesh->low() + half;
+    reach(placed.T_world_mesh * centre, placed.T_world_mesh.linear().cwiseAbs() * half);
+  }
   for (int axis = 0; axis < 3; ++axis) {
     double floor = -kInfinity, ceiling = kInfinity;
     for (const SolidPlane& plane : world.planes) {

@@ -57,6 +57,12 @@ SurfaceDistance distance_to(const SolidCylinder& cylinder, const Point& p) {
   return beside > above ? SurfaceDistance{beside, outward} : SurfaceDistance{above, upward};
 }
 
+SurfaceDistance distance_to(const PlacedMesh& placed, const Point& p) {
+  const Point in_mesh = placed.T_world_mesh.inverse() * p / placed.scale;
+  const SurfaceDistance here = placed.mesh->distance(in_mesh);
+  return {placed.scale * here.distance, placed.T_world_mesh.linear() * here.gradient};
+}
+
 // --- rays
 // -----------------------------------------------------------------------------------------
 
@@ -116,12 +122,27 @@ Stretch inside(const SolidCylinder& cylinder, const Point& origin, const Vector&
   return common(round, inside_slab(from_centre.z(), direction.z(), 0.5 * cylinder.height));
 }
 
+/// Where a ray meets a solid, 0 from inside; infinite if nowhere.
+template <typename Convex>
+double range_to(const Convex& solid, const Point& origin, const Vector& direction) {
+  const Stretch stretch = inside(solid, origin, direction);
+  const bool is_met = stretch.first <= stretch.last && stretch.last >= 0.0;
+  return is_met ? std::max(stretch.first, 0.0) : kInfinity;
+}
+
+double range_to(const PlacedMesh& placed, const Point& origin, const Vector& direction) {
+  const Point in_mesh = placed.T_world_mesh.inverse() * origin / placed.scale;
+  const Vector along = placed.T_world_mesh.linear().transpose() * direction;
+  return placed.scale * placed.mesh->cast_ray(in_mesh, along);
+}
+
 template <typename Body>
 void for_each_solid(const World& world, const Body& body) {
   for (const SolidPlane& solid : world.planes) body(solid);
   for (const SolidBox& solid : world.boxes) body(solid);
   for (const SolidSphere& solid : world.spheres) body(solid);
   for (const SolidCylinder& solid : world.cylinders) body(solid);
+  for (const PlacedMesh& solid : world.meshes) body(solid);
 }
 
 // --- validation
@@ -139,6 +160,10 @@ void validate_all(const Solids& solids, const std::string& kind, const IsGood& i
             "give three coordinates in metres");
     require(is_good(solids[i]), kind, i, "has no size", "give finite lengths above 0 metres");
   }
+}
+
+bool is_placement(const Eigen::Isometry3d& T) {
+  return T.matrix().allFinite() && T.linear().isUnitary(1e-9) && T.linear().determinant() > 0.0;
 }
 
 bool is_length(double value) { return value > 0.0 && std::isfinite(value); }
@@ -161,6 +186,13 @@ void validate_world(const World& world) {
   validate_all(world.cylinders, "cylinder", [](const SolidCylinder& cylinder) {
     return is_length(cylinder.radius) && is_length(cylinder.height);
   });
+  for (std::size_t i = 0; i < world.meshes.size(); ++i) {
+    const PlacedMesh& placed = world.meshes[i];
+    require(placed.mesh != nullptr, "mesh", i, "has no triangles", "read or make some");
+    require(is_length(placed.scale), "mesh", i, "has no size", "give a finite scale above 0");
+    require(is_placement(placed.T_world_mesh), "mesh", i, "has no place",
+            "give a rotation and finite metres");
+  }
 }
 
 SurfaceDistance surface_distance(const World& world, const Point& point) {
@@ -175,9 +207,7 @@ SurfaceDistance surface_distance(const World& world, const Point& point) {
 double cast_ray(const World& world, const Point& origin, const Vector& direction) {
   double nearest = kInfinity;
   for_each_solid(world, [&](const auto& solid) {
-    const Stretch stretch = inside(solid, origin, direction);
-    if (stretch.first <= stretch.last && stretch.last >= 0.0)
-      nearest = std::min(nearest, std::max(stretch.first, 0.0));
+    nearest = std::min(nearest, range_to(solid, origin, direction));
   });
   return nearest;
 }

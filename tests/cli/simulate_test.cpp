@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
+#include <cmath>
+
 #include "program.hpp"
 #include "ridgeway/io/depth_sequence.hpp"
+#include "ridgeway/io/ply_cloud.hpp"
+#include "ridgeway/io/tsdf_file.hpp"
+#include "ridgeway/io/world_file.hpp"
 
 namespace ridgeway {
 namespace {
@@ -72,6 +77,38 @@ TEST_F(CliSimulate, RecordingToMapToRoadmap) {
       run({"plan", path("roadmap.ridge"), "--from", "1,1,1.5", "--to", "11,9,1.5", "--json"});
   EXPECT_EQ(planned.code, 0) << planned.out;
   EXPECT_EQ(run({"check", path("roadmap.ridge"), "--queries", "50"}).code, 0);
+}
+
+TEST_F(CliSimulate, SurfaceOfAFusedMap) {
+  ASSERT_EQ(run({"simulate", house(), "-o", path("run"), "--frames", "8"}).code, 0);
+  ASSERT_EQ(run({"fuse", path("run"), "-o", path("map.ridge"), "--voxel-size", "0.2"}).code, 0);
+  const auto surface = [&](const std::string& name, const std::string& threads) {
+    const Outcome outcome =
+        run({"export", path("map.ridge"), "--mesh", path(name), "--threads", threads, "--json"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.json()["written"][0]["file"], path(name));
+    return read_whole(folder_ / name);
+  };
+  const std::string bytes = surface("one.ply", "1");
+  EXPECT_EQ(bytes, surface("two.ply", "2"));
+  const PointCloud cloud = read_ply(bytes, "one.ply");
+  const World world = load_world(house());
+  EXPECT_GT(cloud.points.size(), 2000u);
+  EXPECT_GT(cloud.ignored_faces, cloud.points.size());
+  std::size_t near = 0;
+  for (const Point& p : cloud.points)
+    near += std::abs(surface_distance(world, p).distance) < 0.1 ? 1 : 0;
+  EXPECT_GT(near, cloud.points.size() * 9 / 10);
+
+  expect_refused({"export", rooms(), "--mesh", path("out.ply")}, {"ridgeway fuse"});
+  expect_refused({"export", two_rooms(), "--mesh", path("out.ply")}, {"rooms.xyz"});
+  expect_refused({"export", path("map.ridge"), "--mesh", path("out.obj")}, {"use .ply"});
+  expect_refused({"export", path("map.ridge"), "--mesh", path("none/out.ply")}, {"none"});
+  expect_refused({"export", path("map.ridge"), "--mesh", path("a.ply"), "-o", path("b.ply")},
+                 {"--mesh"});
+  expect_refused({"export", path("map.ridge"), "-o", path("graph.ply")}, {"not a roadmap"});
+  save_tsdf({0.1, 0.4, {}, {}, {}}, "nothing", path("empty.ridge"));
+  expect_refused({"export", path("empty.ridge"), "--mesh", path("out.ply")}, {"no surface"});
 }
 
 TEST_F(CliSimulate, FuseTakesRecordingsAsTheyAre) {

@@ -46,6 +46,39 @@ TEST(WorldFile, TheHouseIsThatOfThePaper) {
   EXPECT_NEAR(surface_distance(house, {8.25, 5.0, 2.5}).distance, 0.75, 1e-12);  // the doorway
 }
 
+TEST(WorldFile, MeshesAreFoundFromItsFolderAndPlaced) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "things");
+  write_whole(folder / "things/wedge.obj",
+              "v 0 0 0\nv 1000 0 0\nv 0 2000 0\nv 0 0 3000\n"
+              "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  write_whole(folder / "room.yaml",
+              "meshes:\n"
+              "  - {file: things/wedge.obj, scale: 0.001, rotation: [0, 0, 90], "
+              "translation: [5, 0, 1]}\n"
+              "  - file: things/wedge.obj\n");
+  const World world = load_world(folder / "room.yaml");
+  ASSERT_EQ(world.meshes.size(), 2u);
+  EXPECT_EQ(world.meshes[0].mesh, world.meshes[1].mesh);  // read once
+  World one = world;
+  one.meshes.pop_back();
+  // Turned, the wedge runs from x = 5 to 3 and from y = 0 to 1.
+  EXPECT_NEAR(surface_distance(one, {4.9, 0.1, 1.1}).distance, -0.1, 1e-9);
+  EXPECT_NEAR(surface_distance(one, {5.5, 0.1, 1.1}).distance, 0.5, 1e-9);
+  EXPECT_NEAR(cast_ray(one, {0.0, 0.1, 1.1}, Eigen::Vector3d::UnitX()), 5.0 - 26.0 / 15.0, 1e-6);
+  EXPECT_NEAR(surface_distance(world, {100.0, 100.0, 100.0}).distance, -100.0, 1e-9);
+
+  one.meshes[0].T_world_mesh.rotate(Eigen::AngleAxisd(2.0, Eigen::Vector3d(1, 2, 3).normalized()));
+  std::filesystem::create_directory(folder / "elsewhere");
+  save_world(one, folder / "elsewhere/copy.yaml");
+  const World copy = load_world(folder / "elsewhere/copy.yaml");
+  ASSERT_EQ(copy.meshes.size(), 1u);
+  EXPECT_EQ(copy.meshes[0].scale, 0.001);
+  EXPECT_TRUE(copy.meshes[0].T_world_mesh.isApprox(one.meshes[0].T_world_mesh, 1e-12));
+  one.meshes[0].file.clear();
+  EXPECT_THROW(save_world(one, folder / "nowhere.yaml"), InputError);
+}
+
 TEST(WorldFile, MistakesAreNamedWithTheirLine) {
   const TemporaryFolder folder;
   const auto refusal = [&](const std::string& text) {
@@ -57,6 +90,7 @@ TEST(WorldFile, MistakesAreNamedWithTheirLine) {
     }
     return std::string();
   };
+  const std::string none = (folder / "none.stl").string();
   const std::string box = "boxes:\n  - {centre: [0, 0, 0], ";
   for (const auto& [text, word] : std::vector<std::pair<std::string, std::string>>{
            {"", "is empty"},
@@ -72,6 +106,16 @@ TEST(WorldFile, MistakesAreNamedWithTheirLine) {
            {"boxes: [1, 2]\n", "line 1"},
            {"planes:\n- {point: [0, 0, 0], normal: [0, 0, 0]}\n", "line 2: has a normal"},
            {"spheres:\n- {centre: [0, 0, 0], radius: -1}\n", "sphere 1"},
+           {"meshes:\n- {scale: 1}\n", "line 2: has no file"},
+           {"meshes:\n- {file: [a]}\n", "line 2: has a file that is no path"},
+           {"name: a\nmeshes:\n- {file: none.stl}\n", "line 3: " + none + " there is no such file"},
+           {"meshes:\n- {file: none.stl, colour: red}\n", "line 2: has an unknown key 'colour'"},
+           {"meshes:\n- {file: none.stl, scale: 0}\n", "line 2: has a scale"},
+           {"meshes:\n- {file: none.stl, scale: -1}\n", "line 2: has a scale"},
+           {"meshes:\n- {file: none.stl, scale: big}\n", "line 2: has a scale that is no number"},
+           {"meshes:\n- {file: none.stl, translation: 5}\n", "line 2: has a translation"},
+           {"meshes:\n- {file: none.stl, rotation: [1, 2]}\n", "[roll, pitch, yaw]"},
+           {"meshes:\n- {file: bad.yaml}\n", "bad.yaml names no format"},
            {"boxes: [\n", "is no YAML"},
            {"boxes: {{{{\n", "bad.yaml"},
            {std::string(100000, '['), "bad.yaml"}}) {
@@ -79,6 +123,9 @@ TEST(WorldFile, MistakesAreNamedWithTheirLine) {
     EXPECT_NE(message.find(word), std::string::npos) << text.substr(0, 80) << " -> " << message;
     EXPECT_NE(message.find("bad.yaml"), std::string::npos) << message;
   }
+  EXPECT_EQ(
+      refusal(box + "size: [1, 1, 0]}\n"),
+      (folder / "bad.yaml").string() + " box 1: has no size (give finite lengths above 0 metres)");
   EXPECT_THROW(load_world(folder / "none.yaml"), InputError);
 }
 

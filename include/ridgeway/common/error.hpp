@@ -17,20 +17,21 @@ class InputError : public std::runtime_error {
              const std::string& remedy)
       : std::runtime_error(where + ": " + what_went_wrong + " (" + remedy + ")"),
         where_(where),
-        defect_(what_went_wrong),
+        problem_(what_went_wrong),
         remedy_(remedy) {}
 
   /// The same, found in something larger: a file that has the field, a recording that has the pose.
   InputError within(const std::string& whole) const {
-    return {whole + " " + where_, defect_, remedy_};
+    return {whole + " " + where_, problem_, remedy_};
   }
 
   const std::string& where() const noexcept { return where_; }
+  const std::string& problem() const noexcept { return problem_; }
   const std::string& remedy() const noexcept { return remedy_; }
 
  private:
   std::string where_;
-  std::string defect_;
+  std::string problem_;
   std::string remedy_;
 };
 

@@ -2,10 +2,12 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <Eigen/Geometry>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "ridgeway/voxel/index.hpp"
+#include "ridgeway/sensing/solid_mesh.hpp"
 
 namespace ridgeway {
 
@@ -34,23 +36,27 @@ struct SolidCylinder {
   double height = 1.0;
 };
 
-/// A simulated world: the union of simple solids, metres, z up. Plain data; thread-safe to read.
+/// A mesh at a place of its own; many may share its triangles.
+struct PlacedMesh {
+  std::shared_ptr<const SolidMesh> mesh;
+  double scale = 1.0;  ///< metres of the world a unit of the mesh, above 0
+  Eigen::Isometry3d T_world_mesh = Eigen::Isometry3d::Identity();  ///< after scaling
+  std::string file = {};  ///< where it was read; may be empty
+};
+
+/// A simulated world: the union of solids, metres, z up. Plain data; thread-safe to read.
 struct World {
   std::string name;
   std::vector<SolidPlane> planes;
   std::vector<SolidBox> boxes;
   std::vector<SolidSphere> spheres;
   std::vector<SolidCylinder> cylinders;
+  std::vector<PlacedMesh> meshes;
 };
 
-/// Throws InputError naming the first solid without a size, with a number that is not finite, or a
-/// normal that is not of length one.
+/// Throws InputError naming the first solid without a size (a mesh without triangles), with a
+/// number that is not finite, or a normal that is not of length one.
 void validate_world(const World& world);
-
-struct SurfaceDistance {
-  double distance = 0.0;                                ///< metres, negative inside a solid
-  Eigen::Vector3d gradient = Eigen::Vector3d::UnitZ();  ///< of length one, away from the surface
-};
 
 /// Signed distance to the nearest surface and its gradient. Exact outside, and inside a single
 /// solid; where solids overlap, the depth may come out too small, never too large. Infinite in an
@@ -58,7 +64,7 @@ struct SurfaceDistance {
 SurfaceDistance surface_distance(const World& world, const Point& point);
 
 /// How far a ray runs from a point along a direction of length one until it meets a solid, metres:
-/// 0 from inside one, infinite where it meets none. Closed-form and exact.
+/// 0 from inside one, infinite where it meets none. Exact, to rounding.
 double cast_ray(const World& world, const Point& origin, const Eigen::Vector3d& direction);
 
 }  // namespace ridgeway
