@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/sampling/plan_by_sampling.hpp"
+
+#include <gtest/gtest.h>
+#include <ompl/util/Console.h>
+
+#include <array>
+#include <limits>
+#include <random>
+#include <thread>
+
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/esdf/esdf.hpp"
+#include "ridgeway/roadmap/build_roadmap.hpp"
+#include "support/brute_force.hpp"
+#include "support/random_maps.hpp"
+
+namespace ridgeway {
+namespace {
+
+constexpr std::array kSamplers{Planner::kRrtStar, Planner::kRrtConnect, Planner::kBitStar,
+                               Planner::kPrmStar, Planner::kInformedRrtStar};
+constexpr double kForever = std::numeric_limits<double>::infinity();
+
+/// 6 x 4 x 2 m, voxels of 0.1 m; a wall across the middle, up to 3.4 m along y if not `shut`.
+OccupancyMap two_rooms(bool shut) {
+  return testing::make_map(0.1, {0, 0, 0}, {59, 39, 19}, [shut](const VoxelIndex& v) {
+    return v.x / 2 == 15 && (shut || v.y < 34) ? VoxelState::kOccupied : VoxelState::kFree;
+  });
+}
+const Point kLeft(1.0, 1.0, 1.0), kRight(5.0, 1.0, 1.0);
+constexpr double kRadius = 0.2;
+/// From kLeft over the rounded corners of the inflated wall to kRight, in the plane z = 1.
+double shortest_length() {
+  const double dx = 2.0, dy = 2.4, r = kRadius * (1 - 1e-9);  // from an end to its corner's centre
+  const double hypotenuse = std::hypot(dx, dy);
+  const double tangent = std::sqrt(hypotenuse * hypotenuse - r * r);
+  const double angle = std::atan2(dx, dy) - std::asin(r / hypotenuse);  // of the tangent to y
+  const double turn = std::acos(-1.0) / 2 - angle;  // from there to x, along the wall's end
+  return 2.0 * (tangent + r * turn) + 0.2;
+}
+
+SamplingConfig limited(Planner planner, std::size_t iterations, std::uint64_t seed = 1) {
+  return {.planner = planner,
+          .radius = kRadius,
+          .seed = seed,
+          .time_limit = kForever,
+          .iteration_limit = iterations};
+}
+
+/// BIT* counts the edges that it looks at, the others samples.
+std::size_t iterations_of(Planner planner, std::size_t samples) {
+  return planner == Planner::kBitStar ? 12 * samples : samples;
+}
+
+std::vector<VoxelId> places_at(const EsdfMap& esdf, double radius) {
+  std::vector<VoxelId> places;
+  for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
+    if (esdf.state[id] == VoxelState::kFree &&
+        esdf.squared[id] >= squared_threshold(radius, esdf.voxel_size))
+      places.push_back(id);
+  return places;
+}
+
+/// Looks at a path point by point, knowing obstacle cubes and voxel states alone.
+void expect_free(const OccupancyMap& map, UnknownPolicy policy, const std::vector<Point>& path,
+                 double radius, const std::vector<VoxelIndex>& obstacles) {
+  const double s = map.voxel_size, least = radius / s * (1.0 - 1e-6);
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const int pieces = 1 + static_cast<int>((path[i] - path[i - 1]).norm() / (0.2 * s));
+    for (int k = 0; k <= pieces; ++k) {
+      const Point p = path[i - 1] + (path[i] - path[i - 1]) * (static_cast<double>(k) / pieces);
+      ASSERT_GE(testing::brute_squared_distance(p / s, obstacles), least * least);
+      if (policy == UnknownPolicy::kIgnore) {
+        ASSERT_EQ(map.at(voxel_at(p, s)), VoxelState::kFree);
+      }
+    }
+  }
+}
+
+TEST(Sampling, PathsOfEveryPlannerKeepTheirClearanceOnRandomMaps) {
+  int paths = 0;
+  for (unsigned seed = 0; seed < 24; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
+    const OccupancyMap map = testing::random_map(seed);
+    const EsdfMap esdf = compute_esdf(map, {.unknown = policy});
+    const std::vector<VoxelIndex> obstacles = testing::all_obstacles(map, policy);
+    const double radius = seed % 2 == 0 ? 0.1 : 0.125;
+    const std::vector<VoxelId> places = places_at(esdf, radius);
+    if (places.empty()) continue;
+    std::mt19937 random(seed);
+    for (const Planner planner : kSamplers) {
+      SamplingConfig config = limited(planner, 400, seed);
+      config.radius = radius;
+      config.shorten = seed % 4 < 2;
+      const auto place = [&] {
+        return centre_of(esdf.layout.index_of(places[random() % places.size()]), 0.1);
+      };
+      const Point start = place(), goal = place();
+      const SamplingResult result = plan_by_sampling(esdf, start, goal, config);
+      if (!result.plan.ok()) {
+        ASSERT_EQ(result.plan.status, PlanStatus::kTimeout);
+        ASSERT_TRUE(result.plan.waypoints.empty());
+        continue;
+      }
+      ++paths;
+      EXPECT_EQ(result.plan.answered_by, planner);
+      EXPECT_EQ(result.plan.waypoints.front(), start);
+      EXPECT_EQ(result.plan.waypoints.back(), goal);
+      EXPECT_GE(result.plan.length, (goal - start).norm() * (1.0 - 1e-12));
+      EXPECT_GE(result.first_length, result.plan.length * (1.0 - 1e-9));
+      EXPECT_GE(result.plan.clearance, radius * (1.0 - 1e-9));
+      expect_free(map, policy, result.plan.waypoints, radius, obstacles);
+      if (HasFatalFailure()) return;
+    }
+  }
+  EXPECT_GT(paths, 60);
+}
+
+TEST(Sampling, OptimalPlannersComeCloseToTheShortestPathAndNeverBelowIt) {
+  const EsdfMap esdf = compute_esdf(two_rooms(false));
+  const double shortest = shortest_length();
+  for (const Planner planner : kSamplers) {
+    SCOPED_TRACE(name_of(planner));
+    SamplingConfig config = limited(planner, iterations_of(planner, 3000));
+    config.shorten = false;
+    const SamplingResult best = plan_by_sampling(esdf, kLeft, kRight, config);
+    ASSERT_TRUE(best.plan.ok());
+    EXPECT_GE(best.plan.length, shortest * (1.0 - 1e-6));
+    EXPECT_LE(best.plan.length, best.first_length * (1.0 + 1e-12));
+    if (planner != Planner::kRrtConnect) {
+      EXPECT_LE(best.plan.length, 1.05 * shortest);
+    }
+    config.shorten = true;
+    EXPECT_LE(plan_by_sampling(esdf, kLeft, kRight, config).plan.length, 1.02 * shortest);
+  }
+}
+
+TEST(Sampling, FirstSolutionEndsTheSearchWithTheFirstPath) {
+  const EsdfMap esdf = compute_esdf(two_rooms(false));
+  for (const Planner planner : kSamplers) {
+    SCOPED_TRACE(name_of(planner));
+    SamplingConfig config = limited(planner, 3000);
+    config.shorten = false;
+    const SamplingResult all = plan_by_sampling(esdf, kLeft, kRight, config);
+    config.first_solution = true;
+    const SamplingResult first = plan_by_sampling(esdf, kLeft, kRight, config);
+    ASSERT_TRUE(first.plan.ok());
+    EXPECT_LT(first.iterations, 2000u);
+    EXPECT_NEAR(first.plan.length, first.first_length, 1e-9);
+    EXPECT_NEAR(first.first_length, all.first_length, 1e-9);
+    if (planner != Planner::kRrtConnect) {
+      EXPECT_GE(all.iterations, 3000u);
+    }
+  }
+}
+
+TEST(Sampling, SameSeedGivesTheSamePathWhateverRunsBeside) {
+  const EsdfMap esdf = compute_esdf(two_rooms(false));
+  for (const Planner planner : kSamplers) {
+    SCOPED_TRACE(name_of(planner));
+    std::array<std::vector<Point>, 4> serial, parallel;
+    const auto run = [&](std::size_t k) {
+      return plan_by_sampling(esdf, kLeft, kRight, limited(planner, iterations_of(planner, 600), k))
+          .plan.waypoints;
+    };
+    for (std::size_t k = 0; k < serial.size(); ++k) serial[k] = run(k);
+    std::vector<std::thread> threads;
+    for (std::size_t k = 0; k < parallel.size(); ++k)
+      threads.emplace_back([&, k] { parallel[k] = run(k); });
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(serial, parallel);
+    EXPECT_NE(serial[0], serial[1]);
+    EXPECT_NE(serial[1], serial[2]);
+  }
+}
+
+TEST(Sampling, EndsAreJudgedAsByEveryOtherPlanner) {
+  const Roadmap roadmap = build_roadmap(two_rooms(false), {.min_clearance = kRadius}).roadmap;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> x(-0.5, 6.5), y(-0.3, 4.3), z(-0.1, 2.1);
+  std::array<int, 10> seen{};
+  for (int i = 0; i < 200; ++i) {
+    const Point start(x(random), y(random), z(random)), goal(x(random), y(random), z(random));
+    const PlanStatus expected = plan(roadmap, start, goal, {.planner = Planner::kEsdf}).status;
+    const Planner planner = kSamplers[static_cast<std::size_t>(i % 5)];
+    SamplingConfig config = limited(planner, iterations_of(planner, 3000));
+    config.first_solution = true;
+    const SamplingResult result = plan_by_sampling(roadmap.esdf, start, goal, config);
+    EXPECT_EQ(result.plan.status, expected);
+    ++seen[static_cast<std::size_t>(expected)];
+  }
+  for (const PlanStatus status :
+       {PlanStatus::kOk, PlanStatus::kStartOutsideMap, PlanStatus::kStartInCollision,
+        PlanStatus::kGoalOutsideMap, PlanStatus::kGoalInCollision})
+    EXPECT_GT(seen[static_cast<std::size_t>(status)], 0) << name_of(status);
+}
+
+TEST(Sampling, FindsNothingThroughAWallAndSaysThatTheLimitPassed) {
+  const EsdfMap esdf = compute_esdf(two_rooms(true));
+  for (const Planner planner : kSamplers) {
+    SCOPED_TRACE(name_of(planner));
+    const SamplingResult result = plan_by_sampling(esdf, kLeft, kRight, limited(planner, 300));
+    EXPECT_EQ(result.plan.status, PlanStatus::kTimeout);
+    SamplingConfig timed = limited(planner, 300);
+    timed.iteration_limit = std::numeric_limits<std::size_t>::max();
+    timed.time_limit = 0.02;
+    const SamplingResult late = plan_by_sampling(esdf, kLeft, kRight, timed);
+    EXPECT_EQ(late.plan.status, PlanStatus::kTimeout);
+    EXPECT_GE(late.plan.seconds.search, 0.02);
+    EXPECT_LT(late.plan.seconds.search, 0.5);
+  }
+}
+
+TEST(Sampling, SolvesTheTrivialQueries) {
+  const EsdfMap esdf = compute_esdf(two_rooms(false));
+  for (const Planner planner : kSamplers) {
+    SCOPED_TRACE(name_of(planner));
+    SamplingConfig config = limited(planner, 5000);
+    const SamplingResult here = plan_by_sampling(esdf, kLeft, kLeft, config);
+    EXPECT_TRUE(here.plan.ok());
+    EXPECT_EQ(here.plan.length, 0.0);
+    const Point near = kLeft + Point(0.5, 0.3, 0.2);
+    const SamplingResult straight = plan_by_sampling(esdf, kLeft, near, config);
+    ASSERT_TRUE(straight.plan.ok());
+    EXPECT_NEAR(straight.plan.length, (near - kLeft).norm(), 1e-9);
+  }
+}
+
+TEST(Sampling, LeavesTheMessagesOfOmplToTheirOwner) {
+  const EsdfMap esdf = compute_esdf(two_rooms(true));
+  const auto* const before = ompl::msg::getOutputHandler();
+  ::testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStderr();
+  for (const Planner planner : kSamplers)
+    plan_by_sampling(esdf, kLeft, kRight, limited(planner, 50));
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(ompl::msg::getOutputHandler(), before);
+  EXPECT_NE(before, nullptr);
+}
+
+TEST(Sampling, RefusesBadConfigurations) {
+  const EsdfMap esdf = compute_esdf(two_rooms(false), {.max_distance = 1.0});
+  const auto expect_refused = [&](SamplingConfig config, const std::string& where) {
+    try {
+      plan_by_sampling(esdf, kLeft, kRight, config);
+      ADD_FAILURE() << where << " was accepted";
+    } catch (const InputError& error) {
+      EXPECT_TRUE(error.where().starts_with(where)) << error.what();
+    }
+  };
+  const double nan = std::nan("");
+  const SamplingConfig good = limited(Planner::kRrtConnect, 100);
+  const auto with = [&](auto SamplingConfig::*field, auto value) {
+    SamplingConfig config = good;
+    config.*field = value;
+    return config;
+  };
+  expect_refused(with(&SamplingConfig::planner, Planner::kEsdf), "planner");
+  for (const double radius : {0.0, -1.0, nan, kForever, 0.9})
+    expect_refused(with(&SamplingConfig::radius, radius), "radius");
+  for (const double limit : {0.0, -1.0, nan})
+    expect_refused(with(&SamplingConfig::time_limit, limit), "time_limit");
+  for (const double range : {-1.0, nan, kForever})
+    expect_refused(with(&SamplingConfig::range, range), "range");
+  expect_refused(with(&SamplingConfig::iteration_limit, SamplingConfig{}.iteration_limit),
+                 "time_limit");
+  EXPECT_THROW(plan_by_sampling(esdf, Point(nan, 0, 0), kRight, good), InputError);
+  EXPECT_THROW(PlanConfig{.planner = Planner::kRrtStar}.validate(), InputError);
+}
+
+}  // namespace
+}  // namespace ridgeway
