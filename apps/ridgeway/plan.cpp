@@ -212,9 +212,10 @@ void add_plan_command(CLI::App& app, const Globals& globals, Command& chosen) {
   command->add_option("--from", options->from, "Start X,Y,Z, metres");
   command->add_option("--to", options->to, "Goal X,Y,Z, metres");
   command
-      ->add_option("--planner", options->planner,
-                   "What is searched: graph, diagram, esdf (A* over voxels); or by sampling: "
-                   "rrtstar, rrtconnect, bitstar, prmstar, informedrrtstar")
+      ->add_option(
+          "--planner", options->planner,
+          "What is searched: graph, diagram, esdf (A* over voxels), theta (the same at any "
+          "angle); or by sampling: rrtstar, rrtconnect, bitstar, prmstar, informedrrtstar")
       ->check([](const std::string& name) {
         return planner_named(name) ? std::string() : "'" + name + "' is no planner";
       })

@@ -36,8 +36,9 @@ std::string_view name_of(PlanStatus status) {
 }
 
 namespace {
-constexpr std::array<std::string_view, 8> kPlannerNames{
-    "graph", "diagram", "esdf", "rrtstar", "rrtconnect", "bitstar", "prmstar", "informedrrtstar"};
+constexpr std::array<std::string_view, 9> kPlannerNames{"graph",   "diagram", "esdf",
+                                                        "theta",   "rrtstar", "rrtconnect",
+                                                        "bitstar", "prmstar", "informedrrtstar"};
 }  // namespace
 
 std::string_view name_of(Planner planner) {

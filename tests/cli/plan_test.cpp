@@ -23,8 +23,8 @@ TEST_F(CliPlan, JsonHasTheKeysThatScriptsRelyOn) {
 
 TEST_F(CliPlan, EveryPlannerAnswers) {
   const std::string map = rooms();
-  for (const char* planner : {"graph", "diagram", "esdf", "rrtstar", "rrtconnect", "bitstar",
-                              "prmstar", "informedrrtstar"}) {
+  for (const char* planner : {"graph", "diagram", "esdf", "theta", "rrtstar", "rrtconnect",
+                              "bitstar", "prmstar", "informedrrtstar"}) {
     const Json json = run({"plan", map, "--from", "-2,1.5,1", "--to", "2,1.5,1", "--planner",
                            planner, "--raw", "--json", "--time-limit", "0.2"})
                           .json();

@@ -29,7 +29,8 @@ enum class PlanStatus : std::uint8_t {
 enum class Planner : std::uint8_t {
   kGraph,
   kDiagram,
-  kEsdf,  ///< A* over the voxel lattice
+  kEsdf,       ///< A* over the voxel lattice
+  kThetaStar,  ///< lazy Theta*: the same lattice, at any angle
   // By sampling, see sampling/plan_by_sampling.hpp:
   kRrtStar,
   kRrtConnect,
@@ -40,7 +41,7 @@ enum class Planner : std::uint8_t {
 constexpr bool is_sampling(Planner planner) { return planner >= Planner::kRrtStar; }
 
 /// Names as in the JSON output: "ok", "start_outside_map", ...; "graph", "diagram", "esdf",
-/// "rrtstar", "rrtconnect", "bitstar", "prmstar", "informedrrtstar".
+/// "theta", "rrtstar", "rrtconnect", "bitstar", "prmstar", "informedrrtstar".
 std::string_view name_of(PlanStatus status);
 std::string_view name_of(Planner planner);
 /// The planner of a name, or nothing.
