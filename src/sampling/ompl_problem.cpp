@@ -9,6 +9,8 @@
 #include <ompl/geometric/PathGeometric.h>
 
 #include <algorithm>
+#include <bit>
+#include <limits>
 
 namespace ridgeway::detail {
 namespace {
@@ -75,25 +77,37 @@ class PathLength : public ob::PathLengthOptimizationObjective {
   OmplSeeds& seeds_;
 };
 
+/// The free voxels of one layer of a block, a bit each, x fastest.
+std::uint64_t free_layer(const EsdfMap& esdf, std::uint32_t slot, int z) {
+  // All that is no obstacle is free, unless the unknown is none either.
+  if (esdf.unknown == UnknownPolicy::kObstacle)
+    return ~esdf.obstacle.block(slot)[static_cast<std::size_t>(z)];
+  const VoxelState* states = esdf.state.block(slot) + 64 * z;
+  std::uint64_t bits = 0;
+  for (int i = 0; i < 64; ++i)
+    bits |= static_cast<std::uint64_t>(states[i] == VoxelState::kFree) << i;
+  return bits;
+}
+
 /// The box around the known free voxels, less what the radius takes off where all around it is an
-/// obstacle. A start that is free must exist.
+/// obstacle. There must be a free voxel.
 ob::RealVectorBounds sampling_bounds(const EsdfMap& esdf, double radius) {
-  VoxelIndex low = voxel_of(esdf.layout.block(0), 0), high = low;
-  bool any = false;
+  constexpr int kMost = std::numeric_limits<int>::max();
+  VoxelIndex low{kMost, kMost, kMost}, high{-kMost, -kMost, -kMost};
   for (std::uint32_t slot = 0; slot < esdf.layout.block_count(); ++slot) {
-    const VoxelIndex first = voxel_of(esdf.layout.block(slot), 0),
-                     last = voxel_of(esdf.layout.block(slot), kBlockVoxels - 1);
-    if (any && first.x >= low.x && first.y >= low.y && first.z >= low.z && last.x <= high.x &&
-        last.y <= high.y && last.z <= high.z)
-      continue;
-    const VoxelState* states = esdf.state.block(slot);
-    for (int local = 0; local < kBlockVoxels; ++local) {
-      if (states[local] != VoxelState::kFree) continue;
-      const VoxelIndex v = voxel_of(esdf.layout.block(slot), local);
-      if (!any) low = high = v;
-      any = true;
-      low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
-      high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+    const VoxelIndex corner = voxel_of(esdf.layout.block(slot), 0);
+    for (int z = 0; z < kBlockSide; ++z) {
+      const std::uint64_t layer = free_layer(esdf, slot, z);
+      if (layer == 0) continue;
+      std::uint64_t row = layer | layer >> 32;  // all rows of it in one
+      row |= row >> 16;
+      row = (row | row >> 8) & 0xff;
+      const VoxelIndex first{std::countr_zero(row), std::countr_zero(layer) / 8, z};
+      const VoxelIndex last{63 - std::countl_zero(row), (63 - std::countl_zero(layer)) / 8, z};
+      low = {std::min(low.x, corner.x + first.x), std::min(low.y, corner.y + first.y),
+             std::min(low.z, corner.z + first.z)};
+      high = {std::max(high.x, corner.x + last.x), std::max(high.y, corner.y + last.y),
+              std::max(high.z, corner.z + last.z)};
     }
   }
   // A little wider, so that places that just fit are not lost to rounding.

@@ -124,24 +124,29 @@ SamplingResult plan_by_sampling(const EsdfMap& esdf, const Point& start, const P
   plan.seconds.attach = seconds_now() - began;
   if (ends != PlanStatus::kOk) return finish(ends);
 
+  const FreeSpace space(esdf);
+  const bool is_straight = (config.shorten || start == goal) &&
+                           space.is_free(start, goal, config.radius);  // nothing is shorter
   const std::vector<Point> found =
-      start == goal ? std::vector<Point>{start, goal} : sample(esdf, start, goal, config, result);
+      is_straight ? std::vector<Point>{start, goal} : sample(esdf, start, goal, config, result);
   if (found.empty()) return finish(PlanStatus::kTimeout);
-  if (result.first_seconds == 0.0) {  // the planner does not report it: there was but one path
+  if (result.first_length == 0.0) {  // the planner did not report it: there was but one path
     result.first_seconds = plan.seconds.search;
     result.first_length = detail::length_of(found);
   }
-  const FreeSpace space(esdf);
-  const double shortening = seconds_now();
-  plan.waypoints = config.shorten
-                       ? detail::shorten(space, found, config.radius, Deadline(config.time_limit))
-                       : found;
-  plan.seconds.shorten = seconds_now() - shortening;
-  detail::describe(esdf, space, {}, plan);
-  if (detail::is_verified(esdf, space, plan, config.radius)) return finish(PlanStatus::kOk);
-  plan.waypoints = found;
-  detail::describe(esdf, space, {}, plan);
-  if (detail::is_verified(esdf, space, plan, config.radius)) return finish(PlanStatus::kOk);
+  const auto accept = [&](std::vector<Point> waypoints) {
+    plan.waypoints = std::move(waypoints);
+    detail::describe(esdf, space, {}, plan);
+    return detail::is_verified(esdf, space, plan, config.radius);
+  };
+  if (config.shorten) {
+    const double shortening = seconds_now();
+    const Deadline deadline(config.time_limit);
+    std::vector<Point> tight = detail::shorten(space, found, config.radius, deadline);
+    plan.seconds.shorten = seconds_now() - shortening;
+    if (accept(std::move(tight))) return finish(PlanStatus::kOk);
+  }
+  if (accept(found)) return finish(PlanStatus::kOk);
   plan.waypoints.clear();
   return finish(PlanStatus::kTimeout);
 }

@@ -20,7 +20,9 @@ struct SamplingConfig {
   /// repeat exactly: same map, query and configuration, same path. Those that time ends do not.
   std::size_t iteration_limit = std::numeric_limits<std::size_t>::max();
   bool first_solution = false;  ///< stop at the first path
-  bool shorten = true;          ///< pull the path tight, as plan() does, beyond the time limit
+  /// As plan() does: look along the straight line first, and pull the path tight, which the time
+  /// limit does not count. Otherwise as the planner found it.
+  bool shorten = true;
   /// Longest motion that a tree grows by, metres; 0: 3 m, or 30 voxels where that is more. BIT* and
   /// PRM* have none.
   double range = 0.0;
