@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -18,8 +17,6 @@
 
 namespace ridgeway {
 namespace {
-
-using detail::SearchStatus;
 
 constexpr double kHalfACell = 0.5;
 

@@ -10,6 +10,7 @@
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
+#include "support/places.hpp"
 #include "support/random_maps.hpp"
 
 namespace ridgeway {
@@ -21,15 +22,6 @@ using detail::SearchStatus;
 
 const Deadline kNever(std::numeric_limits<double>::infinity());
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-std::vector<VoxelId> traversable_places(const EsdfMap& esdf, double radius) {
-  std::vector<VoxelId> places;
-  for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
-    if (esdf.state[id] == VoxelState::kFree &&
-        esdf.squared[id] >= squared_threshold(radius, esdf.voxel_size))
-      places.push_back(id);
-  return places;
-}
 
 Point centre(const EsdfMap& esdf, VoxelId id) {
   return centre_of(esdf.layout.index_of(id), esdf.voxel_size);
@@ -84,7 +76,7 @@ TEST(ThetaStar, FindsPathsWhereTheLatticeDoesAndHardlyEverLongerOnes) {
     const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
     const EsdfMap esdf = compute_esdf(testing::random_map(seed), {.unknown = policy});
     for (const double radius : {0.1, 0.125, 0.2}) {
-      const std::vector<VoxelId> places = traversable_places(esdf, radius);
+      const std::vector<VoxelId> places = testing::traversable_places(esdf, radius);
       if (places.empty()) continue;
       for (std::size_t k = 0; k < 12; ++k) {
         const VoxelId start = places[k * 7919 % places.size()];
@@ -117,7 +109,7 @@ TEST(ThetaStar, IsNeverShorterThanTheShortestByTurnsAtVoxels) {
     SCOPED_TRACE(seed);
     const EsdfMap esdf = compute_esdf(testing::random_map(seed, 12));
     const double radius = 0.1;
-    const std::vector<VoxelId> places = traversable_places(esdf, radius);
+    const std::vector<VoxelId> places = testing::traversable_places(esdf, radius);
     if (places.size() < 10 || places.size() > 400) continue;
     const std::size_t start = seed % places.size();
     const std::vector<double> shortest = shortest_by_sight(esdf, places, start, radius);

@@ -7,6 +7,7 @@
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "support/dijkstra.hpp"
+#include "support/places.hpp"
 #include "support/random_maps.hpp"
 
 namespace ridgeway {
@@ -58,17 +59,6 @@ void expect_equals_dijkstra(const EsdfMap& esdf, const std::vector<VoxelId>& pla
   }
 }
 
-std::vector<VoxelId> traversable_places(const EsdfMap& esdf, double radius,
-                                        const VoxelMask* within) {
-  std::vector<VoxelId> places;
-  for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
-    if (esdf.state[id] == VoxelState::kFree &&
-        esdf.squared[id] >= squared_threshold(radius, esdf.voxel_size) &&
-        (within == nullptr || within->test(id)))
-      places.push_back(id);
-  return places;
-}
-
 TEST(AStar, ThroughEsdfDiagramAndGraphEqualsDijkstra) {
   int esdf_routes = 0, diagram_routes = 0, graph_routes = 0;
   for (unsigned seed = 0; seed < 40; ++seed) {
@@ -79,10 +69,10 @@ TEST(AStar, ThroughEsdfDiagramAndGraphEqualsDijkstra) {
     const EsdfMap& esdf = roadmap->esdf;
     for (const double radius : {0.1, 0.125, 0.2}) {
       const VoxelMask* diagram = &roadmap->diagram.voxels;
-      expect_equals_dijkstra(esdf, traversable_places(esdf, radius, nullptr), radius, nullptr,
+      expect_equals_dijkstra(esdf, testing::traversable_places(esdf, radius), radius, nullptr,
                              esdf_routes);
-      expect_equals_dijkstra(esdf, traversable_places(esdf, radius, diagram), radius, diagram,
-                             diagram_routes);
+      expect_equals_dijkstra(esdf, testing::traversable_places(esdf, radius, diagram), radius,
+                             diagram, diagram_routes);
       const SparseGraph& graph = roadmap->graph;
       const VertexId start{static_cast<std::uint32_t>(seed % graph.vertices.size())};
       const auto costs = testing::dijkstra_graph(graph, start, radius);
@@ -140,7 +130,7 @@ TEST(AStar, KeepsToItsWeightAndToTheLengthOfInterest) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
     const EsdfMap esdf = compute_esdf(testing::random_map(seed));
-    const std::vector<VoxelId> places = traversable_places(esdf, 0.1, nullptr);
+    const std::vector<VoxelId> places = testing::traversable_places(esdf, 0.1);
     if (places.empty()) continue;
     const VoxelId start = places[seed * 7919 % places.size()];
     for (std::size_t j = 0; j < 12; ++j) {

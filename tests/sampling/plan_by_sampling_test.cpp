@@ -16,6 +16,7 @@
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "support/brute_force.hpp"
+#include "support/places.hpp"
 #include "support/random_maps.hpp"
 
 namespace ridgeway {
@@ -58,15 +59,6 @@ std::size_t iterations_of(Planner planner, std::size_t samples) {
   return planner == Planner::kBitStar ? 12 * samples : samples;
 }
 
-std::vector<VoxelId> places_at(const EsdfMap& esdf, double radius) {
-  std::vector<VoxelId> places;
-  for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
-    if (esdf.state[id] == VoxelState::kFree &&
-        esdf.squared[id] >= squared_threshold(radius, esdf.voxel_size))
-      places.push_back(id);
-  return places;
-}
-
 /// Looks at a path point by point, knowing obstacle cubes and voxel states alone.
 void expect_free(const OccupancyMap& map, UnknownPolicy policy, const std::vector<Point>& path,
                  double radius, const std::vector<VoxelIndex>& obstacles) {
@@ -92,7 +84,7 @@ TEST(Sampling, PathsOfEveryPlannerKeepTheirClearanceOnRandomMaps) {
     const EsdfMap esdf = compute_esdf(map, {.unknown = policy});
     const std::vector<VoxelIndex> obstacles = testing::all_obstacles(map, policy);
     const double radius = seed % 2 == 0 ? 0.1 : 0.125;
-    const std::vector<VoxelId> places = places_at(esdf, radius);
+    const std::vector<VoxelId> places = testing::traversable_places(esdf, radius);
     if (places.empty()) continue;
     std::mt19937 random(seed);
     for (const Planner planner : kSamplers) {
@@ -226,7 +218,7 @@ TEST(Sampling, ReachesTheOutermostPlacesOfTheMap) {
     const EsdfMap esdf = compute_esdf(testing::random_map(seed), {.unknown = policy});
     const double radius = 0.05;  // fits at the centre of every free voxel
     const FreeSpace space(esdf);
-    const std::vector<VoxelId> places = places_at(esdf, radius);
+    const std::vector<VoxelId> places = testing::traversable_places(esdf, radius);
     for (int axis = 0; axis < 3; ++axis)
       for (const double sign : {-1.0, 1.0}) {
         const auto reach = [&](VoxelId id) {
