@@ -198,7 +198,7 @@ void add_sampling_options(CLI::App& command, Options& options) {
       command.add_option("--iteration-limit", options.iteration_limit,
                          "Rounds of a planner that samples; what ends by it repeats exactly"),
       command.add_option("--range", options.sampling.range,
-                         "Longest motion that a tree grows by, metres (default: 3, or 30 voxels)"),
+                         "Longest motion that a tree grows by, metres (default: 1, or 10 voxels)"),
       command.add_flag("--first-solution", options.sampling.first_solution,
                        "Stop sampling at the first path")};
 }

@@ -129,9 +129,10 @@ Point point_of(const ompl::base::State* state) {
 
 OmplProblem make_problem(const EsdfMap& esdf, const Point& start, const Point& goal,
                          const SamplingConfig& config, OmplSeeds& seeds) {
+  const ob::RealVectorBounds bounds = sampling_bounds(esdf, config.radius);
   return seeds.seeded([&]() -> OmplProblem {
     const auto points = std::make_shared<ob::RealVectorStateSpace>(3);
-    points->setBounds(sampling_bounds(esdf, config.radius));
+    points->setBounds(bounds);
     points->setStateSamplerAllocator([&seeds](const ob::StateSpace* space) {
       return seeds.seeded([&] { return space->allocDefaultStateSampler(); });
     });
