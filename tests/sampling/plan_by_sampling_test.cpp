@@ -3,18 +3,15 @@
 #include "ridgeway/sampling/plan_by_sampling.hpp"
 
 #include <gtest/gtest.h>
-#include <ompl/util/Console.h>
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <random>
 #include <thread>
 
-#include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/esdf/free_space.hpp"
-#include "ridgeway/roadmap/build_roadmap.hpp"
+#include "sampling/two_rooms.hpp"
 #include "support/brute_force.hpp"
 #include "support/places.hpp"
 #include "support/random_maps.hpp"
@@ -22,20 +19,16 @@
 namespace ridgeway {
 namespace {
 
-constexpr std::array kSamplers{Planner::kRrtStar, Planner::kRrtConnect, Planner::kBitStar,
-                               Planner::kPrmStar, Planner::kInformedRrtStar};
+using testing::iterations_of;
+using testing::kLeft;
+using testing::kRadius;
+using testing::kRight;
+using testing::kSamplers;
+using testing::limited;
+using testing::two_rooms;
+
 constexpr std::array kGoalSeekers{Planner::kRrtStar, Planner::kBitStar, Planner::kPrmStar,
                                   Planner::kInformedRrtStar};
-constexpr double kForever = std::numeric_limits<double>::infinity();
-
-/// 6 x 4 x 2 m, voxels of 0.1 m; a wall across the middle, up to 3.4 m along y if not `shut`.
-OccupancyMap two_rooms(bool shut) {
-  return testing::make_map(0.1, {0, 0, 0}, {59, 39, 19}, [shut](const VoxelIndex& v) {
-    return v.x / 2 == 15 && (shut || v.y < 34) ? VoxelState::kOccupied : VoxelState::kFree;
-  });
-}
-const Point kLeft(1.0, 1.0, 1.0), kRight(5.0, 1.0, 1.0);
-constexpr double kRadius = 0.2;
 /// From kLeft over the rounded corners of the inflated wall to kRight, in the plane z = 1.
 double shortest_length() {
   const double dx = 2.0, dy = 2.4, r = kRadius * (1 - 1e-9);  // from an end to its corner's centre
@@ -44,19 +37,6 @@ double shortest_length() {
   const double angle = std::atan2(dx, dy) - std::asin(r / hypotenuse);  // of the tangent to y
   const double turn = std::acos(-1.0) / 2 - angle;  // from there to x, along the wall's end
   return 2.0 * (tangent + r * turn) + 0.2;
-}
-
-SamplingConfig limited(Planner planner, std::size_t iterations, std::uint64_t seed = 1) {
-  return {.planner = planner,
-          .radius = kRadius,
-          .seed = seed,
-          .time_limit = kForever,
-          .iteration_limit = iterations};
-}
-
-/// BIT* counts the edges that it looks at, the others samples.
-std::size_t iterations_of(Planner planner, std::size_t samples) {
-  return planner == Planner::kBitStar ? 12 * samples : samples;
 }
 
 /// Looks at a path point by point, knowing obstacle cubes and voxel states alone.
@@ -173,27 +153,6 @@ TEST(Sampling, SameSeedGivesTheSamePathWhateverRunsBeside) {
   }
 }
 
-TEST(Sampling, EndsAreJudgedAsByEveryOtherPlanner) {
-  const Roadmap roadmap = build_roadmap(two_rooms(false), {.min_clearance = kRadius}).roadmap;
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> x(-0.5, 6.5), y(-0.3, 4.3), z(-0.1, 2.1);
-  std::array<int, 10> seen{};
-  for (int i = 0; i < 200; ++i) {
-    const Point start(x(random), y(random), z(random)), goal(x(random), y(random), z(random));
-    const PlanStatus expected = plan(roadmap, start, goal, {.planner = Planner::kEsdf}).status;
-    const Planner planner = kSamplers[static_cast<std::size_t>(i % 5)];
-    SamplingConfig config = limited(planner, iterations_of(planner, 3000));
-    config.first_solution = true;
-    const SamplingResult result = plan_by_sampling(roadmap.esdf, start, goal, config);
-    EXPECT_EQ(result.plan.status, expected);
-    ++seen[static_cast<std::size_t>(expected)];
-  }
-  for (const PlanStatus status :
-       {PlanStatus::kOk, PlanStatus::kStartOutsideMap, PlanStatus::kStartInCollision,
-        PlanStatus::kGoalOutsideMap, PlanStatus::kGoalInCollision})
-    EXPECT_GT(seen[static_cast<std::size_t>(status)], 0) << name_of(status);
-}
-
 TEST(Sampling, FindsNothingThroughAWallAndSaysThatTheLimitPassed) {
   const EsdfMap esdf = compute_esdf(two_rooms(true));
   for (const Planner planner : kSamplers) {
@@ -259,49 +218,6 @@ TEST(Sampling, SolvesTheTrivialQueries) {
     EXPECT_EQ(straight.iterations, 0u);
     EXPECT_EQ(straight.first_length, straight.plan.length);
   }
-}
-
-TEST(Sampling, LeavesTheMessagesOfOmplToTheirOwner) {
-  const EsdfMap esdf = compute_esdf(two_rooms(true));
-  const auto* const before = ompl::msg::getOutputHandler();
-  ::testing::internal::CaptureStdout();
-  ::testing::internal::CaptureStderr();
-  for (const Planner planner : kSamplers)
-    plan_by_sampling(esdf, kLeft, kRight, limited(planner, 50));
-  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
-  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
-  EXPECT_EQ(ompl::msg::getOutputHandler(), before);
-  EXPECT_NE(before, nullptr);
-}
-
-TEST(Sampling, RefusesBadConfigurations) {
-  const EsdfMap esdf = compute_esdf(two_rooms(false), {.max_distance = 1.0});
-  const auto expect_refused = [&](SamplingConfig config, const std::string& where) {
-    try {
-      plan_by_sampling(esdf, kLeft, kRight, config);
-      ADD_FAILURE() << where << " was accepted";
-    } catch (const InputError& error) {
-      EXPECT_TRUE(error.where().starts_with(where)) << error.what();
-    }
-  };
-  const double nan = std::nan("");
-  const SamplingConfig good = limited(Planner::kRrtConnect, 100);
-  const auto with = [&](auto SamplingConfig::*field, auto value) {
-    SamplingConfig config = good;
-    config.*field = value;
-    return config;
-  };
-  expect_refused(with(&SamplingConfig::planner, Planner::kEsdf), "planner");
-  for (const double radius : {0.0, -1.0, nan, kForever, 0.9})
-    expect_refused(with(&SamplingConfig::radius, radius), "radius");
-  for (const double limit : {0.0, -1.0, nan})
-    expect_refused(with(&SamplingConfig::time_limit, limit), "time_limit");
-  for (const double range : {-1.0, nan, kForever})
-    expect_refused(with(&SamplingConfig::range, range), "range");
-  expect_refused(with(&SamplingConfig::iteration_limit, SamplingConfig{}.iteration_limit),
-                 "time_limit");
-  EXPECT_THROW(plan_by_sampling(esdf, Point(nan, 0, 0), kRight, good), InputError);
-  EXPECT_THROW(PlanConfig{.planner = Planner::kRrtStar}.validate(), InputError);
 }
 
 }  // namespace
