@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 The Ridgeway authors
 
-# Installation, find_package(ridgeway COMPONENTS core io), and the Debian packages ridgeway (the
-# program) and ridgeway-dev (headers and static libraries).
+# Installation, find_package(ridgeway COMPONENTS core sampling io), and the Debian packages ridgeway
+# (the program) and ridgeway-dev (headers and static libraries).
 
 include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/ridgeway")
 
-# Core: every module but io, and the umbrella ridgeway::ridgeway.
+# Core: every module but sampling and io, and the umbrella ridgeway::ridgeway.
 get_property(core_modules GLOBAL PROPERTY RIDGEWAY_MODULES_core)
 install(
   TARGETS ${core_modules} ridgeway
@@ -20,23 +20,31 @@ install(
   COMPONENT dev
   FILES_MATCHING
   PATTERN "*.hpp"
-  PATTERN "io" EXCLUDE)
+  PATTERN "io" EXCLUDE
+  PATTERN "sampling" EXCLUDE)
 
-get_property(io_modules GLOBAL PROPERTY RIDGEWAY_MODULES_io)
-if(io_modules)
+# install_component(<name> <file>...): the modules of a further component, their headers, and the
+# files that find what they need.
+function(install_component name)
+  get_property(modules GLOBAL PROPERTY RIDGEWAY_MODULES_${name})
+  if(NOT modules)
+    return()
+  endif()
   install(
-    TARGETS ${io_modules}
-    EXPORT ridgeway-io
+    TARGETS ${modules}
+    EXPORT ridgeway-${name}
     ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev)
-  install(EXPORT ridgeway-io NAMESPACE ridgeway:: DESTINATION "${package_dir}" COMPONENT dev)
+  install(EXPORT ridgeway-${name} NAMESPACE ridgeway:: DESTINATION "${package_dir}" COMPONENT dev)
   install(
-    DIRECTORY include/ridgeway/io
+    DIRECTORY include/ridgeway/${name}
     DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/ridgeway"
     COMPONENT dev
     FILES_MATCHING
     PATTERN "*.hpp")
-  install(FILES cmake/FindLZF.cmake DESTINATION "${package_dir}" COMPONENT dev)
-endif()
+  install(FILES ${ARGN} DESTINATION "${package_dir}" COMPONENT dev)
+endfunction()
+install_component(sampling cmake/FindOMPL.cmake)
+install_component(io cmake/FindLZF.cmake)
 
 configure_package_config_file(
   cmake/ridgewayConfig.cmake.in "${PROJECT_BINARY_DIR}/ridgewayConfig.cmake"
@@ -80,6 +88,9 @@ if(PROJECT_IS_TOP_LEVEL)
   set(CPACK_DEBIAN_DEV_PACKAGE_NAME ridgeway-dev)
   set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
   set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, libtbb-dev")
-  set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "pkg-config, libcairo2-dev, libzstd-dev, liblzf-dev, libpng-dev, libyaml-cpp-dev, libassimp-dev")
+  string(
+    JOIN ", " CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS
+    libompl-dev
+    pkg-config libcairo2-dev libzstd-dev liblzf-dev libpng-dev libyaml-cpp-dev libassimp-dev)
   include(CPack)
 endif()

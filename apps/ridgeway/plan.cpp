@@ -18,6 +18,7 @@
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/io/path_io.hpp"
 #include "ridgeway/io/ridge_file.hpp"
+#include "ridgeway/sampling/plan_by_sampling.hpp"
 #include "roadmap_facts.hpp"
 
 namespace ridgeway::cli {
@@ -27,49 +28,84 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   std::string file, from, to, planner = "graph", output, queries;
-  std::optional<double> radius;
-  double time_limit = std::numeric_limits<double>::infinity();
+  std::optional<double> radius, time_limit;
   bool raw = false;
   int repeat = 1;
+  SamplingConfig sampling;  // of planners that sample
+  std::optional<std::size_t> iteration_limit;
+  std::vector<const CLI::Option*> sampling_options;  // those that the two above come from
+
+  Planner chosen() const { return planner_named(planner).value_or(Planner::kGraph); }
 };
 
-PlanConfig plan_config(const Options& options) {
-  PlanConfig config;
-  for (const Planner planner : {Planner::kGraph, Planner::kDiagram, Planner::kEsdf})
-    if (options.planner == name_of(planner)) config.planner = planner;
-  config.radius = options.radius;
-  config.shorten = !options.raw;
-  config.time_limit = options.time_limit;
-  config.validate();
+/// What was planned; of planners that do not sample only the plan.
+using Answer = SamplingResult;
+
+PlanConfig plan_config(const Options& options, std::optional<double> radius) {
+  PlanConfig config{.planner = options.chosen(), .radius = radius, .shorten = !options.raw};
+  if (options.time_limit) config.time_limit = *options.time_limit;
   return config;
 }
 
-/// Plans `repeat` times; the times are then medians.
-PlanResult plan_repeatedly(const Roadmap& roadmap, const Query& query, PlanConfig config,
-                           int repeat) {
-  config.radius = query.radius;
-  PlanResult result = plan(roadmap, query.start, query.goal, config);
-  std::vector<PlanSeconds> runs = {result.seconds};
-  while (runs.size() < static_cast<std::size_t>(repeat))
-    runs.push_back(plan(roadmap, query.start, query.goal, config).seconds);
+SamplingConfig sampling_config(const Options& options, double radius) {
+  SamplingConfig config = options.sampling;
+  config.planner = options.chosen();
+  config.radius = radius;
+  config.shorten = !options.raw;
+  if (options.time_limit) config.time_limit = *options.time_limit;
+  if (options.iteration_limit) config.iteration_limit = *options.iteration_limit;
+  return config;
+}
+
+/// Found before the file is loaded.
+void validate(const Options& options) {
+  if (is_sampling(options.chosen()))
+    return sampling_config(options, options.radius.value_or(1.0)).validate();
+  plan_config(options, options.radius).validate();
+  for (const CLI::Option* option : options.sampling_options)
+    if (option->count() > 0)
+      throw InputError(option->get_name(), "is of planners that sample",
+                       "leave it out with --planner " + options.planner);
+}
+
+/// Plans once; the seed of a further run is the next one.
+Answer plan_once(const Roadmap& roadmap, const Query& query, const Options& options, int run) {
+  if (!is_sampling(options.chosen()))
+    return {.plan = plan(roadmap, query.start, query.goal, plan_config(options, query.radius))};
+  SamplingConfig config = sampling_config(options, query.radius);
+  config.seed += static_cast<std::uint64_t>(run);
+  return plan_by_sampling(roadmap.esdf, query.start, query.goal, config);
+}
+
+/// Plans `repeat` times; the times are then medians, the rest is of the first run.
+Answer plan_repeatedly(const Roadmap& roadmap, const Query& query, const Options& options) {
+  Answer answer = plan_once(roadmap, query, options, 0);
+  std::vector<PlanSeconds> runs = {answer.plan.seconds};
+  for (int run = 1; run < options.repeat; ++run)
+    runs.push_back(plan_once(roadmap, query, options, run).plan.seconds);
   for (double PlanSeconds::*part :
        {&PlanSeconds::attach, &PlanSeconds::search, &PlanSeconds::shorten, &PlanSeconds::total}) {
     const auto middle = runs.begin() + static_cast<std::ptrdiff_t>(runs.size() / 2);
     std::nth_element(runs.begin(), middle, runs.end(),
                      [&](const auto& a, const auto& b) { return a.*part < b.*part; });
-    result.seconds.*part = (*middle).*part;
+    answer.plan.seconds.*part = (*middle).*part;
   }
-  return result;
+  return answer;
 }
 
-Json json_of(const PlanResult& result, const Query& query, const std::string& reason) {
-  Json json = Json::parse(plan_json(result));
+Json json_of(const Answer& answer, const Query& query, const std::string& reason) {
+  Json json = Json::parse(plan_json(answer.plan));
   json["radius"] = query.radius;
-  if (!result.ok()) json["reason"] = reason;
+  if (!answer.plan.ok()) json["reason"] = reason;
+  if (!is_sampling(answer.plan.answered_by)) return json;
+  json["iterations"] = answer.iterations;
+  if (answer.plan.ok())
+    json["first_solution"] = {{"seconds", answer.first_seconds}, {"length", answer.first_length}};
   return json;
 }
 
-void print_result(const PlanResult& result, const Query& query, const std::string& reason) {
+void print_result(const Answer& answer, const Query& query, const std::string& reason) {
+  const PlanResult& result = answer.plan;
   if (!result.ok()) {
     print_row("no path", std::string(name_of(result.status)));
     print_row("reason", reason);
@@ -83,20 +119,24 @@ void print_result(const PlanResult& result, const Query& query, const std::strin
   print_row("beside unknown", text_of(100.0 * result.unknown_share, 0) + " % of the length");
   print_row("time", seconds_text(s.total) + " (attach " + seconds_text(s.attach) + ", search " +
                         seconds_text(s.search) + ", shorten " + seconds_text(s.shorten) + ")");
+  if (is_sampling(result.answered_by))
+    print_row("first path", seconds_text(answer.first_seconds) + ", " +
+                                text_of(answer.first_length) + " m; " +
+                                count_text(answer.iterations) + " iterations");
 }
 
-int run_one(const Options& options, const Roadmap& roadmap, const PlanConfig& config,
-            const Globals& globals) {
+int run_one(const Options& options, const Roadmap& roadmap, const Globals& globals) {
   const Query query = {parse_point(options.from, "--from"), parse_point(options.to, "--to"),
-                       config.radius.value_or(roadmap.min_clearance)};
-  const PlanResult result = plan_repeatedly(roadmap, query, config, options.repeat);
+                       options.radius.value_or(roadmap.min_clearance)};
+  const Answer answer = plan_repeatedly(roadmap, query, options);
+  const PlanResult& result = answer.plan;
   const std::string reason = explain(roadmap, query, result.status, options.file);
   const bool write = result.ok() && !options.output.empty();
   if (write) write_plan(result, options.output);
   if (globals.json) {
-    print_json(json_of(result, query, reason));
+    print_json(json_of(answer, query, reason));
   } else {
-    print_result(result, query, reason);
+    print_result(answer, query, reason);
     if (write)
       print_row("written to", options.output);
     else
@@ -105,18 +145,19 @@ int run_one(const Options& options, const Roadmap& roadmap, const PlanConfig& co
   return result.ok() ? kExitDone : kExitNoPlan;
 }
 
-int run_batch(const Options& options, const Roadmap& roadmap, const PlanConfig& config,
-              const Globals& globals) {
-  const std::vector<Query> queries = read_queries(
-      options.queries, config.radius.value_or(roadmap.min_clearance), largest_radius(roadmap.esdf));
+int run_batch(const Options& options, const Roadmap& roadmap, const Globals& globals) {
+  const std::vector<Query> queries =
+      read_queries(options.queries, options.radius.value_or(roadmap.min_clearance),
+                   largest_radius(roadmap.esdf));
   Json results = Json::array();
   std::size_t solved = 0;
   for (const Query& query : queries) {
-    const PlanResult result = plan_repeatedly(roadmap, query, config, options.repeat);
+    const Answer answer = plan_repeatedly(roadmap, query, options);
+    const PlanResult& result = answer.plan;
     const std::string reason = explain(roadmap, query, result.status, options.file);
     solved += result.ok();
     if (globals.json) {
-      results.push_back(json_of(result, query, reason));
+      results.push_back(json_of(answer, query, reason));
     } else if (result.ok()) {
       print_row("ok", text_of(result.length) + " m, clearance " + text_of(result.clearance) +
                           " m, " + seconds_text(result.seconds.total));
@@ -132,7 +173,7 @@ int run_batch(const Options& options, const Roadmap& roadmap, const PlanConfig& 
 }
 
 int run(const Options& options, const Globals& globals) {
-  const PlanConfig config = plan_config(options);
+  validate(options);
   const bool batch = !options.queries.empty();
   if (batch == (!options.from.empty() || !options.to.empty()) ||
       (!batch && (options.from.empty() || options.to.empty())))
@@ -147,8 +188,19 @@ int run(const Options& options, const Globals& globals) {
     require_writable({options.output}, {options.file});
   }
   const Roadmap roadmap = load_roadmap(options.file);
-  return batch ? run_batch(options, roadmap, config, globals)
-               : run_one(options, roadmap, config, globals);
+  return batch ? run_batch(options, roadmap, globals) : run_one(options, roadmap, globals);
+}
+
+void add_sampling_options(CLI::App& command, Options& options) {
+  add_seed_option(command, options.sampling.seed, "Of a planner that samples");
+  options.sampling_options = {
+      command.get_option("--seed"),
+      command.add_option("--iteration-limit", options.iteration_limit,
+                         "Rounds of a planner that samples; what ends by it repeats exactly"),
+      command.add_option("--range", options.sampling.range,
+                         "Longest motion that a tree grows by, metres (default: 1, or 10 voxels)"),
+      command.add_flag("--first-solution", options.sampling.first_solution,
+                       "Stop sampling at the first path")};
 }
 
 }  // namespace
@@ -159,13 +211,21 @@ void add_plan_command(CLI::App& app, const Globals& globals, Command& chosen) {
   command->add_option("roadmap", options->file, "Roadmap, .ridge")->required();
   command->add_option("--from", options->from, "Start X,Y,Z, metres");
   command->add_option("--to", options->to, "Goal X,Y,Z, metres");
-  command->add_option("--planner", options->planner, "What is searched: graph, diagram or esdf")
-      ->check(CLI::IsMember({"graph", "diagram", "esdf"}))
+  command
+      ->add_option(
+          "--planner", options->planner,
+          "What is searched: graph, diagram, esdf (A* over voxels), theta (the same at any "
+          "angle); or by sampling: rrtstar, rrtconnect, bitstar, prmstar, informedrrtstar")
+      ->check([](const std::string& name) {
+        return planner_named(name) ? std::string() : "'" + name + "' is no planner";
+      })
       ->capture_default_str();
   command->add_option("--radius", options->radius,
                       "Robot radius, metres (default: the smallest the roadmap is for)");
   command->add_flag("--raw", options->raw, "Do not shorten the path");
-  command->add_option("--time-limit", options->time_limit, "Seconds (default: no limit)");
+  command->add_option("--time-limit", options->time_limit,
+                      "Seconds (default: no limit, 10 where the planner samples)");
+  add_sampling_options(*command, *options);
   CLI::Option* output =
       command->add_option("-o,--output", options->output, "Path to write, .csv or .json");
   command

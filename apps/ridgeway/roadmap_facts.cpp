@@ -89,7 +89,7 @@ std::string explain(const Roadmap& roadmap, const Query& query, PlanStatus statu
              " and more, asked for " + metres(query.radius) +
              ": give a larger --radius, or build the map with a smaller --min-clearance";
     case PlanStatus::kTimeout:
-      return "the time was over before the search: give a larger --time-limit";
+      return "the limit came before a path was found: give a larger --time-limit";
     default:
       return explain_endpoint(roadmap, query, status);
   }

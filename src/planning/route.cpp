@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "any_angle_search.hpp"
 #include "attach_way.hpp"
 #include "endpoint.hpp"
 #include "graph_search.hpp"
@@ -128,11 +129,13 @@ Reach compare_ways(const Roadmap& roadmap, const RouteQuery& query, const Attach
   return from_is_pocket || to_is_pocket ? Reach::kApart : Reach::kUnclear;
 }
 
-void search_voxels(const Roadmap& roadmap, const RouteQuery& query, const VoxelMask* within,
+void search_voxels(const Roadmap& roadmap, const RouteQuery& query, Planner planner,
                    const Deadline& deadline, RouteResult& result) {
-  result.answered_by = within != nullptr ? Planner::kDiagram : Planner::kEsdf;
-  LatticePath path = search_lattice(roadmap.esdf, query.from, query.to, query.radius,
-                                    {.within = within}, deadline);
+  const bool any_angle = planner == Planner::kThetaStar;
+  result.answered_by = any_angle ? Planner::kThetaStar : Planner::kEsdf;
+  LatticePath path =
+      any_angle ? search_any_angle(roadmap.esdf, query.from, query.to, query.radius, deadline)
+                : search_lattice(roadmap.esdf, query.from, query.to, query.radius, {}, deadline);
   result.status = path.status;
   if (path.status == SearchStatus::kFound)
     result.route = route_over_voxels(roadmap.esdf, query, path.voxels);
@@ -165,8 +168,8 @@ RouteResult find_route(const Roadmap& roadmap, const RouteQuery& query, Planner 
                        const Deadline& deadline) {
   RouteResult result;
   const double began = seconds_now();
-  if (planner == Planner::kEsdf) {
-    search_voxels(roadmap, query, nullptr, deadline, result);
+  if (planner == Planner::kEsdf || planner == Planner::kThetaStar) {
+    search_voxels(roadmap, query, planner, deadline, result);
     result.search_seconds = seconds_now() - began;
     return result;
   }
@@ -191,7 +194,7 @@ RouteResult find_route(const Roadmap& roadmap, const RouteQuery& query, Planner 
     if (result.status == SearchStatus::kNoRoute && from.met_diagram && to.met_diagram)
       search_diagram(roadmap, query, std::move(from), std::move(to), deadline, result);
     if (result.status == SearchStatus::kNoRoute)
-      search_voxels(roadmap, query, nullptr, deadline, result);
+      search_voxels(roadmap, query, Planner::kEsdf, deadline, result);
   }
   result.search_seconds = seconds_now() - attached;
   return result;

@@ -3,14 +3,13 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include "deadline.hpp"
 #include "lattice_search.hpp"
+#include "query.hpp"
 #include "ridgeway/esdf/free_space.hpp"
-#include "ridgeway/planning/plan.hpp"
 
 namespace ridgeway::detail {
 
@@ -21,12 +20,6 @@ struct RouteQuery {
   VoxelId from, to;  ///< traversable voxels that start and goal join
   Point start, goal;
   double radius;
-};
-
-/// Waypoints of a route between which every segment is an edge of the graph; none if first == last.
-struct EdgeStretch {
-  std::size_t first = 0, last = 0;
-  double clearance = std::numeric_limits<double>::infinity();  ///< of the narrowest edge, metres
 };
 
 struct RouteResult {

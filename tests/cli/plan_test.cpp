@@ -23,13 +23,33 @@ TEST_F(CliPlan, JsonHasTheKeysThatScriptsRelyOn) {
 
 TEST_F(CliPlan, EveryPlannerAnswers) {
   const std::string map = rooms();
-  for (const char* planner : {"graph", "diagram", "esdf"}) {
+  for (const char* planner : {"graph", "diagram", "esdf", "theta", "rrtstar", "rrtconnect",
+                              "bitstar", "prmstar", "informedrrtstar"}) {
     const Json json = run({"plan", map, "--from", "-2,1.5,1", "--to", "2,1.5,1", "--planner",
-                           planner, "--raw", "--json"})
+                           planner, "--raw", "--json", "--time-limit", "0.2"})
                           .json();
     EXPECT_EQ(json["answered_by"], planner);
     EXPECT_EQ(json["status"], "ok");
+    EXPECT_EQ(json.contains("first_solution"), json.contains("iterations"));
+    EXPECT_EQ(json.contains("iterations"),
+              std::string(planner).ends_with("star") || std::string(planner) == "rrtconnect");
   }
+}
+
+TEST_F(CliPlan, SeedsRepeatPlannersThatSampleAndAreRefusedByOthers) {
+  const std::string map = rooms();
+  const auto waypoints = [&](const std::string& seed) {
+    return run({"plan", map, "--from", "-2,1.5,1", "--to", "2,1.5,1", "--planner", "rrtstar",
+                "--seed", seed, "--iteration-limit", "500", "--raw", "--json"})
+        .json()["waypoints"];
+  };
+  EXPECT_GT(waypoints("1").size(), 2u);
+  EXPECT_EQ(waypoints("1"), waypoints("1"));
+  EXPECT_NE(waypoints("1"), waypoints("2"));
+  expect_refused({"plan", map, "--from", "0,0,1", "--to", "2,1.5,1", "--seed", "2"},
+                 {"--seed", "sample"});
+  expect_refused({"plan", map, "--from", "0,0,1", "--to", "2,1.5,1", "--planner", "dijkstra"},
+                 {"dijkstra"});
 }
 
 TEST_F(CliPlan, WritesPathsThatExportDraws) {

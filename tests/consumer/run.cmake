@@ -17,3 +17,4 @@ run(
 run("${CMAKE_COMMAND}" --build "${WORK_DIR}/build")
 run("${WORK_DIR}/build/consumer_core" "${VERSION}")
 run("${WORK_DIR}/build/consumer_io")
+run("${WORK_DIR}/build/consumer_sampling")

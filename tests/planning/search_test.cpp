@@ -4,8 +4,10 @@
 
 #include "../src/planning/graph_search.hpp"
 #include "../src/planning/lattice_search.hpp"
+#include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "support/dijkstra.hpp"
+#include "support/places.hpp"
 #include "support/random_maps.hpp"
 
 namespace ridgeway {
@@ -57,17 +59,6 @@ void expect_equals_dijkstra(const EsdfMap& esdf, const std::vector<VoxelId>& pla
   }
 }
 
-std::vector<VoxelId> traversable_places(const EsdfMap& esdf, double radius,
-                                        const VoxelMask* within) {
-  std::vector<VoxelId> places;
-  for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
-    if (esdf.state[id] == VoxelState::kFree &&
-        esdf.squared[id] >= squared_threshold(radius, esdf.voxel_size) &&
-        (within == nullptr || within->test(id)))
-      places.push_back(id);
-  return places;
-}
-
 TEST(AStar, ThroughEsdfDiagramAndGraphEqualsDijkstra) {
   int esdf_routes = 0, diagram_routes = 0, graph_routes = 0;
   for (unsigned seed = 0; seed < 40; ++seed) {
@@ -78,10 +69,10 @@ TEST(AStar, ThroughEsdfDiagramAndGraphEqualsDijkstra) {
     const EsdfMap& esdf = roadmap->esdf;
     for (const double radius : {0.1, 0.125, 0.2}) {
       const VoxelMask* diagram = &roadmap->diagram.voxels;
-      expect_equals_dijkstra(esdf, traversable_places(esdf, radius, nullptr), radius, nullptr,
+      expect_equals_dijkstra(esdf, testing::traversable_places(esdf, radius), radius, nullptr,
                              esdf_routes);
-      expect_equals_dijkstra(esdf, traversable_places(esdf, radius, diagram), radius, diagram,
-                             diagram_routes);
+      expect_equals_dijkstra(esdf, testing::traversable_places(esdf, radius, diagram), radius,
+                             diagram, diagram_routes);
       const SparseGraph& graph = roadmap->graph;
       const VertexId start{static_cast<std::uint32_t>(seed % graph.vertices.size())};
       const auto costs = testing::dijkstra_graph(graph, start, radius);
@@ -102,6 +93,65 @@ TEST(AStar, ThroughEsdfDiagramAndGraphEqualsDijkstra) {
   EXPECT_GT(esdf_routes, 500);
   EXPECT_GT(diagram_routes, 500);
   EXPECT_GT(graph_routes, 200);
+}
+
+TEST(AStar, WithPenaltiesEqualsDijkstraOnLongerEdges) {
+  int routes = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto roadmap = random_roadmap(seed, 0.1, UnknownPolicy::kObstacle);
+    if (!roadmap) continue;
+    const SparseGraph& graph = roadmap->graph;
+    SparseGraph longer = graph;
+    std::vector<float> penalty(graph.edges.size());
+    for (std::size_t e = 0; e < penalty.size(); ++e) {
+      penalty[e] = 1.0f + 0.25f * static_cast<float>((e * 7 + seed) % 9);
+      longer.edges[e].length *= static_cast<double>(penalty[e]);
+    }
+    const VertexId start{static_cast<std::uint32_t>(seed % graph.vertices.size())};
+    const auto costs = testing::dijkstra_graph(longer, start, 0.1);
+    for (std::uint32_t v = 0; v < graph.vertices.size(); ++v) {
+      const auto route = detail::search_graph(graph, start, VertexId{v}, 0.1, &penalty);
+      ASSERT_EQ(!route.empty(), costs.contains(VertexId{v}));
+      double cost = 0.0;
+      for (std::size_t i = 1; i < route.size(); ++i)
+        cost += longer.edges[number(detail::edge_between(graph, route[i - 1], route[i]))].length;
+      if (!route.empty()) {
+        ASSERT_NEAR(cost, costs.at(VertexId{v}), 1e-9);
+      }
+      routes += route.size() > 2;
+    }
+  }
+  EXPECT_GT(routes, 100);
+}
+
+TEST(AStar, KeepsToItsWeightAndToTheLengthOfInterest) {
+  int routes = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const EsdfMap esdf = compute_esdf(testing::random_map(seed));
+    const std::vector<VoxelId> places = testing::traversable_places(esdf, 0.1);
+    if (places.empty()) continue;
+    const VoxelId start = places[seed * 7919 % places.size()];
+    for (std::size_t j = 0; j < 12; ++j) {
+      const VoxelId goal = places[(seed * 31 + j * 104729) % places.size()];
+      const LatticePath best = detail::search_lattice(esdf, start, goal, 0.1, {}, kNever);
+      const auto search = [&](const detail::LatticeOptions& options) {
+        return detail::search_lattice(esdf, start, goal, 0.1, options, kNever);
+      };
+      ASSERT_EQ(search({.weight = 1.5}).status, best.status);
+      if (best.status != SearchStatus::kFound) continue;
+      ++routes;
+      ASSERT_GE(search({.weight = 1.5}).cost, best.cost - 1e-9);
+      // Buckets leave an estimate's order free within a quarter of a voxel.
+      ASSERT_LE(search({.weight = 1.5}).cost, 1.5 * best.cost + 0.25);
+      ASSERT_NEAR(search({.longest = best.cost + 1e-6}).cost, best.cost, 1e-9);
+      if (best.cost > 0.0) {
+        ASSERT_EQ(search({.longest = best.cost - 1e-6}).status, SearchStatus::kNoRoute);
+      }
+    }
+  }
+  EXPECT_GT(routes, 200);
 }
 
 TEST(AStar, StopsAtItsDeadline) {

@@ -25,12 +25,27 @@ enum class PlanStatus : std::uint8_t {
   kTimeout,
 };
 
-/// Which structure is searched, and which one answered.
-enum class Planner : std::uint8_t { kGraph, kDiagram, kEsdf };
+/// Which structure is searched and how, and which one answered.
+enum class Planner : std::uint8_t {
+  kGraph,
+  kDiagram,
+  kEsdf,       ///< A* over the voxel lattice
+  kThetaStar,  ///< lazy Theta*: the same lattice, at any angle
+  // By sampling, see sampling/plan_by_sampling.hpp:
+  kRrtStar,
+  kRrtConnect,
+  kBitStar,
+  kPrmStar,
+  kInformedRrtStar,
+};
+constexpr bool is_sampling(Planner planner) { return planner >= Planner::kRrtStar; }
 
-/// Names as in the JSON output: "ok", "start_outside_map", ...; "graph", "diagram", "esdf".
+/// Names as in the JSON output: "ok", "start_outside_map", ...; "graph", "diagram", "esdf",
+/// "theta", "rrtstar", "rrtconnect", "bitstar", "prmstar", "informedrrtstar".
 std::string_view name_of(PlanStatus status);
 std::string_view name_of(Planner planner);
+/// The planner of a name, or nothing.
+std::optional<Planner> planner_named(std::string_view name);
 
 struct PlanConfig {
   Planner planner = Planner::kGraph;
@@ -39,7 +54,8 @@ struct PlanConfig {
   bool shorten = true;  ///< pull the path tight; otherwise as the search found it
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds
 
-  /// Throws InputError naming the bad field (radius or time limit negative, NaN).
+  /// Throws InputError naming the bad field (radius or time limit negative, NaN; a planner that
+  /// samples).
   void validate() const;
 };
 

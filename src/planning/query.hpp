@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <limits>
+
+#include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/planning/plan.hpp"
+
+namespace ridgeway::detail {
+
+// What every planner does with a query before its search, and with a path after it.
+
+/// Throws InputError where a point is no number, or the radius is larger than the map knows
+/// distances for.
+void validate_query(const EsdfMap& esdf, const Point& start, const Point& goal, double radius);
+
+/// The traversable voxels that start and goal join, or which of the two does not, and why.
+struct QueryEnds {
+  PlanStatus status = PlanStatus::kOk;
+  VoxelId from = kNoVoxel, to = kNoVoxel;
+};
+QueryEnds find_ends(const EsdfMap& esdf, const Point& start, const Point& goal, double radius);
+
+/// Waypoints of a route between which every segment is an edge of the graph; none if first == last.
+struct EdgeStretch {
+  std::size_t first = 0, last = 0;
+  double clearance = std::numeric_limits<double>::infinity();  ///< of the narrowest edge, metres
+};
+
+/// Length, clearance and the share that borders the unknown, of the result's waypoints.
+void describe(const EsdfMap& esdf, const FreeSpace& space, const EdgeStretch& edges,
+              PlanResult& result);
+
+/// No path leaves unverified: its clearance, measured along every segment (along the graph's edges
+/// when they were made or loaded), must be the radius, and where unknown space is no obstacle it
+/// must keep to what is known. The result must have been described.
+bool is_verified(const EsdfMap& esdf, const FreeSpace& space, const PlanResult& result,
+                 double radius);
+
+}  // namespace ridgeway::detail

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <ompl/base/ProblemDefinition.h>
+
+#include <functional>
+
+#include "ompl_process.hpp"
+#include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/sampling/plan_by_sampling.hpp"
+
+namespace ridgeway::detail {
+
+/// A query in OMPL's terms: points of the box around the known free voxels, the free-space
+/// predicate for places and motions, length as the cost. `esdf` and `seeds` must outlive it.
+struct OmplProblem {
+  ompl::base::SpaceInformationPtr space;
+  ompl::base::ProblemDefinitionPtr definition;
+};
+OmplProblem make_problem(const EsdfMap& esdf, const Point& start, const Point& goal,
+                         const SamplingConfig& config, OmplSeeds& seeds);
+
+Point point_of(const ompl::base::State* state);
+
+/// The waypoints of the best path found; empty where there is none.
+std::vector<Point> solution_of(const ompl::base::ProblemDefinition& definition);
+
+}  // namespace ridgeway::detail

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <vector>
+
+#include "ridgeway/esdf/esdf_map.hpp"
+
+namespace ridgeway::testing {
+
+/// All voxels whose centre a sphere fits at, or those of a set.
+inline std::vector<VoxelId> traversable_places(const EsdfMap& esdf, double radius,
+                                               const VoxelMask* within = nullptr) {
+  std::vector<VoxelId> places;
+  for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
+    if (esdf.state[id] == VoxelState::kFree &&
+        esdf.squared[id] >= squared_threshold(radius, esdf.voxel_size) &&
+        (within == nullptr || within->test(id)))
+      places.push_back(id);
+  return places;
+}
+
+}  // namespace ridgeway::testing
