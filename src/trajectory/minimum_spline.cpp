@@ -5,7 +5,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "ridgeway/common/error.hpp"
@@ -135,7 +134,6 @@ void MinimumSpline::factor() {
     if (i > 0) block -= below_[i - 1].transpose() * below_[i - 1];
     const Eigen::LLT<Block> cholesky(block);
     const Block lower = cholesky.matrixL();
-    if (getenv("DBG") && ((lower.diagonal().array().square() < kSmallestPivot * before.array()).any())) {for (double t : durations_) fprintf(stderr,"%g ",t); fprintf(stderr,"info %d\n", (int)cholesky.info());}
     if (cholesky.info() != Eigen::Success ||
         (lower.diagonal().array().square() < kSmallestPivot * before.array()).any())
       throw InputError("spline knot " + std::to_string(i), "leaves the spline free to move",

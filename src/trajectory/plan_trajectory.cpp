@@ -52,6 +52,21 @@ TrajectorySegment standing_at(const Point& p) {
   return segment;
 }
 
+/// Yaw, duration, peaks, clearance.
+void describe(const EsdfMap& esdf, const std::vector<Point>& path, const TrajectoryConfig& config,
+              TrajectoryResult& result) {
+  Trajectory& trajectory = result.trajectory;
+  if (trajectory.segments.empty()) trajectory.segments.push_back(standing_at(path.front()));
+  detail::assign_yaw(trajectory, knot_size(config.smoothness), config.limits.max_yaw_rate,
+                     config.start_yaw, config.follow_yaw);
+  const int corners = static_cast<int>(path.size()) - 2;
+  if (corners > 0 && result.stops >= corners) result.step = TrajectoryStep::kStopAndGo;
+  result.duration = trajectory.duration();
+  result.peaks = find_peaks(trajectory);
+  result.clearance =
+      std::max(clearance_of(esdf, trajectory), config.radius * (1.0 - 1e-9));  // as verified
+}
+
 void require_start_within_limits(const TrajectoryConfig& config) {
   if (config.start_velocity.norm() > config.limits.max_speed)
     throw InputError("start_velocity", "is faster than max_speed", "raise the limit or slow down");
@@ -115,17 +130,19 @@ TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> pat
 
   const StartState start{config.start_velocity, config.start_acceleration};
   SmoothPath smooth(esdf, config, result);
-  if (!smooth.run(points, start)) return finish(TrajectoryStatus::kCannotStopInTime);
-
-  Trajectory& trajectory = result.trajectory;
-  if (trajectory.segments.empty()) trajectory.segments.push_back(standing_at(points.front()));
-  detail::assign_yaw(trajectory, knot_size(config.smoothness), config.limits.max_yaw_rate,
-                     config.start_yaw, config.follow_yaw);
-  result.duration = trajectory.duration();
-  result.peaks = find_peaks(trajectory);
-  const double verifying = seconds_now();
-  result.clearance = std::max(clearance_of(space, trajectory), config.radius * (1.0 - 1e-9));
-  result.seconds.verify += seconds_now() - verifying;
+  auto found = smooth.run(points, start);
+  if (!found) return finish(TrajectoryStatus::kCannotStopInTime);
+  const Trajectory halting = smooth.stop_and_go(points);
+  result.stop_and_go_duration = halting.duration();
+  result.trajectory = std::move(*found);
+  // Stretches were verified one by one; straight ones hold by the path, but nothing leaves unseen.
+  if (!smooth.holds(result.trajectory)) {
+    result.trajectory = halting;
+    result.step = TrajectoryStep::kStopAndGo;
+    result.stops = static_cast<int>(points.size()) - 2;
+    if (!start.is_rest() || !smooth.holds(halting)) return finish(TrajectoryStatus::kPathNotFree);
+  }
+  describe(esdf, points, config, result);
   return finish(TrajectoryStatus::kOk);
 }
 

@@ -6,16 +6,19 @@
 #include <chrono>
 #include <cmath>
 
+#include "obstacle_field.hpp"
 #include "ridgeway/trajectory/verify_trajectory.hpp"
+#include "speed_scaling.hpp"
 #include "straight_motion.hpp"
 
 namespace ridgeway::detail {
 namespace {
 
-constexpr double kPushHarder = 10.0;       // times the collision weight
-constexpr double kSpacingOfStop = 0.75;    // times v^2 / a: knots' distance along the path
-constexpr double kWithin = 1.0 + 1e-5;     // slower by this, so that certified peaks hold limits
-constexpr double kSlowerEachTry = 1.15;
+constexpr double kPushHarder = 10.0;         // times the collision weight
+constexpr double kSpacing = 0.75;            // of v^2 / a: between knots, at most
+constexpr double kLeastSpacing = 2.0;        // radii
+constexpr double kMarginOfRadius = 1.0 / 3;  // in which the collision cost pushes,
+constexpr double kLeastMargin = 2.0;         // at least voxels
 
 class Stopwatch {
  public:
@@ -30,45 +33,24 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
-/// Interpolated distances; where a voxel is so far from everything that nobody asks for more, its
-/// own, without a gradient.
-DistanceField field_of(const EsdfMap& esdf, double enough) {
-  return [&esdf, enough](const Point& p) -> DistanceAndGradient {
-    const VoxelId id = esdf.layout.find(voxel_at(p, esdf.voxel_size));
-    if (id != kNoVoxel && !esdf.is_obstacle(id)) {
-      const double d = esdf.distance(id);
-      if (d > enough + 2.0 * esdf.voxel_size) return {d, Point::Zero()};
-    }
-    return interpolate_distance(esdf, p);
-  };
+void append(Trajectory& to, const std::vector<TrajectorySegment>& segments) {
+  to.segments.insert(to.segments.end(), segments.begin(), segments.end());
 }
 
-/// How many times slower a trajectory must be flown to keep the limits; less than 1: it could be
-/// faster.
-double slowdown(const MotionPeaks& peaks, const MotionLimits& limits) {
-  return std::max({peaks.speed / limits.max_speed,
-                   std::sqrt(peaks.acceleration / limits.max_acceleration),
-                   std::cbrt(peaks.jerk / limits.max_jerk)});
-}
-
-void slow_down(Trajectory& trajectory, double factor) {
-  for (TrajectorySegment& segment : trajectory.segments) {
-    segment.duration *= factor;
-    double power = 1.0;
-    for (int k = 0; k < kCoefficients; ++k, power *= factor) segment.coefficients.col(k) /= power;
+/// The corners, neither first nor last, nearest to places; ascending.
+std::vector<std::size_t> nearest_corners(std::span<const Point> path,
+                                         const std::vector<Point>& places) {
+  std::vector<std::size_t> corners;
+  for (const Point& place : places) {
+    const auto nearest = std::min_element(
+        path.begin() + 1, path.end() - 1, [&](const Point& a, const Point& b) {
+          return (a - place).squaredNorm() < (b - place).squaredNorm();
+        });
+    corners.push_back(static_cast<std::size_t>(nearest - path.begin()));
   }
-}
-
-void append(Trajectory& to, const Trajectory& from) {
-  to.segments.insert(to.segments.end(), from.segments.begin(), from.segments.end());
-}
-
-/// The corner, neither first nor last, nearest to a place.
-std::size_t nearest_corner(std::span<const Point> path, const Point& place) {
-  std::size_t best = 1;
-  for (std::size_t i = 2; i + 1 < path.size(); ++i)
-    if ((path[i] - place).squaredNorm() < (path[best] - place).squaredNorm()) best = i;
-  return best;
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return corners;
 }
 
 }  // namespace
@@ -79,36 +61,91 @@ SmoothPath::SmoothPath(const EsdfMap& esdf, const TrajectoryConfig& config,
   cost_.smoothness = config.smoothness;
   cost_.limits = config.limits;
   cost_.radius = config.radius;
-  cost_.margin = std::max(2.0 * esdf.voxel_size, config.radius / 3.0);
-  field_ = field_of(esdf, cost_.radius + cost_.margin);
+  cost_.margin = std::max(kLeastMargin * esdf.voxel_size, kMarginOfRadius * config.radius);
+  field_ = obstacle_field(esdf, cost_.radius, cost_.margin);
 }
 
 void SmoothPath::note(TrajectoryStep step) { result_.step = std::max(result_.step, step); }
 
 Trajectory SmoothPath::stop_and_go(std::span<const Point> path) const {
   Trajectory trajectory;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const auto straight = straight_motion(path[i - 1], path[i], config_.limits);
-    trajectory.segments.insert(trajectory.segments.end(), straight.begin(), straight.end());
-  }
+  for (std::size_t i = 1; i < path.size(); ++i)
+    append(trajectory, straight_motion(path[i - 1], path[i], config_.limits));
   return trajectory;
 }
 
-SmoothPath::Attempt SmoothPath::verify(Trajectory trajectory, bool from_rest) {
+bool SmoothPath::holds(const Trajectory& trajectory) const {
   const Stopwatch watch(result_.seconds.verify);
-  Attempt attempt;
-  attempt.trajectory = std::move(trajectory);
-  if (from_rest)
-    slow_down(attempt.trajectory,
-              slowdown(find_peaks(attempt.trajectory), config_.limits) * kWithin);
-  attempt.within_limits = config_.limits.hold(find_peaks(attempt.trajectory));
-  if (const auto time = first_doubt(space_, esdf_, attempt.trajectory, config_.radius))
-    attempt.doubt = attempt.trajectory.at(*time).position;
+  return keeps_limits(trajectory, config_.limits) &&
+         find_doubts(esdf_, trajectory, config_.radius).empty();
+}
+
+std::optional<Trajectory> SmoothPath::run(std::span<const Point> path, const StartState& start) {
+  if (start.is_rest() && config_.stop_and_go) {
+    note(TrajectoryStep::kStopAndGo);
+    return stop_and_go(path);
+  }
+  auto found = path.size() > 1 ? smooth_or_stop(path, start) : std::nullopt;
+  if (!found && start.is_rest()) return Trajectory{};  // one point: it stands
+  return found ? found : brake_first(path, start);
+}
+
+/// A smooth trajectory along the path, or smooth ones between stops at corners.
+std::optional<Trajectory> SmoothPath::smooth_or_stop(std::span<const Point> path,
+                                                     const StartState& start) {
+  const Trajectory halting = stop_and_go(path);
+  if (start.is_rest() && path.size() == 2) return halting;  // straight is smooth
+  Attempt attempt = smooth(path, start);
+  if (attempt.holds()) {
+    if (!start.is_rest() || attempt.trajectory.duration() <= halting.duration())
+      return std::move(attempt.trajectory);
+    note(TrajectoryStep::kWithStops);
+    result_.stops += static_cast<int>(path.size()) - 2;
+    return halting;
+  }
+  if (path.size() == 2) return std::nullopt;
+  note(TrajectoryStep::kWithStops);
+  Trajectory whole;
+  std::size_t first = 0;
+  std::vector<std::size_t> stops = nearest_corners(path, attempt.doubts);
+  result_.stops += static_cast<int>(stops.size());
+  stops.push_back(path.size() - 1);
+  for (const std::size_t last : stops) {
+    const auto stretch = smooth_or_stop(path.subspan(first, last - first + 1),
+                                        first == 0 ? start : StartState{});
+    if (!stretch) return std::nullopt;  // the first, from a motion
+    append(whole, stretch->segments);
+    first = last;
+  }
+  return whole;
+}
+
+/// The three tries at a trajectory without stops.
+SmoothPath::Attempt SmoothPath::smooth(std::span<const Point> path, const StartState& start) {
+  const MotionLimits& limits = config_.limits;
+  const double spacing =
+      std::max(kSpacing * limits.max_speed * limits.max_speed / limits.max_acceleration,
+               kLeastSpacing * config_.radius);
+  SplineCostConfig cost = cost_;
+  SpaceSpline spline = initial_spline(path, start, spacing, cost);
+  Attempt attempt = optimise(spline, cost);
+  if (attempt.holds()) return attempt;
+
+  cost.collision_weight *= kPushHarder;
+  attempt = optimise(spline, cost);
+  if (attempt.holds()) {
+    note(TrajectoryStep::kPushed);
+    return attempt;
+  }
+  spline = initial_spline(path, start, 0.5 * spacing, cost);
+  attempt = optimise(spline, cost);
+  if (attempt.holds()) note(TrajectoryStep::kInserted);
   return attempt;
 }
 
 SmoothPath::Attempt SmoothPath::optimise(SpaceSpline& spline, const SplineCostConfig& cost) {
   const bool from_rest = spline.fixed.front() == kAllFixed;
+  Trajectory trajectory;
   {
     const Stopwatch watch(result_.seconds.optimise);
     OptimisationResult found =
@@ -118,62 +155,62 @@ SmoothPath::Attempt SmoothPath::optimise(SpaceSpline& spline, const SplineCostCo
     ++result_.optimisations;
     result_.converged += found.report.converged;
     result_.cost = found.report.after;
+    if (from_rest) {
+      trajectory = spline.trajectory(cost.smoothness);
+      scale_to_limits(trajectory, config_.limits);
+    } else {
+      trajectory = stretch_to_limits(cost.smoothness, spline.durations, spline.fixed,
+                                     spline.derivatives, config_.limits);
+    }
   }
-  return verify(spline.trajectory(cost.smoothness), from_rest);
+  return verify(std::move(trajectory));
 }
 
-/// One trajectory without stops along the path, or nothing.
-std::optional<Trajectory> SmoothPath::smooth(std::span<const Point> path,
-                                             const StartState& start) {
-  const MotionLimits& limits = config_.limits;
-  const double stop = limits.max_speed * limits.max_speed / limits.max_acceleration;
-  const double spacing = std::max(kSpacingOfStop * stop, 2.0 * config_.radius);
-  SplineCostConfig cost = cost_;
-  SpaceSpline spline = initial_spline(path, start, spacing, cost);
-  Attempt attempt = optimise(spline, cost);
-  if (attempt.holds()) return attempt.trajectory;
-  cost.collision_weight *= kPushHarder;
-  attempt = optimise(spline, cost);
-  if (attempt.holds()) {
-    note(TrajectoryStep::kPushed);
-    return attempt.trajectory;
-  }
-  spline = initial_spline(path, start, 0.5 * spacing, cost);
-  attempt = optimise(spline, cost);
-  if (attempt.holds()) {
-    note(TrajectoryStep::kInserted);
-    return attempt.trajectory;
-  }
-  return std::nullopt;
+SmoothPath::Attempt SmoothPath::verify(Trajectory trajectory) {
+  const Stopwatch watch(result_.seconds.verify);
+  Attempt attempt{std::move(trajectory), {}};
+  for (const double time : find_doubts(esdf_, attempt.trajectory, config_.radius))
+    attempt.doubts.push_back(attempt.trajectory.at(time).position);
+  if (!keeps_limits(attempt.trajectory, config_.limits))
+    attempt.doubts.push_back(attempt.trajectory.at(0.0).position);
+  return attempt;
 }
 
-std::optional<Trajectory> SmoothPath::smooth_or_stop(std::span<const Point> path,
-                                                     const StartState& start) {
-  if (path.size() < 2) return Trajectory{};
-  const Trajectory halting = stop_and_go(path);
-  if (start.is_rest() && path.size() == 2) return halting;
-  if (auto found = smooth(path, start)) {
-    if (start.is_rest() && found->duration() > halting.duration()) return halting;
-    return found;
-  }
-  if (path.size() == 2) return std::nullopt;
-  const std::size_t corner = path.size() / 2;
+/// Where the path cannot be followed from a motion: to rest, and from there to the path.
+std::optional<Trajectory> SmoothPath::brake_first(std::span<const Point> path,
+                                                  const StartState& start) {
+  auto braking = brake(path.front(), start);
+  if (!braking) return std::nullopt;
+  const Point stop = braking->at(braking->duration()).position;
+  std::vector<Point> rest{stop};
+  const bool skips_start = path.size() > 1 && space_.is_free(stop, path[1], config_.radius);
+  rest.insert(rest.end(), path.begin() + (skips_start ? 1 : 0), path.end());
+  if (!space_.is_free(rest[0], rest[1], config_.radius)) return std::nullopt;
+  result_.braked = true;
   note(TrajectoryStep::kWithStops);
   ++result_.stops;
-  auto before = smooth_or_stop(path.first(corner + 1), start);
-  if (!before) return std::nullopt;
-  append(*before, *smooth_or_stop(path.subspan(corner), {}));
-  return before;
+  const Trajectory onward =
+      config_.stop_and_go ? stop_and_go(rest) : smooth_or_stop(rest, {}).value();
+  append(*braking, onward.segments);
+  return braking;
 }
 
-bool SmoothPath::run(const std::vector<Point>& path, const StartState& start) {
-  const Trajectory halting = stop_and_go(path);
-  result_.stop_and_go_duration = halting.duration();
-  if (auto found = smooth_or_stop(path, start)) {
-    result_.trajectory = std::move(*found);
-    return true;
-  }
-  return false;
+/// The smoothest way to rest, wherever that is, in as short a time as the limits allow.
+std::optional<Trajectory> SmoothPath::brake(const Point& from, const StartState& start) const {
+  const MotionLimits& limits = config_.limits;
+  const int rows = knot_size(config_.smoothness);
+  constexpr DerivativeMask kStopped = kAllFixed & ~kPositionFixed;
+  Eigen::MatrixXd derivatives = Eigen::MatrixXd::Zero(2 * static_cast<Eigen::Index>(rows), 3);
+  derivatives.row(0) = from.transpose();
+  derivatives.row(1) = start.velocity.transpose();
+  derivatives.row(2) = start.acceleration.transpose();
+  const double duration =
+      (start.velocity.norm() + start.acceleration.norm() * limits.max_speed /
+                                   limits.max_acceleration) / limits.max_acceleration;
+  Trajectory trajectory =
+      stretch_to_limits(config_.smoothness, {duration}, std::array{kStateFixed, kStopped},
+                        std::move(derivatives), limits);
+  return holds(trajectory) ? std::optional(std::move(trajectory)) : std::nullopt;
 }
 
 }  // namespace ridgeway::detail

@@ -12,36 +12,43 @@
 
 namespace ridgeway::detail {
 
-/// The steps from a free path to a verified trajectory; reports into the result as it goes.
+/// The steps from a free path to a trajectory (without yaw) that holds; reports what it took into
+/// the result as it goes.
 class SmoothPath {
  public:
   SmoothPath(const EsdfMap& esdf, const TrajectoryConfig& config, TrajectoryResult& result);
 
-  /// False where a moving start can neither follow the path nor brake.
-  bool run(const std::vector<Point>& path, const StartState& start);
+  /// Along a path that is free at the radius, no two points after one another the same. Nothing
+  /// where a moving start can neither follow it nor brake.
+  std::optional<Trajectory> run(std::span<const Point> path, const StartState& start);
+
+  /// Straight from stop to stop.
+  Trajectory stop_and_go(std::span<const Point> path) const;
+
+  /// Whether a trajectory is free all along, and within the limits on speed, acceleration and jerk.
+  bool holds(const Trajectory& trajectory) const;
 
  private:
   struct Attempt {
     Trajectory trajectory;
-    std::optional<Point> doubt;  ///< where it is not shown to be free; nothing if it holds
-    bool within_limits = false;
-    bool holds() const { return within_limits && !doubt; }
+    std::vector<Point> doubts;  ///< where it does not hold; empty if it does
+    bool holds() const { return doubts.empty(); }
   };
 
-  std::optional<Trajectory> smooth(std::span<const Point> path, const StartState& start);
   std::optional<Trajectory> smooth_or_stop(std::span<const Point> path, const StartState& start);
-  std::optional<Trajectory> brake(const StartState& start, const Point& from);
+  Attempt smooth(std::span<const Point> path, const StartState& start);
   Attempt optimise(SpaceSpline& spline, const SplineCostConfig& cost);
-  Attempt verify(Trajectory trajectory, bool from_rest);
-  Trajectory stop_and_go(std::span<const Point> path) const;
+  Attempt verify(Trajectory trajectory);
+  std::optional<Trajectory> brake_first(std::span<const Point> path, const StartState& start);
+  std::optional<Trajectory> brake(const Point& from, const StartState& start) const;
   void note(TrajectoryStep step);
 
   const EsdfMap& esdf_;
   const FreeSpace space_;
   const TrajectoryConfig& config_;
   TrajectoryResult& result_;
-  DistanceField field_;
   SplineCostConfig cost_;
+  DistanceField field_;
 };
 
 }  // namespace ridgeway::detail

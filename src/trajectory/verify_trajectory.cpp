@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "bernstein.hpp"
+#include "ridgeway/esdf/free_space.hpp"
 
 namespace ridgeway {
 namespace {
@@ -35,8 +37,7 @@ double departure(const BezierPoints& curve) {
 
 class Verifier {
  public:
-  Verifier(const FreeSpace& space, const EsdfMap& esdf, double radius)
-      : space_(space), esdf_(esdf), radius_(radius) {}
+  Verifier(const EsdfMap& esdf, double radius) : space_(esdf), esdf_(esdf), radius_(radius) {}
 
   /// Share of the curve at which doubt begins.
   std::optional<double> first_doubt(const BezierPoints& curve, double begin = 0.0,
@@ -77,7 +78,7 @@ class Verifier {
     return true;
   }
 
-  const FreeSpace& space_;
+  const FreeSpace space_;
   const EsdfMap& esdf_;
   double radius_;
 };
@@ -96,20 +97,20 @@ void flatten(const BezierPoints& curve, double most, int depth, std::vector<Poin
 
 }  // namespace
 
-std::optional<double> first_doubt(const FreeSpace& space, const EsdfMap& esdf,
-                                  const Trajectory& trajectory, double radius) {
-  const Verifier verifier(space, esdf, radius);
+std::vector<double> find_doubts(const EsdfMap& esdf, const Trajectory& trajectory, double radius) {
+  const Verifier verifier(esdf, radius);
+  std::vector<double> doubts;
   double begin = 0.0;
   for (const TrajectorySegment& segment : trajectory.segments) {
     const BezierPoints curve = detail::bezier_points(segment, 0, 0, 3);
-    if (!curve.allFinite()) return begin;
-    if (const auto share = verifier.first_doubt(curve)) return begin + *share * segment.duration;
+    const std::optional<double> share = curve.allFinite() ? verifier.first_doubt(curve) : 0.0;
+    if (share) doubts.push_back(begin + *share * segment.duration);
     begin += segment.duration;
   }
-  return std::nullopt;
+  return doubts;
 }
 
-double clearance_of(const FreeSpace& space, const Trajectory& trajectory) {
+double clearance_of(const EsdfMap& esdf, const Trajectory& trajectory) {
   constexpr double kMillimetre = 1e-3;
   std::vector<Point> points;
   for (const TrajectorySegment& segment : trajectory.segments) {
@@ -117,7 +118,7 @@ double clearance_of(const FreeSpace& space, const Trajectory& trajectory) {
     if (points.empty()) points.push_back(first_of(curve));
     flatten(curve, kMillimetre, 0, points);
   }
-  return std::max(space.clearance(points) - kMillimetre, 0.0);
+  return std::max(FreeSpace(esdf).clearance(points) - kMillimetre, 0.0);
 }
 
 }  // namespace ridgeway
