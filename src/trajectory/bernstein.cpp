@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ridgeway::detail {
 namespace {
@@ -48,6 +49,7 @@ BezierPoints bezier_points(const TrajectorySegment& segment, int derivative, int
 }
 
 double largest_norm(const BezierPoints& curve) {
+  if (!curve.allFinite()) return std::numeric_limits<double>::infinity();
   constexpr double kShare = 2e-6;  // of squares
   constexpr double kLeast = 1e-18;
   constexpr int kDeepest = 40;

@@ -19,17 +19,20 @@ using Eigen::MatrixXd;
 using EndRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 10, 4>;
 using EndForm = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 10, 10>;
 
+/// Both forms are worked out with more digits than they are kept with: they cancel a few.
+using Precise = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+
 /// k (k - 1) ... (k - order + 1): what t^k gives when differentiated.
-double falling(int k, int order) {
-  double product = 1.0;
+long double falling(int k, int order) {
+  long double product = 1.0L;
   for (int i = 0; i < order; ++i) product *= k - i;
   return product;
 }
 
 /// Inverse of the map from the coefficients to the derivatives at times 0 and 1.
-EndForm invert_end_conditions(Smoothness smoothness) {
+Precise invert_end_conditions(Smoothness smoothness) {
   const int rows = knot_size(smoothness), n = 2 * rows;
-  EndForm ends = EndForm::Zero(n, n);
+  Precise ends = Precise::Zero(n, n);
   for (int order = 0; order < rows; ++order) {
     ends(order, order) = falling(order, order);
     for (int k = order; k < n; ++k) ends(rows + order, k) = falling(k, order);
@@ -40,13 +43,13 @@ EndForm invert_end_conditions(Smoothness smoothness) {
 /// Cost of a piece of unit duration as a quadratic form of the derivatives at its ends.
 EndForm make_unit_cost(Smoothness smoothness) {
   const int n = 2 * knot_size(smoothness), order = static_cast<int>(smoothness);
-  EndForm cost = EndForm::Zero(n, n);
+  Precise cost = Precise::Zero(n, n);
   for (int i = order; i < n; ++i)
     for (int k = order; k < n; ++k)
       cost(i, k) = falling(i, order) * falling(k, order) / (i + k - 2 * order + 1);
-  const EndForm& inverse = unit_coefficients(smoothness);
-  const EndForm form = inverse.transpose() * cost * inverse;
-  return 0.5 * (form + form.transpose());
+  const Precise inverse = invert_end_conditions(smoothness);
+  const Precise form = inverse.transpose() * cost * inverse;
+  return (0.5L * (form + form.transpose())).cast<double>();
 }
 
 const EndForm& unit_cost(Smoothness smoothness) {
@@ -74,8 +77,8 @@ double cost_scale(Smoothness smoothness, double duration) {
 }  // namespace
 
 const EndForm& unit_coefficients(Smoothness smoothness) {
-  static const EndForm jerk = invert_end_conditions(Smoothness::kJerk);
-  static const EndForm snap = invert_end_conditions(Smoothness::kSnap);
+  static const EndForm jerk = invert_end_conditions(Smoothness::kJerk).cast<double>();
+  static const EndForm snap = invert_end_conditions(Smoothness::kSnap).cast<double>();
   return smoothness == Smoothness::kJerk ? jerk : snap;
 }
 

@@ -83,6 +83,7 @@ bool SmoothPath::holds(const Trajectory& trajectory) const {
 std::optional<Trajectory> SmoothPath::run(std::span<const Point> path, const StartState& start) {
   if (start.is_rest() && config_.stop_and_go) {
     note(TrajectoryStep::kStopAndGo);
+    result_.stops = std::max(0, static_cast<int>(path.size()) - 2);
     return stop_and_go(path);
   }
   auto found = path.size() > 1 ? smooth_or_stop(path, start) : std::nullopt;

@@ -61,8 +61,9 @@ void set_yaw(TrajectorySegment& segment, int rows, double from, double to, doubl
   const auto smoothness = static_cast<Smoothness>(rows - 1);
   const Eigen::VectorXd unit = unit_coefficients(smoothness) * ends;
   segment.coefficients.row(3).setZero();
-  double power = 1.0;
-  for (Eigen::Index k = 0; k < unit.size(); ++k, power *= segment.duration)
+  segment.coefficients(3, 0) = from;
+  double power = segment.duration;
+  for (Eigen::Index k = 1; k < unit.size() && from != to; ++k, power *= segment.duration)
     segment.coefficients(3, k) = unit(k) / power;
 }
 

@@ -82,7 +82,7 @@ TEST(SplineObjective, GradientsEqualFiniteDifferencesThroughTheEsdf) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
     const EsdfMap esdf = compute_esdf(testing::random_map(seed, 30));
-    const DistanceField field = [&](const Point& p) { return interpolate_distance(esdf, p); };
+    const DistanceField field = [&](const Point& p) { return interpolate_distance(esdf, p, 0.3); };
     SpaceSpline spline = random_spline(seed, Smoothness::kSnap, true);
     const Point centre = centre_of(esdf.layout.index_of(0), esdf.voxel_size);
     for (Eigen::Index row = 0; row < spline.derivatives.rows(); row += 5)

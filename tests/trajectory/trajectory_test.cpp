@@ -48,14 +48,15 @@ TEST(Trajectory, PeaksAreNeverBelowDenseSamplesAndHardlyAbove) {
   }
 }
 
-TEST(Trajectory, FindsAPeakThatSamplesMiss) {
-  // |v| = 1 + a spike of 1e-3 of the duration: v = 1 - (2000 (t - 1/2))^2 c, at its highest at 1/2.
+TEST(Trajectory, PeaksAreThoseOfAParabola) {
+  // v = 1 - 8 (t - 1/2)^2: fastest in the middle and, backwards, at both ends.
   TrajectorySegment segment;
   segment.duration = 1.0;
   segment.coefficients(0, 1) = 1.0 - 0.25 * 8.0;
   segment.coefficients(0, 2) = 0.5 * 8.0;
   segment.coefficients(0, 3) = -8.0 / 3.0;
-  EXPECT_NEAR(find_peaks(segment).speed, 1.0, 1e-5);  // at 1/2; -1 at both ends
+  EXPECT_NEAR(find_peaks(segment).speed, 1.0, 1e-6);
+  EXPECT_GE(find_peaks(segment).speed, 1.0 - 1e-15);
 }
 
 TEST(Trajectory, SamplesAreThoseOfSingleTimesAndEndExactly) {
@@ -73,7 +74,7 @@ TEST(Trajectory, SamplesAreThoseOfSingleTimesAndEndExactly) {
     EXPECT_NEAR(single.yaw, state.yaw, 1e-9);
   }
   EXPECT_EQ(trajectory.at(-1.0).position, trajectory.at(0.0).position);
-  EXPECT_EQ(trajectory.at(1e9).position, trajectory.at(trajectory.duration()).position);
+  EXPECT_LE((trajectory.at(1e9).position - states.back().position).norm(), 1e-9);
   EXPECT_TRUE(Trajectory{}.sample(0.1).empty());
 }
 
