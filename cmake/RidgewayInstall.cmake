@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 The Ridgeway authors
 
-# Installation, find_package(ridgeway COMPONENTS core io), and the Debian packages ridgeway (the
+# Installation, find_package(ridgeway COMPONENTS core trajectory io), and the Debian packages ridgeway (the
 # program) and ridgeway-dev (headers and static libraries).
 
 include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/ridgeway")
 
-# Core: every module but io, and the umbrella ridgeway::ridgeway.
+# Core: every module but trajectory and io, and the umbrella ridgeway::ridgeway.
 get_property(core_modules GLOBAL PROPERTY RIDGEWAY_MODULES_core)
 install(
   TARGETS ${core_modules} ridgeway
@@ -20,23 +20,31 @@ install(
   COMPONENT dev
   FILES_MATCHING
   PATTERN "*.hpp"
+  PATTERN "trajectory" EXCLUDE
   PATTERN "io" EXCLUDE)
 
-get_property(io_modules GLOBAL PROPERTY RIDGEWAY_MODULES_io)
-if(io_modules)
-  install(
-    TARGETS ${io_modules}
-    EXPORT ridgeway-io
-    ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev)
-  install(EXPORT ridgeway-io NAMESPACE ridgeway:: DESTINATION "${package_dir}" COMPONENT dev)
-  install(
-    DIRECTORY include/ridgeway/io
-    DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/ridgeway"
-    COMPONENT dev
-    FILES_MATCHING
-    PATTERN "*.hpp")
-  install(FILES cmake/FindLZF.cmake DESTINATION "${package_dir}" COMPONENT dev)
-endif()
+# Components of their own, for the libraries that they need.
+foreach(component trajectory io)
+  get_property(modules GLOBAL PROPERTY RIDGEWAY_MODULES_${component})
+  if(modules)
+    install(
+      TARGETS ${modules}
+      EXPORT ridgeway-${component}
+      ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev)
+    install(
+      EXPORT ridgeway-${component}
+      NAMESPACE ridgeway::
+      DESTINATION "${package_dir}"
+      COMPONENT dev)
+    install(
+      DIRECTORY include/ridgeway/${component}
+      DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/ridgeway"
+      COMPONENT dev
+      FILES_MATCHING
+      PATTERN "*.hpp")
+  endif()
+endforeach()
+install(FILES cmake/FindLZF.cmake DESTINATION "${package_dir}" COMPONENT dev)
 
 configure_package_config_file(
   cmake/ridgewayConfig.cmake.in "${PROJECT_BINARY_DIR}/ridgewayConfig.cmake"
@@ -80,6 +88,6 @@ if(PROJECT_IS_TOP_LEVEL)
   set(CPACK_DEBIAN_DEV_PACKAGE_NAME ridgeway-dev)
   set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
   set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, libtbb-dev")
-  set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "pkg-config, libcairo2-dev, libzstd-dev, liblzf-dev, libpng-dev, libyaml-cpp-dev")
+  set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "libnlopt-dev, pkg-config, libcairo2-dev, libzstd-dev, liblzf-dev, libpng-dev, libyaml-cpp-dev")
   include(CPack)
 endif()

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 The Ridgeway authors
 
-# ridgeway_module(<name> [COMPONENT core|io] [SOURCES <file>...] [DEPENDS <target>...]
+# ridgeway_module(<name> [COMPONENT core|trajectory|io] [SOURCES <file>...] [DEPENDS <target>...]
 #                 [PRIVATE_DEPENDS <target>...])
 #
 # The library of one folder: target ridgeway_<name>, alias ridgeway::<name>. Sources are listed one
