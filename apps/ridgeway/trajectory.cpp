@@ -95,11 +95,11 @@ void print_result(const PlanResult& path, const TrajectoryResult& flown, double 
                         " waypoints, " + seconds_text(path.seconds.total));
   print_row("trajectory", text_of(flown.duration) + " s, " + std::string(name_of(flown.step)) +
                               "; stop and go " + text_of(flown.stop_and_go_duration) + " s");
-  print_row("at most", text_of(flown.peaks.speed) + " m/s, " +
-                           text_of(flown.peaks.acceleration) + " m/s^2, yaw " +
-                           text_of(flown.peaks.yaw_rate / kDegree, 1) + " degrees/s");
-  print_row("clearance", text_of(rounded_down(flown.clearance)) + " m, robot radius " +
-                             text_of(radius) + " m");
+  print_row("at most", text_of(flown.peaks.speed) + " m/s, " + text_of(flown.peaks.acceleration) +
+                           " m/s^2, yaw " + text_of(flown.peaks.yaw_rate / kDegree, 1) +
+                           " degrees/s");
+  print_row("clearance",
+            text_of(rounded_down(flown.clearance)) + " m, robot radius " + text_of(radius) + " m");
   print_row("time", seconds_text(flown.seconds.total) + " (optimise " +
                         seconds_text(flown.seconds.optimise) + ", verify " +
                         seconds_text(flown.seconds.verify) + ")");
@@ -143,6 +143,11 @@ int run(const Options& options, const Globals& globals) {
     return report_none(std::string(name_of(flown.status)), explain_no_trajectory(flown),
                        Json::parse(trajectory_json(path, flown, options.step)), globals);
 
+  constexpr double kMostSamples = 1e6;
+  if (flown.duration / options.step > kMostSamples)
+    throw InputError("--step " + text_of(options.step, 6),
+                     "gives more than a million samples of " + text_of(flown.duration) + " s",
+                     "give a larger one");
   if (!options.output.empty()) write_trajectory(path, flown, options.output, options.step);
   if (!options.picture.empty()) draw(roadmap, path, flown, config, options.picture);
   if (globals.json)
@@ -165,8 +170,7 @@ void add_trajectory_command(CLI::App& app, const Globals& globals, Command& chos
   command->add_option("--to", options->to, "Goal X,Y,Z, metres")->required();
   command->add_option("--radius", options->radius,
                       "Robot radius, metres (default: the smallest the roadmap is for)");
-  command->add_option("--max-speed", options->max_speed, "Metres a second")
-      ->capture_default_str();
+  command->add_option("--max-speed", options->max_speed, "Metres a second")->capture_default_str();
   command->add_option("--max-acceleration", options->max_acceleration, "Metres a second^2")
       ->capture_default_str();
   command->add_option("--max-jerk", options->max_jerk, "Metres a second^3 (default: no limit)");

@@ -103,8 +103,7 @@ void draw_chart(Canvas& canvas, const Chart& chart, const Plot& plot, bool is_la
 }  // namespace
 
 double charts_height(std::size_t count, double unit) {
-  return count == 0 ? 0.0
-                    : (static_cast<double>(count) * (kTitle + kPlot + kGap) + kAxis) * unit;
+  return count == 0 ? 0.0 : (static_cast<double>(count) * (kTitle + kPlot + kGap) + kAxis) * unit;
 }
 
 void draw_charts(Canvas& canvas, std::span<const Chart> charts, double left, double top,

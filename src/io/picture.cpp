@@ -168,13 +168,6 @@ double length_of(std::span<const Point> path) {
   return length;
 }
 
-/// 12345 as "12,345".
-std::string grouped(std::size_t count) {
-  std::string text = std::to_string(count);
-  for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, 1, ',');
-  return text;
-}
-
 std::string title_of(const Roadmap& roadmap, const PictureConfig& config) {
   if (!config.title.empty()) return config.title;
   const std::string name = std::filesystem::path(roadmap.source).filename().string();
@@ -244,9 +237,9 @@ Page lay_out_page(const FloorRaster& raster, double voxel_size, std::span<const 
   page.legend_top = frame.top + frame.height + kAxis * u;
   const double rows = std::max(1.6, static_cast<double>(page.legend.rows.size()));
   page.charts_top = page.legend_top + (rows + 0.2) * legend_row_height(u);
-  page.height = static_cast<int>(std::ceil(page.legend_top + rows * legend_row_height(u) +
-                                           charts_height(config.charts.size(), u) +
-                                           0.5 * kMargin * u));
+  page.height =
+      static_cast<int>(std::ceil(page.legend_top + rows * legend_row_height(u) +
+                                 charts_height(config.charts.size(), u) + 0.5 * kMargin * u));
   return page;
 }
 

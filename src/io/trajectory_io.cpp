@@ -20,10 +20,9 @@ Json json_of(const Point& p) { return Json::array({p.x(), p.y(), p.z()}); }
 
 /// Coefficients that a trajectory uses: 10, or 8 where the last two are 0 throughout.
 int used_coefficients(const Trajectory& trajectory) {
-  const bool short_ones =
-      std::all_of(trajectory.segments.begin(), trajectory.segments.end(), [](const auto& segment) {
-        return segment.coefficients.template rightCols<2>().isZero(0.0);
-      });
+  const bool short_ones = std::all_of(
+      trajectory.segments.begin(), trajectory.segments.end(),
+      [](const auto& segment) { return segment.coefficients.template rightCols<2>().isZero(0.0); });
   return short_ones ? kCoefficients - 2 : kCoefficients;
 }
 

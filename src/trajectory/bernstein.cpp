@@ -30,8 +30,7 @@ Squares squared_norm(const BezierPoints& curve) {
 
 }  // namespace
 
-BezierPoints bezier_points(const TrajectorySegment& segment, int derivative, int first,
-                           int count) {
+BezierPoints bezier_points(const TrajectorySegment& segment, int derivative, int first, int count) {
   const int n = kCoefficients - 1 - derivative;
   // Power form on [0, 1], then t^k = sum over i >= k of C(i, k) / C(n, k) times the i-th Bernstein
   // polynomial: sums of few terms, no inverse.

@@ -3,7 +3,6 @@
 #include "initial_spline.hpp"
 
 #include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 
@@ -57,8 +56,8 @@ std::vector<double> knot_speeds(const std::vector<Point>& knots, double start_sp
 /// Of a trapezoidal speed profile between two speeds.
 double profile_duration(double length, double from, double to, const MotionLimits& limits) {
   const double v = limits.max_speed, a = limits.max_acceleration;
-  const double peak = std::max({std::min(std::sqrt(0.5 * (from * from + to * to) + a * length), v),
-                                from, to});
+  const double peak =
+      std::max({std::min(std::sqrt(0.5 * (from * from + to * to) + a * length), v), from, to});
   const double changing = (2.0 * peak * peak - from * from - to * to) / (2.0 * a);
   const double cruise = std::max(length - changing, 0.0) / peak;
   return (2.0 * peak - from - to) / a + cruise;
@@ -79,8 +78,8 @@ SpaceSpline initial_spline(std::span<const Point> path, const StartState& start,
   spline.derivatives.row(1) = start.velocity.transpose();
   spline.derivatives.row(2) = start.acceleration.transpose();
   for (std::size_t i = 1; i < knots.size(); ++i)
-    spline.durations.push_back(
-        profile_duration((knots[i] - knots[i - 1]).norm(), speeds[i - 1], speeds[i], config.limits));
+    spline.durations.push_back(profile_duration((knots[i] - knots[i - 1]).norm(), speeds[i - 1],
+                                                speeds[i], config.limits));
   spline.fixed.assign(knots.size(), kPositionFixed);
   spline.fixed.front() = start.is_rest() ? kAllFixed : kStateFixed;
   spline.fixed.back() = kAllFixed;

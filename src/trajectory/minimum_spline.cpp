@@ -58,7 +58,8 @@ const EndForm& unit_cost(Smoothness smoothness) {
   return smoothness == Smoothness::kJerk ? jerk : snap;
 }
 
-/// Derivatives at both ends of a piece, times the powers of its duration that make it last one unit.
+/// Derivatives at both ends of a piece, times the powers of its duration that make it last one
+/// unit.
 EndRows to_unit_duration(const MatrixXd& derivatives, Index first, int rows, double duration) {
   EndRows unit = derivatives.middleRows(first, 2 * static_cast<Index>(rows));
   double power = 1.0;
@@ -89,8 +90,9 @@ MinimumSpline::MinimumSpline(Smoothness smoothness, std::span<const double> dura
       durations_(durations.begin(), durations.end()),
       fixed_(fixed.begin(), fixed.end()) {
   if (durations_.empty() || fixed_.size() != durations_.size() + 1)
-    throw InputError("spline", "has " + std::to_string(fixed_.size()) + " knots for " +
-                                   std::to_string(durations_.size()) + " segments",
+    throw InputError("spline",
+                     "has " + std::to_string(fixed_.size()) + " knots for " +
+                         std::to_string(durations_.size()) + " segments",
                      "give at least one segment, and a knot more than segments");
   for (std::size_t i = 0; i < durations_.size(); ++i)
     if (!(durations_[i] > 0.0 && std::isfinite(durations_[i])))
@@ -193,7 +195,8 @@ double MinimumSpline::cost(const MatrixXd& derivatives) const {
   for (std::size_t s = 0; s < durations_.size(); ++s) {
     const EndRows d =
         to_unit_duration(derivatives, static_cast<Index>(s) * rows_, rows_, durations_[s]);
-    sum += cost_scale(smoothness_, durations_[s]) * d.cwiseProduct(unit_cost(smoothness_) * d).sum();
+    sum +=
+        cost_scale(smoothness_, durations_[s]) * d.cwiseProduct(unit_cost(smoothness_) * d).sum();
   }
   return sum;
 }

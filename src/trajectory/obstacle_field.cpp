@@ -9,6 +9,8 @@
 #include <memory>
 #include <unordered_map>
 
+#include "voxel_reach.hpp"
+
 namespace ridgeway::detail {
 namespace {
 
@@ -31,9 +33,9 @@ class FreeBorder {
                    wz = corner.z ? t.z() : 1.0 - t.z();
       const double d = at_centre(base + corner);
       result.distance += wx * wy * wz * d;
-      result.gradient += d * Point((corner.x ? 1.0 : -1.0) * wy * wz,
-                                   (corner.y ? 1.0 : -1.0) * wx * wz,
-                                   (corner.z ? 1.0 : -1.0) * wx * wy);
+      result.gradient +=
+          d * Point((corner.x ? 1.0 : -1.0) * wy * wz, (corner.y ? 1.0 : -1.0) * wx * wz,
+                    (corner.z ? 1.0 : -1.0) * wx * wy);
     }
     return result;
   }
@@ -74,6 +76,7 @@ class FreeBorder {
 DistanceField obstacle_field(const EsdfMap& esdf, double radius, double margin) {
   const double s = esdf.voxel_size, enough = radius + margin + 2.0 * s;
   const auto from_obstacles = [&esdf, s, enough](const Point& p) -> DistanceAndGradient {
+    if (!has_voxel(p, s)) return {-kReach * s, Point::Zero()};  // a wild step of an optimiser
     const VoxelId id = esdf.layout.find(voxel_at(p, s));
     if (id != kNoVoxel && !esdf.is_obstacle(id) && esdf.distance(id) > enough)
       return {enough, Point::Zero()};
@@ -82,7 +85,9 @@ DistanceField obstacle_field(const EsdfMap& esdf, double radius, double margin) 
   if (esdf.unknown == UnknownPolicy::kObstacle) return from_obstacles;
 
   return [=, border = std::make_shared<FreeBorder>(esdf)](const Point& p) {
-    const DistanceAndGradient obstacle = from_obstacles(p), inside = border->at(p);
+    const DistanceAndGradient obstacle = from_obstacles(p);
+    if (!has_voxel(p, s)) return obstacle;
+    const DistanceAndGradient inside = border->at(p);
     const double scale = margin / kReach;  // the margin begins where the border comes into reach
     if (obstacle.distance <= radius + scale * inside.distance) return obstacle;
     return DistanceAndGradient{radius + scale * inside.distance, inside.gradient * (scale / s)};

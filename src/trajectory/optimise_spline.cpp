@@ -9,11 +9,13 @@
 #include <limits>
 #include <memory>
 
+#include "ridgeway/common/error.hpp"
+
 namespace ridgeway {
 namespace {
 
-constexpr double kEnough = 1e-4;      // relative change of the cost at which it has converged
-constexpr double kMostChange = 2.5;   // of a duration's logarithm: by a factor of 12
+constexpr double kEnough = 1e-4;     // relative change of the cost at which it has converged
+constexpr double kMostChange = 2.5;  // of a duration's logarithm: by a factor of 12
 
 /// What NLopt calls back: counts, keeps the best, and holds exceptions until it has returned.
 struct Search {
@@ -38,11 +40,12 @@ double evaluate(unsigned count, const double* variables, double* gradient, void*
       search.best.assign(variables, variables + count);
     }
     return cost;
+  } catch (const InputError&) {  // a step so wild that its spline has no minimum ends the search
   } catch (...) {
     search.failure = std::current_exception();
-    nlopt_force_stop(search.optimiser);
-    return std::numeric_limits<double>::infinity();
   }
+  nlopt_force_stop(search.optimiser);
+  return std::numeric_limits<double>::infinity();
 }
 
 struct Destroyer {
@@ -73,8 +76,7 @@ OptimisationResult optimise_spline(SpaceSpline spline, const SplineCostConfig& c
   result.report.before = objective.terms();
 
   Search search(objective);
-  const Optimiser optimiser(
-      nlopt_create(NLOPT_LD_LBFGS, static_cast<unsigned>(variables.size())));
+  const Optimiser optimiser(nlopt_create(NLOPT_LD_LBFGS, static_cast<unsigned>(variables.size())));
   search.optimiser = optimiser.get();
   nlopt_set_min_objective(optimiser.get(), evaluate, &search);
   nlopt_set_ftol_rel(optimiser.get(), kEnough);
@@ -88,8 +90,8 @@ OptimisationResult optimise_spline(SpaceSpline spline, const SplineCostConfig& c
   objective(search.best, {});  // a failed line search may have ended elsewhere
   result.report.after = objective.terms();
   result.report.evaluations = search.evaluations;
-  result.report.converged = outcome == NLOPT_FTOL_REACHED || outcome == NLOPT_XTOL_REACHED ||
-                            outcome == NLOPT_SUCCESS;
+  result.report.converged =
+      outcome == NLOPT_FTOL_REACHED || outcome == NLOPT_XTOL_REACHED || outcome == NLOPT_SUCCESS;
   result.spline = objective.spline();
   return result;
 }

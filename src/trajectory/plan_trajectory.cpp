@@ -14,6 +14,7 @@
 #include "ridgeway/trajectory/verify_trajectory.hpp"
 #include "smooth_path.hpp"
 #include "straight_motion.hpp"
+#include "voxel_reach.hpp"
 #include "yaw.hpp"
 
 namespace ridgeway {
@@ -35,7 +36,10 @@ std::vector<Point> distinct_points(std::span<const Point> path) {
   return points;
 }
 
-bool is_free(const FreeSpace& space, const std::vector<Point>& path, double radius) {
+bool is_free(const EsdfMap& esdf, const std::vector<Point>& path, double radius) {
+  const FreeSpace space(esdf);
+  for (const Point& p : path)
+    if (!detail::has_voxel(p, esdf.voxel_size)) return false;
   if (path.size() == 1) return space.is_free(path.front(), radius);
   for (std::size_t i = 1; i < path.size(); ++i)
     if (!space.is_free(path[i - 1], path[i], radius)) return false;
@@ -109,7 +113,8 @@ void TrajectoryConfig::validate() const {
   if (start_yaw && !std::isfinite(*start_yaw))
     throw InputError("start_yaw", "is not finite", "give radians");
   if (most_evaluations < 1)
-    throw InputError("most_evaluations", "is " + std::to_string(most_evaluations), "give 1 or more");
+    throw InputError("most_evaluations", "is " + std::to_string(most_evaluations),
+                     "give 1 or more");
   require_start_within_limits(*this);
 }
 
@@ -125,8 +130,7 @@ TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> pat
     result.seconds.total = seconds_now() - began;
     return result;
   };
-  const FreeSpace space(esdf);
-  if (!is_free(space, points, config.radius)) return finish(TrajectoryStatus::kPathNotFree);
+  if (!is_free(esdf, points, config.radius)) return finish(TrajectoryStatus::kPathNotFree);
 
   const StartState start{config.start_velocity, config.start_acceleration};
   SmoothPath smooth(esdf, config, result);

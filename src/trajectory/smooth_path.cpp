@@ -42,8 +42,8 @@ std::vector<std::size_t> nearest_corners(std::span<const Point> path,
                                          const std::vector<Point>& places) {
   std::vector<std::size_t> corners;
   for (const Point& place : places) {
-    const auto nearest = std::min_element(
-        path.begin() + 1, path.end() - 1, [&](const Point& a, const Point& b) {
+    const auto nearest =
+        std::min_element(path.begin() + 1, path.end() - 1, [&](const Point& a, const Point& b) {
           return (a - place).squaredNorm() < (b - place).squaredNorm();
         });
     corners.push_back(static_cast<std::size_t>(nearest - path.begin()));
@@ -112,8 +112,8 @@ std::optional<Trajectory> SmoothPath::smooth_or_stop(std::span<const Point> path
   result_.stops += static_cast<int>(stops.size());
   stops.push_back(path.size() - 1);
   for (const std::size_t last : stops) {
-    const auto stretch = smooth_or_stop(path.subspan(first, last - first + 1),
-                                        first == 0 ? start : StartState{});
+    const auto stretch =
+        smooth_or_stop(path.subspan(first, last - first + 1), first == 0 ? start : StartState{});
     if (!stretch) return std::nullopt;  // the first, from a motion
     append(whole, stretch->segments);
     first = last;
@@ -205,9 +205,9 @@ std::optional<Trajectory> SmoothPath::brake(const Point& from, const StartState&
   derivatives.row(0) = from.transpose();
   derivatives.row(1) = start.velocity.transpose();
   derivatives.row(2) = start.acceleration.transpose();
-  const double duration =
-      (start.velocity.norm() + start.acceleration.norm() * limits.max_speed /
-                                   limits.max_acceleration) / limits.max_acceleration;
+  const double duration = (start.velocity.norm() +
+                           start.acceleration.norm() * limits.max_speed / limits.max_acceleration) /
+                          limits.max_acceleration;
   Trajectory trajectory =
       stretch_to_limits(config_.smoothness, {duration}, std::array{kStateFixed, kStopped},
                         std::move(derivatives), limits);

@@ -16,9 +16,10 @@ constexpr int kMostStretches = 25;  // to seven times the durations
 
 void scale_to_limits(Trajectory& trajectory, const MotionLimits& limits) {
   const MotionPeaks peaks = find_peaks(trajectory);
-  const double factor = kABitSlower * std::max({peaks.speed / limits.max_speed,
-                                                std::sqrt(peaks.acceleration / limits.max_acceleration),
-                                                std::cbrt(peaks.jerk / limits.max_jerk)});
+  const double factor =
+      kABitSlower * std::max({peaks.speed / limits.max_speed,
+                              std::sqrt(peaks.acceleration / limits.max_acceleration),
+                              std::cbrt(peaks.jerk / limits.max_jerk)});
   if (!(factor > 0.0)) return;  // it stands
   for (TrajectorySegment& segment : trajectory.segments) {
     segment.duration *= factor;

@@ -131,17 +131,15 @@ void SplineObjective::add_segment(std::size_t segment) {
   }
   power = 1.0;
   for (int order = 0; order < rows; ++order, power *= T) {
-    by_durations_[segment] +=
-        order / T *
-        (ends.row(order).dot(by_ends.row(order)) +
-         ends.row(rows + order).dot(by_ends.row(rows + order)));
+    by_durations_[segment] += order / T *
+                              (ends.row(order).dot(by_ends.row(order)) +
+                               ends.row(rows + order).dot(by_ends.row(rows + order)));
     by_derivatives_.row(first + order) += power * by_ends.row(order);
     by_derivatives_.row(first + rows + order) += power * by_ends.row(rows + order);
   }
 }
 
-double SplineObjective::operator()(std::span<const double> variables,
-                                   std::span<double> gradient) {
+double SplineObjective::operator()(std::span<const double> variables, std::span<double> gradient) {
   set(variables);
   const MinimumSpline minimum(config_.smoothness, spline_.durations, spline_.fixed);
   minimum.solve(spline_.derivatives);

@@ -9,9 +9,9 @@
 namespace ridgeway::detail {
 namespace {
 
-constexpr double kSteepest = 1.875;    // largest slope of the rise 10 x^3 - 15 x^4 + 6 x^5
-constexpr double kRiseOfStage = 0.25;  // rise over (rise + hold)
-constexpr double kWithin = 1.0 - 1e-5; // of a limit, so that certified peaks hold it
+constexpr double kSteepest = 1.875;     // largest slope of the rise 10 x^3 - 15 x^4 + 6 x^5
+constexpr double kRiseOfStage = 0.25;   // rise over (rise + hold)
+constexpr double kWithin = 1.0 - 1e-5;  // of a limit, so that certified peaks hold it
 
 struct Profile {
   double rise = 0.0, hold = 0.0, cruise = 0.0;  ///< seconds
@@ -34,7 +34,8 @@ Profile choose_profile(double length, const MotionLimits& limits) {
   }
   const double ratio = 1.0 / kRiseOfStage;  // (rise + hold) / rise
   p.rise = std::max(std::sqrt(length / (p.acceleration * ratio * (ratio + 1.0))), tightest);
-  const double h = 0.5 * (std::sqrt(p.rise * p.rise + 4.0 * length / p.acceleration) - 3.0 * p.rise);
+  const double h =
+      0.5 * (std::sqrt(p.rise * p.rise + 4.0 * length / p.acceleration) - 3.0 * p.rise);
   if (h >= 0.0) {
     p.hold = h;
     return p;

@@ -10,12 +10,8 @@ namespace {
 
 TrajectoryState state_of(const TrajectorySegment& segment, double t, double time) {
   const Eigen::Vector4d value = segment.derivative(0, t), rate = segment.derivative(1, t);
-  return {time,
-          value.head<3>(),
-          rate.head<3>(),
-          segment.derivative(2, t).head<3>(),
-          value.w(),
-          rate.w()};
+  return {time,      value.head<3>(), rate.head<3>(), segment.derivative(2, t).head<3>(),
+          value.w(), rate.w()};
 }
 
 }  // namespace

@@ -36,7 +36,8 @@ class FlightJudge {
     const auto& segments = result.trajectory.segments;
     if (segments.empty()) return "no segments";
     const Point end = evaluate(segments.back(), segments.back().duration).head<3>();
-    if ((evaluate(segments.front(), 0.0).head<3>() - start).norm() > 1e-6) return "starts elsewhere";
+    if ((evaluate(segments.front(), 0.0).head<3>() - start).norm() > 1e-6)
+      return "starts elsewhere";
     if ((end - goal).norm() > 1e-6) return "ends elsewhere";
     double clearance = 1e9, free_for = 0.0;
     Eigen::Vector4d before = evaluate(segments.front(), 0.0), before_that = before;
@@ -108,9 +109,7 @@ class FlightJudge {
     double best = reach * reach;
     const auto low = [&](double v) { return static_cast<int>(std::floor((v - reach) / s_)); };
     const auto high = [&](double v) { return static_cast<int>(std::floor((v + reach) / s_)); };
-    const auto off = [&](int i, double v) {
-      return std::max({i * s_ - v, v - (i + 1) * s_, 0.0});
-    };
+    const auto off = [&](int i, double v) { return std::max({i * s_ - v, v - (i + 1) * s_, 0.0}); };
     for (int z = low(p.z()); z <= high(p.z()); ++z)
       for (int y = low(p.y()); y <= high(p.y()); ++y) {
         const double dy = off(y, p.y()), dz = off(z, p.z()), beside = dy * dy + dz * dz;

@@ -103,7 +103,8 @@ MatrixXd solve_densely(const Problem& p) {
     for (int order = 0; order < rows; ++order) {
       const int s = std::min(knot, segments - 1);
       const double t = knot == segments ? p.durations.back() : 0.0;
-      derivatives(knot * rows + order, 0) = at(s, order, t).head(unknowns).dot(solution.head(unknowns));
+      derivatives(knot * rows + order, 0) =
+          at(s, order, t).head(unknowns).dot(solution.head(unknowns));
     }
   return derivatives;
 }
@@ -141,8 +142,8 @@ TEST(MinimumSpline, EqualsADenseQuadraticProgramme) {
 
 TEST(MinimumSpline, FromRestToRestIsTheTextbooksPolynomial) {
   const std::array<std::vector<double>, 2> textbook = {
-      std::vector<double>{0, 0, 0, 10, -15, 6},             // least jerk
-      std::vector<double>{0, 0, 0, 0, 35, -84, 70, -20}};   // least snap
+      std::vector<double>{0, 0, 0, 10, -15, 6},            // least jerk
+      std::vector<double>{0, 0, 0, 0, 35, -84, 70, -20}};  // least snap
   for (const Smoothness smoothness : kBoth) {
     const int rows = knot_size(smoothness);
     // At rest up to the derivative below the one that is minimised, which is free.

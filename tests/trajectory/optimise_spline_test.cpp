@@ -15,9 +15,7 @@ namespace ridgeway {
 namespace {
 
 /// A ball of radius 1 m at the origin.
-DistanceAndGradient ball(const Point& p) {
-  return {p.norm() - 1.0, p.normalized()};
-}
+DistanceAndGradient ball(const Point& p) { return {p.norm() - 1.0, p.normalized()}; }
 
 SpaceSpline random_spline(unsigned seed, Smoothness smoothness, bool from_rest) {
   std::mt19937 random(seed);
@@ -147,7 +145,9 @@ TEST(OptimiseSpline, PushesOutOfCollisionKeepsLimitsAndSaysWhatItCost) {
 TEST(OptimiseSpline, RespectsTheNumberOfEvaluationsAndRepeats) {
   SplineCostConfig config;
   config.radius = 0.3;
-  const auto run = [&](int most) { return optimise_spline(through_the_ball(), config, ball, most); };
+  const auto run = [&](int most) {
+    return optimise_spline(through_the_ball(), config, ball, most);
+  };
   const OptimisationResult few = run(5);
   EXPECT_FALSE(few.report.converged);
   EXPECT_LE(few.report.evaluations, 6);

@@ -24,10 +24,10 @@ struct HeightBand {
 
 /// A quantity over time, drawn below the map.
 struct Chart {
-  std::string label;                            ///< with its unit
-  std::vector<double> times;                    ///< seconds from 0, ascending
-  std::vector<double> values;                   ///< one a time, >= 0; gaps where not finite
-  std::optional<double> limit = std::nullopt;   ///< a dashed line
+  std::string label;                           ///< with its unit
+  std::vector<double> times;                   ///< seconds from 0, ascending
+  std::vector<double> values;                  ///< one a time, >= 0; gaps where not finite
+  std::optional<double> limit = std::nullopt;  ///< a dashed line
   std::string limit_label;
 };
 
@@ -52,10 +52,10 @@ struct PictureConfig {
 /// Draws the map from above, x to the right and y up, as a PNG or SVG picture by the extension of
 /// `out`: known free space white, obstacles dark by the occupied share of each column within the
 /// height band, unknown pale; over it the skeleton diagram, the graph, and the path (may be empty)
-/// with its start and goal. With title, coordinates, scale bar, legend and charts. A map of any extent: the
-/// picture's cells cover several voxels where there are more voxels than pixels.
-/// Throws InputError for a map without known voxels, another extension, a file that cannot be
-/// written. The file is replaced whole or not at all.
+/// with its start and goal. With title, coordinates, scale bar, legend and charts. A map of any
+/// extent: the picture's cells cover several voxels where there are more voxels than pixels. Throws
+/// InputError for a map without known voxels, another extension, a file that cannot be written. The
+/// file is replaced whole or not at all.
 void draw_floor_plan(const Roadmap& roadmap, std::span<const Point> path,
                      const std::filesystem::path& out, const PictureConfig& config = {});
 

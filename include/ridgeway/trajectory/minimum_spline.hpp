@@ -83,8 +83,8 @@ class MinimumSpline {
   std::vector<Block> below_;     ///< L^-1 H(i, i + 1)
 };
 
-/// For unit duration: coefficients of a piece (one row each) from the derivatives at its ends, those
-/// of the first before those of the second. A square matrix of 8 (jerk) or 10 (snap) rows.
+/// For unit duration: coefficients of a piece (one row each) from the derivatives at its ends,
+/// those of the first before those of the second. A square matrix of 8 (jerk) or 10 (snap) rows.
 const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 10, 10>& unit_coefficients(
     Smoothness smoothness);
 

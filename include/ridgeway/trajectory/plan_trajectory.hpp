@@ -17,7 +17,8 @@ namespace ridgeway {
 enum class TrajectoryStatus : std::uint8_t {
   kOk,
   kPathNotFree,      ///< a segment of the path is not free at the radius
-  kCannotStopInTime  ///< the robot moves, and neither the path nor braking could be shown to be free
+  kCannotStopInTime  ///< the robot moves, and neither the path nor braking could be shown to be
+                     ///< free
 };
 
 /// How a trajectory came about, each step taken where those before did not hold.
@@ -26,7 +27,7 @@ enum class TrajectoryStep : std::uint8_t {
   kPushed,     ///< optimised again, pushed harder out of collision
   kInserted,   ///< with more knots on the straight path
   kWithStops,  ///< smooth stretches between stops at corners
-  kStopAndGo,  ///< straight from stop to stop, all the way
+  kStopAndGo,  ///< straight from stop to stop, all the way: the last resort, or faster
 };
 
 /// Names as in the JSON output: "ok", "path_not_free", "cannot_stop_in_time"; "smooth", "pushed",
@@ -44,8 +45,8 @@ struct TrajectoryConfig {
   std::optional<double> start_yaw = std::nullopt;
   /// Yaw follows the direction of travel, as fast as its limit lets it; otherwise it stays.
   bool follow_yaw = true;
-  bool stop_and_go = false;  ///< no smoothing: the last resort at once
-  int most_evaluations = 80; ///< of the cost, each time that a stretch is optimised
+  bool stop_and_go = false;   ///< no smoothing: the last resort at once
+  int most_evaluations = 80;  ///< of the cost, each time that a stretch is optimised
 
   /// Throws InputError naming the bad field.
   void validate() const;
@@ -63,14 +64,15 @@ struct TrajectoryResult {
   TrajectoryStep step = TrajectoryStep::kSmooth;
   Trajectory trajectory;              ///< empty unless ok
   double duration = 0.0;              ///< seconds
-  double stop_and_go_duration = 0.0;  ///< of the last resort, seconds; `duration` is never longer
+  double stop_and_go_duration = 0.0;  ///< seconds; from rest `duration` is never longer
   double clearance = 0.0;             ///< metres: D is nowhere smaller
   MotionPeaks peaks;                  ///< certified
   int stops = 0;                      ///< between start and goal
   bool braked = false;                ///< a moving start came to rest first
-  CostTerms cost;                     ///< of the optimised stretches, summed
-  int evaluations = 0;                ///< of the cost
-  int optimisations = 0, converged = 0;
+  CostTerms cost;                     ///< where the last optimisation ended
+  int optimisations = 0;              ///< of all stretches and steps,
+  int converged = 0;                  ///< those of them that did,
+  int evaluations = 0;                ///< and how often they asked for the cost
   TrajectorySeconds seconds;
 
   bool ok() const { return status == TrajectoryStatus::kOk; }
@@ -87,7 +89,8 @@ struct TrajectoryResult {
 /// and go, at the same limits, by smooth profiles (1.25 v / a for each stage of speeding up and
 /// slowing down, where the trapezoidal profile, whose acceleration jumps, takes v / a).
 ///
-/// From a motion, `stop_and_go_duration` is 0 unless the robot brakes first.
+/// From a motion that cannot go on along the path the robot brakes first, wherever it comes to
+/// rest, and goes on from there.
 /// Thread-safe on one map, deterministic. Throws InputError for a path without points, a point that
 /// is not finite, a start faster than the limits, or a bad configuration.
 TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> path,

@@ -21,10 +21,10 @@ using DistanceField = std::function<DistanceAndGradient(const Point&)>;
 /// A spline in space to be optimised: the positions of movable knots and all durations may change;
 /// the derivatives that are not fixed follow as the smoothest (MinimumSpline).
 struct SpaceSpline {
-  std::vector<double> durations;       ///< seconds, one a segment
-  std::vector<DerivativeMask> fixed;   ///< one a knot; the position is fixed everywhere
-  std::vector<bool> movable;           ///< one a knot
-  Eigen::MatrixXd derivatives;         ///< knot_size rows a knot; columns x, y, z
+  std::vector<double> durations;      ///< seconds, one a segment
+  std::vector<DerivativeMask> fixed;  ///< one a knot; the position is fixed everywhere
+  std::vector<bool> movable;          ///< one a knot
+  Eigen::MatrixXd derivatives;        ///< knot_size rows a knot; columns x, y, z
 
   Trajectory trajectory(Smoothness smoothness) const {
     return make_trajectory(smoothness, durations, derivatives);
@@ -76,11 +76,12 @@ class SplineObjective {
   /// The cost; its gradient too unless `gradient` is empty.
   double operator()(std::span<const double> variables, std::span<double> gradient);
 
-  const CostTerms& terms() const { return terms_; }           ///< of the last call
-  const SpaceSpline& spline() const { return spline_; }       ///< of the last call, solved
+  const CostTerms& terms() const { return terms_; }      ///< of the last call
+  const SpaceSpline& spline() const { return spline_; }  ///< of the last call, solved
 
  private:
-  using Sample = Eigen::Matrix<double, 4, 3>;  ///< position, velocity, acceleration, jerk; gradients
+  using Sample =
+      Eigen::Matrix<double, 4, 3>;  ///< position, velocity, acceleration, jerk; gradients
   void set(std::span<const double> variables);
   struct Density {
     double collision = 0.0, limits = 0.0;

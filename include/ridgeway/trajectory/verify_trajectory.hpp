@@ -9,8 +9,8 @@
 
 namespace ridgeway {
 
-/// Times, seconds from the start, from which on it cannot be shown that a sphere of the radius fits:
-/// the first in each segment that has one. Empty: the robot fits for certain, all along. Each
+/// Times, seconds from the start, from which on it cannot be shown that a sphere of the radius
+/// fits: the first in each segment that has one. Empty: the robot fits for certain, all along. Each
 /// curve lies in the hull of its Bezier points, so where it departs from its chord by at most e it
 /// is free if the chord is free at radius + e (D is 1-Lipschitz); curves are halved until that
 /// holds, or one begins where it is not free, or is shorter than a thousandth of a voxel. Under
