@@ -80,6 +80,7 @@ void draw(const Roadmap& roadmap, const PlanResult& path, const TrajectoryResult
   constexpr double kPoints = 1500.0;
   const auto states = flown.trajectory.sample(std::max(flown.duration / kPoints, 1e-3));
   std::vector<Point> curve;
+  curve.reserve(states.size());
   for (const TrajectoryState& state : states) curve.push_back(state.position);
   PictureConfig picture;
   picture.diagram = picture.graph = false;

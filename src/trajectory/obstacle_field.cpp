@@ -85,7 +85,7 @@ DistanceField obstacle_field(const EsdfMap& esdf, double radius, double margin) 
   if (esdf.unknown == UnknownPolicy::kObstacle) return from_obstacles;
 
   return [=, border = std::make_shared<FreeBorder>(esdf)](const Point& p) {
-    const DistanceAndGradient obstacle = from_obstacles(p);
+    DistanceAndGradient obstacle = from_obstacles(p);
     if (!has_voxel(p, s)) return obstacle;
     const DistanceAndGradient inside = border->at(p);
     const double scale = margin / kReach;  // the margin begins where the border comes into reach

@@ -3,6 +3,7 @@
 #include "smooth_path.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 

@@ -14,25 +14,19 @@ namespace {
 
 /// From rest to rest, a piece's peak rate is 2.46 (degree 9) or 2.19 (degree 7) of its mean rate.
 constexpr double kPeakOverMean = 2.5;
-constexpr double kStanding = 1e-3;  // of a metre or metre a second: no direction of travel
+constexpr double kSmallTurn = 0.05;  // radians: still straight on
+constexpr double kStanding = 1e-3;   // of a metre or metre a second: no direction of travel
 
 std::optional<double> heading(const Point& direction) {
   if (std::hypot(direction.x(), direction.y()) < kStanding) return std::nullopt;
   return std::atan2(direction.y(), direction.x());
 }
 
-/// Direction of travel at each joint: of the velocity, or where the robot stands that in which it
-/// goes on.
-std::vector<std::optional<double>> headings(const Trajectory& trajectory) {
-  std::vector<std::optional<double>> result;
-  for (const TrajectorySegment& s : trajectory.segments) {
-    const Point velocity = s.derivative(1, 0.0).head<3>();
-    const Point onward = (s.derivative(0, s.duration) - s.derivative(0, 0.0)).head<3>();
-    const auto now = heading(velocity);
-    result.push_back(now ? now : heading(onward));
-  }
-  result.push_back(std::nullopt);  // it stops: as before
-  return result;
+/// Direction of travel where a piece begins: of the velocity, or where the robot stands that in
+/// which it goes on.
+std::optional<double> heading_at_start(const TrajectorySegment& s) {
+  const auto now = heading(s.derivative(1, 0.0).head<3>());
+  return now ? now : heading((s.derivative(0, s.duration) - s.derivative(0, 0.0)).head<3>());
 }
 
 double nearest_turn(double angle, double to) {
@@ -67,20 +61,52 @@ void set_yaw(TrajectorySegment& segment, int rows, double from, double to, doubl
     segment.coefficients(3, k) = unit(k) / power;
 }
 
+/// Cuts a piece in two at a time, the curve staying the same.
+void cut(std::vector<TrajectorySegment>& segments, std::size_t i, double t) {
+  TrajectorySegment rest;
+  rest.duration = segments[i].duration - t;
+  double factorial = 1.0;
+  for (int k = 0; k < kCoefficients; factorial *= ++k)
+    rest.coefficients.col(k) = segments[i].derivative(k, t) / factorial;
+  segments[i].duration = t;
+  segments.insert(segments.begin() + static_cast<std::ptrdiff_t>(i) + 1, rest);
+}
+
+/// Yaw at the joints: after each piece as near to the direction of travel as the limit allows.
+/// Where the robot goes straight on after a turn that the yaw has not followed, the long piece is
+/// cut so that the yaw need not take all of it.
+std::vector<double> joint_yaws(std::vector<TrajectorySegment>& segments, double max_rate,
+                               double start_yaw) {
+  std::vector<double> yaw{start_yaw};
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const bool is_last = i + 1 == segments.size();
+    const auto here = heading_at_start(segments[i]);
+    const auto next = is_last ? here : heading_at_start(segments[i + 1]);
+    const double target = next ? nearest_turn(*next, yaw[i]) : yaw[i];
+    const double time = std::abs(target - yaw[i]) * kPeakOverMean / max_rate;
+    const bool straight = here && std::abs(nearest_turn(*here, target) - target) < kSmallTurn;
+    if (straight && std::abs(target - yaw[i]) > kSmallTurn && time < 0.5 * segments[i].duration)
+      cut(segments, i, time);
+    const double most = max_rate * segments[i].duration / kPeakOverMean;
+    yaw.push_back(std::clamp(target, yaw[i] - most, yaw[i] + most));
+  }
+  return yaw;
+}
+
+double first_heading(const std::vector<TrajectorySegment>& segments) {
+  for (const TrajectorySegment& segment : segments)
+    if (const auto found = heading_at_start(segment)) return *found;
+  return 0.0;
+}
+
 }  // namespace
 
 void assign_yaw(Trajectory& trajectory, int rows, double max_rate, std::optional<double> start_yaw,
                 bool follow) {
   std::vector<TrajectorySegment>& segments = trajectory.segments;
-  const std::vector<std::optional<double>> travel = headings(trajectory);
-  std::vector<double> yaw(travel.size());
-  const auto first = std::find_if(travel.begin(), travel.end(), [](const auto& h) { return !!h; });
-  yaw[0] = start_yaw.value_or(first != travel.end() ? **first : 0.0);
-  for (std::size_t i = 1; i < yaw.size(); ++i) {
-    const double most = max_rate * segments[i - 1].duration / kPeakOverMean;
-    const double target = follow && travel[i] ? nearest_turn(*travel[i], yaw[i - 1]) : yaw[i - 1];
-    yaw[i] = std::clamp(target, yaw[i - 1] - most, yaw[i - 1] + most);
-  }
+  const double start = start_yaw ? *start_yaw : first_heading(segments);
+  const std::vector<double> yaw = follow ? joint_yaws(segments, max_rate, start)
+                                         : std::vector<double>(segments.size() + 1, start);
   std::vector<double> rates = joint_rates(yaw, trajectory);
   const auto set = [&](std::size_t i) {
     set_yaw(segments[i], rows, yaw[i], yaw[i + 1], rates[i], rates[i + 1]);

@@ -73,6 +73,7 @@ TEST(PlanTrajectory, LimitsHoldForAnyLimits) {
     config.limits.max_yaw_rate = std::pow(10.0, exponent(random));
     config.smoothness = i % 4 < 2 ? Smoothness::kSnap : Smoothness::kJerk;
     std::vector<Point> path;
+    path.reserve(7);
     for (int k = 0; k < 2 + i % 5; ++k) path.emplace_back(place(random), place(random), 2.0);
     const TrajectoryResult result = plan_trajectory(esdf(), path, config);
     expect_flown(result, path, config);
@@ -261,6 +262,17 @@ TEST(PlanTrajectory, YawFollowsTheDirectionOfTravelWithoutJumps) {
   EXPECT_LE(worst, 0.35);
   EXPECT_GT(before, 9.0);  // unwrapped
 
+  // From stop to stop over a right angle: it has turned a second and a half after the stop, however
+  // long the leg.
+  const std::vector<Point> corner{{3, 3, 2}, {6, 3, 2}, {6, 17, 2}};
+  TrajectoryConfig stopping;
+  stopping.stop_and_go = true;
+  const TrajectoryResult stopped = plan_trajectory(esdf(), corner, stopping);
+  expect_flown(stopped, corner, stopping);
+  const double stop = 0.5 * 3 + 1.25, turned = stop + 0.5 * std::numbers::pi * 2.5 / 1.5;
+  EXPECT_NEAR(stopped.trajectory.at(stop - 0.5).yaw, 0.0, 0.01);
+  EXPECT_NEAR(stopped.trajectory.at(turned + 0.5).yaw, std::numbers::pi / 2, 0.01);
+
   config.follow_yaw = false;
   config.start_yaw = 1.0;
   const TrajectoryResult fixed = plan_trajectory(esdf(), path, config);
@@ -313,6 +325,7 @@ TEST(PlanTrajectory, IsTheSameFromManyThreads) {
   const TrajectoryResult alone = plan_trajectory(esdf(), path, {});
   std::vector<TrajectoryResult> results(4);
   std::vector<std::thread> threads;
+  threads.reserve(results.size());
   for (TrajectoryResult& mine : results)
     threads.emplace_back([&] { mine = plan_trajectory(esdf(), path, {}); });
   for (std::thread& thread : threads) thread.join();

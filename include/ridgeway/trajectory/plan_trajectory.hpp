@@ -23,7 +23,7 @@ enum class TrajectoryStatus : std::uint8_t {
 
 /// How a trajectory came about, each step taken where those before did not hold.
 enum class TrajectoryStep : std::uint8_t {
-  kSmooth,     ///< optimised, and verified at once
+  kSmooth,     ///< a single straight leg; or optimised, and verified at once
   kPushed,     ///< optimised again, pushed harder out of collision
   kInserted,   ///< with more knots on the straight path
   kWithStops,  ///< smooth stretches between stops at corners
