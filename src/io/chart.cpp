@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "picture_frame.hpp"
+#include "ridgeway/common/error.hpp"
 
 namespace ridgeway {
 namespace {
@@ -101,6 +102,13 @@ void draw_chart(Canvas& canvas, const Chart& chart, const Plot& plot, bool is_la
 }
 
 }  // namespace
+
+void validate_charts(std::span<const Chart> charts) {
+  for (const Chart& chart : charts)
+    if (chart.times.size() != chart.values.size())
+      throw InputError("chart '" + chart.label + "'", "has times and values of different numbers",
+                       "give one value for each time");
+}
 
 double charts_height(std::size_t count, double unit) {
   return count == 0 ? 0.0 : (static_cast<double>(count) * (kTitle + kPlot + kGap) + kAxis) * unit;

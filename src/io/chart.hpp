@@ -9,6 +9,9 @@
 
 namespace ridgeway {
 
+/// Throws InputError naming the chart that has not one value for each time.
+void validate_charts(std::span<const Chart> charts);
+
 /// Height of charts one under another, pixels; 0 for none.
 double charts_height(std::size_t count, double unit);
 

@@ -264,6 +264,7 @@ void PictureConfig::validate() const {
   if (band && !(band->low <= band->high)) {
     throw InputError("band", "is empty", "give the lower height first");
   }
+  validate_charts(charts);
 }
 
 void draw_floor_plan(const Roadmap& roadmap, std::span<const Point> path,

@@ -41,10 +41,7 @@ class FreeBorder {
   }
 
  private:
-  bool is_free(const VoxelIndex& v) const {
-    const VoxelId id = esdf_.layout.find(v);
-    return id != kNoVoxel && esdf_.state[id] == VoxelState::kFree;
-  }
+  bool is_free(VoxelId id) const { return id != kNoVoxel && esdf_.state[id] == VoxelState::kFree; }
 
   double at_centre(const VoxelIndex& v) {
     const auto part = [](int k) { return static_cast<std::uint64_t>(k) & 0x1fffff; };
@@ -55,14 +52,18 @@ class FreeBorder {
   }
 
   double search(const VoxelIndex& v) const {
-    const bool inside = is_free(v);
+    const VoxelId centre = esdf_.layout.find(v);
+    const bool inside = is_free(centre);
     std::uint32_t nearest = 4 * kReach * kReach;
     for (int z = -kReach; z <= kReach; ++z)
       for (int y = -kReach; y <= kReach; ++y)
         for (int x = -kReach; x <= kReach; ++x) {
           const std::uint32_t squared =
               quarter_squared(x) + quarter_squared(y) + quarter_squared(z);
-          if (squared < nearest && is_free(v + VoxelIndex{x, y, z}) != inside) nearest = squared;
+          if (squared >= nearest) continue;
+          const VoxelId id = centre != kNoVoxel ? esdf_.layout.step(centre, x, y, z)
+                                                : esdf_.layout.find(v + VoxelIndex{x, y, z});
+          if (is_free(id) != inside) nearest = squared;
         }
     return (inside ? 0.5 : -0.5) * std::sqrt(static_cast<double>(nearest));
   }
