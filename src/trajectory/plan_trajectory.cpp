@@ -11,6 +11,7 @@
 #include "initial_spline.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/number_text.hpp"
+#include "ridgeway/planning/plan.hpp"
 #include "ridgeway/trajectory/verify_trajectory.hpp"
 #include "smooth_path.hpp"
 #include "straight_motion.hpp"
@@ -121,6 +122,10 @@ void TrajectoryConfig::validate() const {
 TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> path,
                                  const TrajectoryConfig& config) {
   config.validate();
+  if (config.radius > largest_radius(esdf))
+    throw InputError("radius " + number_text(config.radius),
+                     "is beyond the distances that the map holds",
+                     "build the map with a larger --max-distance, or without one");
   const std::vector<Point> points = distinct_points(path);
   const double began = seconds_now();
   TrajectoryResult result;

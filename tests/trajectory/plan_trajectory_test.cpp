@@ -309,6 +309,17 @@ TEST(PlanTrajectory, RefusesBadInputByName) {
   EXPECT_THROW(plan_trajectory(esdf(), std::vector<Point>{{1, nan, 1}}, {}), InputError);
 }
 
+TEST(PlanTrajectory, KnowsHallsLargerThanMaxDistance) {
+  const EsdfMap near = compute_esdf(room(), {.max_distance = 0.8});
+  const std::vector<Point> path{{3, 3, 2}, {16, 4, 2}, {16, 16, 2}};
+  const TrajectoryResult result = plan_trajectory(near, path, {});
+  expect_flown(result, path, {});
+  EXPECT_EQ(result.step, TrajectoryStep::kSmooth);
+  TrajectoryConfig config;
+  config.radius = 0.7;
+  EXPECT_THROW(plan_trajectory(near, path, config), InputError);
+}
+
 TEST(PlanTrajectory, SaysWhenThePathIsNotFree) {
   for (const std::vector<Point>& path : {std::vector<Point>{{5, 10, 2}, {15, 10, 2}},
                                          {{5, 10, 2}, {50, 10, 2}},

@@ -92,7 +92,8 @@ struct TrajectoryResult {
 /// From a motion that cannot go on along the path the robot brakes first, wherever it comes to
 /// rest, and goes on from there.
 /// Thread-safe on one map, deterministic. Throws InputError for a path without points, a point that
-/// is not finite, a start faster than the limits, or a bad configuration.
+/// is not finite, a start faster than the limits, a radius larger than the map knows distances for,
+/// or a bad configuration.
 TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> path,
                                  const TrajectoryConfig& config);
 
