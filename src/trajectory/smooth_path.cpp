@@ -15,11 +15,21 @@
 namespace ridgeway::detail {
 namespace {
 
-constexpr double kPushHarder = 10.0;         // times the collision weight
 constexpr double kSpacing = 0.75;            // of v^2 / a: between knots, at most
 constexpr double kLeastSpacing = 2.0;        // radii
 constexpr double kMarginOfRadius = 1.0 / 3;  // in which the collision cost pushes,
 constexpr double kLeastMargin = 2.0;         // at least voxels
+
+struct Try {
+  TrajectoryStep step;
+  double spacing;  ///< of knots, times the usual
+  double push;     ///< times the usual weight of collision
+  bool anew;       ///< from knots on the path, not from where the last try ended
+};
+constexpr std::array<Try, 4> kTries{{{TrajectoryStep::kSmooth, 1.0, 1.0, true},
+                                     {TrajectoryStep::kPushed, 1.0, 10.0, false},
+                                     {TrajectoryStep::kInserted, 0.5, 10.0, true},
+                                     {TrajectoryStep::kInserted, 0.5, 100.0, false}}};
 
 class Stopwatch {
  public:
@@ -122,26 +132,23 @@ std::optional<Trajectory> SmoothPath::smooth_or_stop(std::span<const Point> path
   return whole;
 }
 
-/// The three tries at a trajectory without stops.
+/// Tries at a trajectory without stops; the last of them where none holds.
 SmoothPath::Attempt SmoothPath::smooth(std::span<const Point> path, const StartState& start) {
   const MotionLimits& limits = config_.limits;
   const double spacing =
       std::max(kSpacing * limits.max_speed * limits.max_speed / limits.max_acceleration,
                kLeastSpacing * config_.radius);
-  SplineCostConfig cost = cost_;
-  SpaceSpline spline = initial_spline(path, start, spacing, cost);
-  Attempt attempt = optimise(spline, cost);
-  if (attempt.holds()) return attempt;
-
-  cost.collision_weight *= kPushHarder;
-  attempt = optimise(spline, cost);
-  if (attempt.holds()) {
-    note(TrajectoryStep::kPushed);
-    return attempt;
+  SpaceSpline spline;
+  Attempt attempt;
+  for (const Try& t : kTries) {
+    SplineCostConfig cost = cost_;
+    cost.collision_weight *= t.push;
+    if (t.anew) spline = initial_spline(path, start, t.spacing * spacing, cost);
+    attempt = optimise(spline, cost);
+    if (!attempt.holds()) continue;
+    note(t.step);
+    break;
   }
-  spline = initial_spline(path, start, 0.5 * spacing, cost);
-  attempt = optimise(spline, cost);
-  if (attempt.holds()) note(TrajectoryStep::kInserted);
   return attempt;
 }
 
