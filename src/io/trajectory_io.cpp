@@ -47,6 +47,13 @@ std::string trajectory_json(const PlanResult& path, const TrajectoryResult& resu
   json["max_jerk"] = result.peaks.jerk;
   json["max_yaw_rate"] = result.peaks.yaw_rate;
   json["stops"] = result.stops;
+  json["optimisations"] = result.optimisations;
+  json["converged"] = result.converged;
+  json["evaluations"] = result.evaluations;
+  json["cost"] = {{"time", result.cost.time},
+                  {"smoothness", result.cost.smoothness},
+                  {"collision", result.cost.collision},
+                  {"limits", result.cost.limits}};
   Json& seconds = json["seconds"];
   seconds["optimise"] = result.seconds.optimise;
   seconds["verify"] = result.seconds.verify;

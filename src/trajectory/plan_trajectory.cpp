@@ -149,7 +149,8 @@ TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> pat
     result.trajectory = halting;
     result.step = TrajectoryStep::kStopAndGo;
     result.stops = static_cast<int>(points.size()) - 2;
-    if (!start.is_rest() || !smooth.holds(halting)) return finish(TrajectoryStatus::kPathNotFree);
+    if (!start.is_rest()) return finish(TrajectoryStatus::kCannotStopInTime);
+    if (!smooth.holds(halting)) return finish(TrajectoryStatus::kPathNotFree);
   }
   describe(esdf, points, config, result);
   return finish(TrajectoryStatus::kOk);

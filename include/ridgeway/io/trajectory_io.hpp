@@ -15,6 +15,7 @@ void require_trajectory_format(const std::filesystem::path& path);
 
 /// A path and the trajectory along it as a JSON object: the keys of plan_json, and step, duration,
 /// stop_and_go_duration, max_speed, max_acceleration, max_jerk, max_yaw_rate (certified), stops,
+/// optimisations, converged, evaluations, cost {time, smoothness, collision, limits} of the last,
 /// and samples every `step` seconds: a list of {t, position, velocity, acceleration, yaw}. `status`
 /// and `clearance` are the trajectory's, `path_clearance` the path's; `seconds` has optimise and
 /// verify too, its total is of all. SI units, radians; numbers read back as they were; an infinite

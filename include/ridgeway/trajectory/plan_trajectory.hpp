@@ -16,9 +16,8 @@ namespace ridgeway {
 
 enum class TrajectoryStatus : std::uint8_t {
   kOk,
-  kPathNotFree,      ///< a segment of the path is not free at the radius
-  kCannotStopInTime  ///< the robot moves, and neither the path nor braking could be shown to be
-                     ///< free
+  kPathNotFree,       ///< a segment of the path is not free at the radius
+  kCannotStopInTime,  ///< from a motion neither the path can be followed nor braking is free
 };
 
 /// How a trajectory came about, each step taken where those before did not hold.
@@ -86,8 +85,8 @@ struct TrajectoryResult {
 /// A minimum-snap or -jerk spline is optimised in the ESDF; where it does not hold, it is pushed
 /// harder, gets more knots on the path, and at last stops at corners: straight motion from stop to
 /// stop always holds, so every free path from rest yields a trajectory. None lasts longer than stop
-/// and go, at the same limits, by smooth profiles (1.25 v / a for each stage of speeding up and
-/// slowing down, where the trapezoidal profile, whose acceleration jumps, takes v / a).
+/// and go at the same limits, whose profile is as smooth: a leg of length L takes L / v + 1.25 v /
+/// a, where the trapezoidal profile, with its jumps of acceleration, would take L / v + v / a.
 ///
 /// From a motion that cannot go on along the path the robot brakes first, wherever it comes to
 /// rest, and goes on from there.
