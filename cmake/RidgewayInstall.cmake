@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 The Ridgeway authors
 
-# Installation, find_package(ridgeway COMPONENTS core sampling io), and the Debian packages ridgeway
-# (the program) and ridgeway-dev (headers and static libraries).
+# Installation, find_package(ridgeway COMPONENTS core sampling trajectory io), and the Debian packages
+# ridgeway (the program) and ridgeway-dev (headers and static libraries).
 
 include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/ridgeway")
 
-# Core: every module but sampling and io, and the umbrella ridgeway::ridgeway.
+# Core: every module but sampling, trajectory and io, and the umbrella ridgeway::ridgeway.
 get_property(core_modules GLOBAL PROPERTY RIDGEWAY_MODULES_core)
 install(
   TARGETS ${core_modules} ridgeway
@@ -20,31 +20,35 @@ install(
   COMPONENT dev
   FILES_MATCHING
   PATTERN "*.hpp"
-  PATTERN "io" EXCLUDE
-  PATTERN "sampling" EXCLUDE)
+  PATTERN "sampling" EXCLUDE
+  PATTERN "trajectory" EXCLUDE
+  PATTERN "io" EXCLUDE)
 
-# install_component(<name> <file>...): the modules of a further component, their headers, and the
-# files that find what they need.
-function(install_component name)
-  get_property(modules GLOBAL PROPERTY RIDGEWAY_MODULES_${name})
-  if(NOT modules)
-    return()
+# Components of their own, for the libraries that they need.
+foreach(component sampling trajectory io)
+  get_property(modules GLOBAL PROPERTY RIDGEWAY_MODULES_${component})
+  if(modules)
+    install(
+      TARGETS ${modules}
+      EXPORT ridgeway-${component}
+      ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev)
+    install(
+      EXPORT ridgeway-${component}
+      NAMESPACE ridgeway::
+      DESTINATION "${package_dir}"
+      COMPONENT dev)
+    install(
+      DIRECTORY include/ridgeway/${component}
+      DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/ridgeway"
+      COMPONENT dev
+      FILES_MATCHING
+      PATTERN "*.hpp")
   endif()
-  install(
-    TARGETS ${modules}
-    EXPORT ridgeway-${name}
-    ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev)
-  install(EXPORT ridgeway-${name} NAMESPACE ridgeway:: DESTINATION "${package_dir}" COMPONENT dev)
-  install(
-    DIRECTORY include/ridgeway/${name}
-    DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/ridgeway"
-    COMPONENT dev
-    FILES_MATCHING
-    PATTERN "*.hpp")
-  install(FILES ${ARGN} DESTINATION "${package_dir}" COMPONENT dev)
-endfunction()
-install_component(sampling cmake/FindOMPL.cmake)
-install_component(io cmake/FindLZF.cmake)
+endforeach()
+install(
+  FILES cmake/FindOMPL.cmake cmake/FindLZF.cmake
+  DESTINATION "${package_dir}"
+  COMPONENT dev)
 
 configure_package_config_file(
   cmake/ridgewayConfig.cmake.in "${PROJECT_BINARY_DIR}/ridgewayConfig.cmake"
@@ -91,6 +95,7 @@ if(PROJECT_IS_TOP_LEVEL)
   string(
     JOIN ", " CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS
     libompl-dev
+    libnlopt-dev
     pkg-config libcairo2-dev libzstd-dev liblzf-dev libpng-dev libyaml-cpp-dev libassimp-dev)
   include(CPack)
 endif()

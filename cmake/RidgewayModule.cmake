@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 The Ridgeway authors
 
-# ridgeway_module(<name> [COMPONENT core|sampling|io] [SOURCES <file>...] [DEPENDS <target>...]
+# ridgeway_module(<name> [COMPONENT core|sampling|trajectory|io] [SOURCES <file>...]
+#                 [DEPENDS <target>...]
 #                 [PRIVATE_DEPENDS <target>...])
 #
 # The library of one folder: target ridgeway_<name>, alias ridgeway::<name>. Sources are listed one

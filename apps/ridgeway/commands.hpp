@@ -43,5 +43,6 @@ void add_export_command(CLI::App& app, const Globals& globals, Command& chosen);
 void add_world_command(CLI::App& app, const Globals& globals, Command& chosen);
 void add_fuse_command(CLI::App& app, const Globals& globals, Command& chosen);
 void add_simulate_command(CLI::App& app, const Globals& globals, Command& chosen);
+void add_trajectory_command(CLI::App& app, const Globals& globals, Command& chosen);
 
 }  // namespace ridgeway::cli

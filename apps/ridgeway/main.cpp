@@ -32,6 +32,7 @@ void add_commands(CLI::App& app, Globals& globals, Command& chosen) {
   app.fallthrough();
   add_build_command(app, globals, chosen);
   add_plan_command(app, globals, chosen);
+  add_trajectory_command(app, globals, chosen);
   add_check_command(app, globals, chosen);
   add_info_command(app, globals, chosen);
   add_export_command(app, globals, chosen);

@@ -43,7 +43,7 @@ double signed_distance(const EsdfMap& esdf, const VoxelIndex& voxel, double deep
   return id == kNoVoxel ? far : std::min(esdf.distance(id), far);
 }
 
-DistanceAndGradient interpolate_distance(const EsdfMap& esdf, const Point& point) {
+DistanceAndGradient interpolate_distance(const EsdfMap& esdf, const Point& point, double deepest) {
   const double s = esdf.voxel_size;
   const Point shifted = point / s - Point::Constant(0.5);
   const VoxelIndex base = voxel_at(shifted, 1.0);
@@ -51,7 +51,7 @@ DistanceAndGradient interpolate_distance(const EsdfMap& esdf, const Point& point
   std::array<double, 8> d;  // bit 0: x, bit 1: y, bit 2: z
   for (int i = 0; i < 8; ++i)
     d[static_cast<std::size_t>(i)] =
-        signed_distance(esdf, base + VoxelIndex{i & 1, i >> 1 & 1, i >> 2});
+        signed_distance(esdf, base + VoxelIndex{i & 1, i >> 1 & 1, i >> 2}, deepest);
   const auto mix = [](double a, double b, double share) { return a + share * (b - a); };
   const double x00 = mix(d[0], d[1], t.x()), x10 = mix(d[2], d[3], t.x());
   const double x01 = mix(d[4], d[5], t.x()), x11 = mix(d[6], d[7], t.x());

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "canvas.hpp"
+#include "chart.hpp"
 #include "floor_raster.hpp"
 #include "picture_frame.hpp"
 #include "ridgeway/common/error.hpp"
@@ -167,13 +168,6 @@ double length_of(std::span<const Point> path) {
   return length;
 }
 
-/// 12345 as "12,345".
-std::string grouped(std::size_t count) {
-  std::string text = std::to_string(count);
-  for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, 1, ',');
-  return text;
-}
-
 std::string title_of(const Roadmap& roadmap, const PictureConfig& config) {
   if (!config.title.empty()) return config.title;
   const std::string name = std::filesystem::path(roadmap.source).filename().string();
@@ -203,8 +197,8 @@ std::vector<LegendItem> legend_items(bool diagram, const Range& range, std::span
                      std::string("diagram, ") + (height ? "height " : "clearance ") +
                          short_number(range.low, 1) + " to " + short_number(range.high, 1) + " m"});
   }
-  if (!path.empty()) items.push_back({Mark::kPath, "path"});
-  if (!config.raw_path.empty()) items.push_back({Mark::kRawPath, "before shortening"});
+  if (!path.empty()) items.push_back({Mark::kPath, config.path_label});
+  if (!config.raw_path.empty()) items.push_back({Mark::kRawPath, config.raw_path_label});
   if (!path.empty()) {
     items.push_back({Mark::kStart, "start"});
     items.push_back({Mark::kGoal, "goal"});
@@ -216,7 +210,7 @@ std::vector<LegendItem> legend_items(bool diagram, const Range& range, std::span
 struct Page {
   MapFrame frame;
   LegendLayout legend;
-  double legend_left = 0.0, legend_top = 0.0;
+  double legend_left = 0.0, legend_top = 0.0, charts_top = 0.0;
   int height = 0;
 };
 
@@ -242,8 +236,10 @@ Page lay_out_page(const FloorRaster& raster, double voxel_size, std::span<const 
   page.legend = lay_out_legend(measure, items, config.width - page.legend_left - kMargin * u, u);
   page.legend_top = frame.top + frame.height + kAxis * u;
   const double rows = std::max(1.6, static_cast<double>(page.legend.rows.size()));
-  page.height = static_cast<int>(
-      std::ceil(page.legend_top + rows * legend_row_height(u) + 0.5 * kMargin * u));
+  page.charts_top = page.legend_top + (rows + 0.2) * legend_row_height(u);
+  page.height =
+      static_cast<int>(std::ceil(page.legend_top + rows * legend_row_height(u) +
+                                 charts_height(config.charts.size(), u) + 0.5 * kMargin * u));
   return page;
 }
 
@@ -268,6 +264,7 @@ void PictureConfig::validate() const {
   if (band && !(band->low <= band->high)) {
     throw InputError("band", "is empty", "give the lower height first");
   }
+  validate_charts(charts);
 }
 
 void draw_floor_plan(const Roadmap& roadmap, std::span<const Point> path,
@@ -294,6 +291,8 @@ void draw_floor_plan(const Roadmap& roadmap, std::span<const Point> path,
   draw_scale_bar(canvas, frame, kLeft * frame.unit, page.legend_top,
                  (kScaleBar - 80.0) * frame.unit);
   draw_legend(canvas, items, page.legend, page.legend_left, page.legend_top, frame.unit);
+  draw_charts(canvas, config.charts, kLeft * frame.unit, page.charts_top,
+              config.width - (kLeft + kMargin) * frame.unit, frame.unit);
   canvas.finish();
 }
 

@@ -67,6 +67,8 @@ void draw_border(Canvas& canvas, const MapFrame& frame);
 
 /// 1, 2 or 5 times a power of ten, the largest that is at most `most`.
 double round_step(double most);
+/// 12345 as "12,345".
+std::string grouped(std::size_t count);
 /// A number with no more decimals than it needs, at most `decimals`.
 std::string short_number(double value, int decimals);
 

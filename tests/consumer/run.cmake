@@ -16,5 +16,6 @@ run(
   "-DRIDGEWAY_VERSION=${VERSION}")
 run("${CMAKE_COMMAND}" --build "${WORK_DIR}/build")
 run("${WORK_DIR}/build/consumer_core" "${VERSION}")
+run("${WORK_DIR}/build/consumer_trajectory")
 run("${WORK_DIR}/build/consumer_io")
 run("${WORK_DIR}/build/consumer_sampling")

@@ -5,6 +5,7 @@
 #include <cairo.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
@@ -65,6 +66,23 @@ TEST(Picture, PngShowsMapAndPath) {
     EXPECT_GT(count_pixels(image.get(), 0x292e36), 1000u);  // walls
     EXPECT_GT(count_pixels(image.get(), 0xe8ebee), 100u);   // unknown
   }
+}
+
+TEST(Picture, ChartsGoBelowTheMap) {
+  const TemporaryFolder folder;
+  const Roadmap roadmap = synthetic_roadmap();
+  const auto height = [&](const PictureConfig& config) {
+    draw_floor_plan(roadmap, {}, folder / "plan.png", config);
+    return cairo_image_surface_get_height(open_png(folder / "plan.png").get());
+  };
+  PictureConfig config;
+  const int without = height(config);
+  config.charts = {{"speed (m/s)", {0.0, 1.0, 2.0, 3.0}, {0.0, 2.0, HUGE_VAL, 1.0}, 2.0, "limit"},
+                   {"empty", {}, {}, std::nullopt, ""}};
+  EXPECT_GT(height(config), without + 200);
+  EXPECT_GT(count_pixels(open_png(folder / "plan.png").get(), 0xd62628), 200u);  // the curve
+  config.charts[0].values.pop_back();
+  EXPECT_THROW(height(config), InputError);
 }
 
 TEST(Picture, WithoutPathNothingIsRed) {

@@ -21,7 +21,9 @@ struct DistanceAndGradient {
 /// Trilinear interpolation of signed distances between the eight voxel centres around a point, and
 /// its exact gradient. Continuous, smooth inside each cell: for optimisers. It is not
 /// 1-Lipschitz and can exceed the true distance: never decide safety by it, ask FreeSpace.
-/// Distances beyond max_distance count as max_distance. Thread-safe.
-DistanceAndGradient interpolate_distance(const EsdfMap& esdf, const Point& point);
+/// Distances beyond max_distance count as max_distance, those below -`deepest` as that: a smaller
+/// one saves time inside obstacles. Thread-safe.
+DistanceAndGradient interpolate_distance(const EsdfMap& esdf, const Point& point,
+                                         double deepest = 1.0);
 
 }  // namespace ridgeway

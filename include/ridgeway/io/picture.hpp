@@ -22,6 +22,15 @@ struct HeightBand {
   double high = 0.0;
 };
 
+/// A quantity over time, drawn below the map.
+struct Chart {
+  std::string label;                           ///< with its unit
+  std::vector<double> times;                   ///< seconds from 0, ascending
+  std::vector<double> values;                  ///< one a time, >= 0; gaps where not finite
+  std::optional<double> limit = std::nullopt;  ///< a dashed line
+  std::string limit_label;
+};
+
 struct PictureConfig {
   int width = 1600;  ///< pixels, 400 to 16000; the height follows the map, up to 1.5 widths
   /// Not given: between the 20th and the 80th percentile of the free voxels' heights, so that
@@ -32,6 +41,9 @@ struct PictureConfig {
   DiagramColour diagram_colour = DiagramColour::kClearance;
   std::string title;            ///< not given: the file name of the roadmap's source
   std::vector<Point> raw_path;  ///< the path before it was shortened, dashed; may be empty
+  std::string path_label = "path";
+  std::string raw_path_label = "before shortening";
+  std::vector<Chart> charts;
 
   /// Throws InputError naming the bad field.
   void validate() const;
@@ -40,10 +52,10 @@ struct PictureConfig {
 /// Draws the map from above, x to the right and y up, as a PNG or SVG picture by the extension of
 /// `out`: known free space white, obstacles dark by the occupied share of each column within the
 /// height band, unknown pale; over it the skeleton diagram, the graph, and the path (may be empty)
-/// with its start and goal. With title, coordinates, scale bar and legend. A map of any extent: the
-/// picture's cells cover several voxels where there are more voxels than pixels.
-/// Throws InputError for a map without known voxels, another extension, a file that cannot be
-/// written. The file is replaced whole or not at all.
+/// with its start and goal. With title, coordinates, scale bar, legend and charts. A map of any
+/// extent: the picture's cells cover several voxels where there are more voxels than pixels. Throws
+/// InputError for a map without known voxels, another extension, a file that cannot be written. The
+/// file is replaced whole or not at all.
 void draw_floor_plan(const Roadmap& roadmap, std::span<const Point> path,
                      const std::filesystem::path& out, const PictureConfig& config = {});
 

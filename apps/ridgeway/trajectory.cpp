@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "arguments.hpp"
+#include "commands.hpp"
+#include "console.hpp"
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/io/path_io.hpp"
+#include "ridgeway/io/picture.hpp"
+#include "ridgeway/io/ridge_file.hpp"
+#include "ridgeway/io/trajectory_io.hpp"
+#include "ridgeway/planning/plan.hpp"
+#include "ridgeway/trajectory/plan_trajectory.hpp"
+#include "roadmap_facts.hpp"
+
+namespace ridgeway::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+struct Options {
+  std::string file, from, to, from_velocity, derivative = "snap", output, picture;
+  std::optional<double> radius, max_jerk, yaw;
+  double max_speed = 2.0, max_acceleration = 2.0, max_yaw_rate = 90.0, step = 0.01;
+  bool stop_and_go = false;
+};
+
+TrajectoryConfig trajectory_config(const Options& options, double radius) {
+  TrajectoryConfig config;
+  config.radius = radius;
+  config.limits.max_speed = options.max_speed;
+  config.limits.max_acceleration = options.max_acceleration;
+  if (options.max_jerk) config.limits.max_jerk = *options.max_jerk;
+  config.limits.max_yaw_rate = options.max_yaw_rate * kDegree;
+  if (options.derivative == "jerk") config.smoothness = Smoothness::kJerk;
+  if (!options.from_velocity.empty())
+    config.start_velocity = parse_point(options.from_velocity, "--from-velocity");
+  if (options.yaw) config.start_yaw = *options.yaw * kDegree;
+  config.follow_yaw = !options.yaw;
+  config.stop_and_go = options.stop_and_go;
+  config.validate();
+  return config;
+}
+
+std::string explain_no_trajectory(const TrajectoryResult& result) {
+  if (result.status == TrajectoryStatus::kCannotStopInTime)
+    return "the robot can neither follow the path from its motion nor brake in free space: give a "
+           "lower --from-velocity or a higher --max-acceleration";
+  return "the path is not free at the radius";
+}
+
+/// Speed, acceleration and clearance over time.
+std::vector<Chart> charts_of(const FreeSpace& space, const std::vector<TrajectoryState>& states,
+                             const TrajectoryConfig& config) {
+  Chart speed{"speed (m/s)", {}, {}, config.limits.max_speed, "limit"};
+  Chart acceleration{"acceleration (m/s\u00b2)", {}, {}, config.limits.max_acceleration, "limit"};
+  Chart clearance{"clearance (m)", {}, {}, config.radius, "robot's radius"};
+  for (const TrajectoryState& state : states) {
+    for (Chart* chart : {&speed, &acceleration, &clearance}) chart->times.push_back(state.time);
+    speed.values.push_back(state.velocity.norm());
+    acceleration.values.push_back(state.acceleration.norm());
+    clearance.values.push_back(space.distance(state.position));
+  }
+  return {speed, acceleration, clearance};
+}
+
+void draw(const Roadmap& roadmap, const PlanResult& path, const TrajectoryResult& flown,
+          const TrajectoryConfig& config, const std::string& file) {
+  constexpr double kPoints = 1500.0;
+  const auto states = flown.trajectory.sample(std::max(flown.duration / kPoints, 1e-3));
+  std::vector<Point> curve;
+  curve.reserve(states.size());
+  for (const TrajectoryState& state : states) curve.push_back(state.position);
+  PictureConfig picture;
+  picture.diagram = picture.graph = false;
+  picture.raw_path = path.waypoints;
+  picture.path_label = "trajectory";
+  picture.raw_path_label = "path";
+  picture.charts = charts_of(FreeSpace(roadmap.esdf), states, config);
+  draw_floor_plan(roadmap, curve, file, picture);
+}
+
+void print_result(const PlanResult& path, const TrajectoryResult& flown, double radius) {
+  print_row("path", text_of(path.length) + " m, " + count_text(path.waypoints.size()) +
+                        " waypoints, " + seconds_text(path.seconds.total));
+  print_row("trajectory", text_of(flown.duration) + " s, " + std::string(name_of(flown.step)) +
+                              "; stop and go " + text_of(flown.stop_and_go_duration) + " s");
+  print_row("at most", text_of(flown.peaks.speed) + " m/s, " + text_of(flown.peaks.acceleration) +
+                           " m/s^2, yaw " + text_of(flown.peaks.yaw_rate / kDegree, 1) +
+                           " degrees/s");
+  print_row("clearance",
+            text_of(rounded_down(flown.clearance)) + " m, robot radius " + text_of(radius) + " m");
+  print_row("time", seconds_text(flown.seconds.total) + " (optimise " +
+                        seconds_text(flown.seconds.optimise) + ", verify " +
+                        seconds_text(flown.seconds.verify) + ")");
+}
+
+/// Exit code 2, with the reason, for a path or a trajectory that there is not.
+int report_none(const std::string& status, const std::string& reason, Json json,
+                const Globals& globals) {
+  json["status"] = status;
+  json["reason"] = reason;
+  if (globals.json) {
+    print_json(json);
+  } else {
+    print_row("no trajectory", status);
+    print_row("reason", reason);
+  }
+  return kExitNoPlan;
+}
+
+int run(const Options& options, const Globals& globals) {
+  const Point start = parse_point(options.from, "--from"), goal = parse_point(options.to, "--to");
+  trajectory_config(options, options.radius.value_or(1.0));  // bad limits, before the file is read
+  std::vector<std::filesystem::path> written;
+  if (!options.output.empty()) {
+    require_trajectory_format(options.output);
+    written.emplace_back(options.output);
+  }
+  if (!options.picture.empty()) written.emplace_back(options.picture);
+  require_writable(written, {options.file});
+
+  const Roadmap roadmap = load_roadmap(options.file);
+  const double radius = options.radius.value_or(roadmap.min_clearance);
+  const TrajectoryConfig config = trajectory_config(options, radius);
+  const PlanResult path = plan(roadmap, start, goal, {.radius = radius});
+  if (!path.ok())
+    return report_none(std::string(name_of(path.status)),
+                       explain(roadmap, {start, goal, radius}, path.status, options.file),
+                       Json::parse(plan_json(path)), globals);
+  const TrajectoryResult flown = plan_trajectory(roadmap.esdf, path.waypoints, config);
+  if (!flown.ok())
+    return report_none(std::string(name_of(flown.status)), explain_no_trajectory(flown),
+                       Json::parse(trajectory_json(path, flown, options.step)), globals);
+
+  constexpr double kMostSamples = 1e6;
+  if (flown.duration / options.step > kMostSamples)
+    throw InputError("--step " + text_of(options.step, 6),
+                     "gives more than a million samples of " + text_of(flown.duration) + " s",
+                     "give a larger one");
+  if (!options.output.empty()) write_trajectory(path, flown, options.output, options.step);
+  if (!options.picture.empty()) draw(roadmap, path, flown, config, options.picture);
+  if (globals.json)
+    print_json(Json::parse(trajectory_json(path, flown, options.step)));
+  else
+    print_result(path, flown, radius);
+  for (const auto& file : written)
+    if (!globals.json) print_row("written to", file.string());
+  return kExitDone;
+}
+
+}  // namespace
+
+void add_trajectory_command(CLI::App& app, const Globals& globals, Command& chosen) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("trajectory", "Plan a path, and a verified trajectory to fly along it");
+  command->add_option("roadmap", options->file, "Roadmap, .ridge")->required();
+  command->add_option("--from", options->from, "Start X,Y,Z, metres")->required();
+  command->add_option("--to", options->to, "Goal X,Y,Z, metres")->required();
+  command->add_option("--radius", options->radius,
+                      "Robot radius, metres (default: the smallest the roadmap is for)");
+  command->add_option("--max-speed", options->max_speed, "Metres a second")->capture_default_str();
+  command->add_option("--max-acceleration", options->max_acceleration, "Metres a second^2")
+      ->capture_default_str();
+  command->add_option("--max-jerk", options->max_jerk, "Metres a second^3 (default: no limit)");
+  command->add_option("--max-yaw-rate", options->max_yaw_rate, "Degrees a second")
+      ->capture_default_str();
+  command->add_option("--derivative", options->derivative, "What is smallest: snap or jerk")
+      ->check(CLI::IsMember({"snap", "jerk"}))
+      ->capture_default_str();
+  command->add_option("--from-velocity", options->from_velocity,
+                      "Velocity X,Y,Z at the start, metres a second (default: at rest)");
+  command->add_option("--yaw", options->yaw,
+                      "Constant yaw, degrees (default: the direction of travel)");
+  command->add_flag("--stop-and-go", options->stop_and_go, "Straight legs from stop to stop");
+  command->add_option("--step", options->step, "Seconds between samples")
+      ->check(CLI::Range(1e-4, 1e4))
+      ->capture_default_str();
+  command->add_option("-o,--output", options->output,
+                      "Trajectory to write, .csv, .json, or .yaml of mav_trajectory_generation");
+  command->add_option("--picture", options->picture,
+                      "Picture of map and trajectory, with speed, acceleration and clearance over "
+                      "time, .png or .svg");
+  command->footer(
+      "Exit code 2 when there is none; the reason is in the output.\n"
+      "Example:\n"
+      "  ridgeway trajectory office.ridge --from 0,0,0.6 --to 10,0,0.6 -o trajectory.yaml");
+  run_when_given(*command, options, globals, chosen, run);
+}
+
+}  // namespace ridgeway::cli

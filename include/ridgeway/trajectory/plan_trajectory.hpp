@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "ridgeway/esdf/esdf_map.hpp"
+#include "ridgeway/trajectory/motion_limits.hpp"
+#include "ridgeway/trajectory/optimise_spline.hpp"
+#include "ridgeway/trajectory/trajectory.hpp"
+
+namespace ridgeway {
+
+enum class TrajectoryStatus : std::uint8_t {
+  kOk,
+  kPathNotFree,       ///< a segment of the path is not free at the radius
+  kCannotStopInTime,  ///< from a motion neither the path can be followed nor braking is free
+};
+
+/// How a trajectory came about, each step taken where those before did not hold.
+enum class TrajectoryStep : std::uint8_t {
+  kSmooth,     ///< a single straight leg; or optimised, and verified at once
+  kPushed,     ///< optimised again, pushed harder out of collision
+  kInserted,   ///< with more knots on the straight path
+  kWithStops,  ///< smooth stretches between stops at corners
+  kStopAndGo,  ///< straight from stop to stop, all the way: the last resort, or faster
+};
+
+/// Names as in the JSON output: "ok", "path_not_free", "cannot_stop_in_time"; "smooth", "pushed",
+/// "inserted", "with_stops", "stop_and_go".
+std::string_view name_of(TrajectoryStatus status);
+std::string_view name_of(TrajectoryStep step);
+
+struct TrajectoryConfig {
+  double radius = 0.3;  ///< of the robot, metres
+  MotionLimits limits;
+  Smoothness smoothness = Smoothness::kSnap;
+  Point start_velocity = Point::Zero();      ///< m/s
+  Point start_acceleration = Point::Zero();  ///< m/s^2
+  /// Radians; not given: the direction of travel at first.
+  std::optional<double> start_yaw = std::nullopt;
+  /// Yaw follows the direction of travel, as fast as its limit lets it; otherwise it stays.
+  bool follow_yaw = true;
+  bool stop_and_go = false;   ///< no smoothing: the last resort at once
+  int most_evaluations = 80;  ///< of the cost, each time that a stretch is optimised
+
+  /// Throws InputError naming the bad field.
+  void validate() const;
+};
+
+struct TrajectorySeconds {
+  double optimise = 0.0;
+  double verify = 0.0;
+  double total = 0.0;
+};
+
+/// A verified trajectory, or the one reason why there is none.
+struct TrajectoryResult {
+  TrajectoryStatus status = TrajectoryStatus::kPathNotFree;
+  TrajectoryStep step = TrajectoryStep::kSmooth;
+  Trajectory trajectory;              ///< empty unless ok
+  double duration = 0.0;              ///< seconds
+  double stop_and_go_duration = 0.0;  ///< seconds; from rest `duration` is never longer
+  double clearance = 0.0;             ///< metres: D is nowhere smaller
+  MotionPeaks peaks;                  ///< certified
+  int stops = 0;                      ///< between start and goal
+  bool braked = false;                ///< a moving start came to rest first
+  CostTerms cost;                     ///< where the last optimisation ended
+  int optimisations = 0;              ///< of all stretches and steps,
+  int converged = 0;                  ///< those of them that did,
+  int evaluations = 0;                ///< and how often they asked for the cost
+  TrajectorySeconds seconds;
+
+  bool ok() const { return status == TrajectoryStatus::kOk; }
+};
+
+/// A dynamically feasible trajectory along a path of straight segments (metres, map frame), from
+/// rest or a given motion at its first point to rest at its last. Verified in continuous time: D >=
+/// radius all along (FreeSpace, never the interpolated distance), known-free voxels only where
+/// unknown space is no obstacle, limits certified by find_peaks.
+///
+/// A minimum-snap or -jerk spline is optimised in the ESDF; where it does not hold, it is pushed
+/// harder, gets more knots on the path, and at last stops at corners: straight motion from stop to
+/// stop always holds, so every free path from rest yields a trajectory. None lasts longer than stop
+/// and go at the same limits, whose profile is as smooth: a leg of length L takes L / v + 1.25 v /
+/// a, where the trapezoidal profile, with its jumps of acceleration, would take L / v + v / a.
+///
+/// From a motion that cannot go on along the path the robot brakes first, wherever it comes to
+/// rest, and goes on from there.
+/// Thread-safe on one map, deterministic. Throws InputError for a path without points, a point that
+/// is not finite, a start faster than the limits, a radius larger than the map knows distances for,
+/// or a bad configuration.
+TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> path,
+                                 const TrajectoryConfig& config);
+
+}  // namespace ridgeway

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "initial_spline.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace ridgeway::detail {
+namespace {
+
+std::vector<Point> place_knots(std::span<const Point> path, double spacing) {
+  std::vector<Point> knots{path.front()};
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const bool is_goal = i + 1 == path.size();
+    const Point from = knots.back(), along = path[i] - from;
+    const double length = along.norm();
+    if (length < 0.25 * spacing && !is_goal) continue;
+    const int pieces = std::max(1, static_cast<int>(std::ceil(length / spacing)));
+    for (int k = 1; k < pieces; ++k) knots.emplace_back(from + along * k / pieces);
+    knots.push_back(path[i]);
+  }
+  if (knots.size() > 2 && (knots.back() - knots[knots.size() - 2]).norm() < 0.25 * spacing)
+    knots.erase(knots.end() - 2);
+  return knots;
+}
+
+/// Speed at which a corner can be rounded within half of the shorter leg: the circle that touches
+/// both legs there has radius leg / 2 / tan(turn / 2).
+double corner_speed(const Point& before, const Point& corner, const Point& after,
+                    const MotionLimits& limits) {
+  const Point in = corner - before, out = after - corner;
+  const double turn = std::atan2(in.cross(out).norm(), in.dot(out));
+  const double leg = 0.5 * std::min(in.norm(), out.norm());
+  const double radius = leg / std::max(std::tan(0.5 * turn), 1e-9);
+  return std::min(limits.max_speed, std::sqrt(limits.max_acceleration * radius));
+}
+
+std::vector<double> knot_speeds(const std::vector<Point>& knots, double start_speed,
+                                const MotionLimits& limits) {
+  std::vector<double> speeds(knots.size(), 0.0);
+  for (std::size_t i = 1; i + 1 < knots.size(); ++i)
+    speeds[i] = corner_speed(knots[i - 1], knots[i], knots[i + 1], limits);
+  speeds.front() = start_speed;
+  const auto reachable = [&](std::size_t from, std::size_t to) {
+    const double length = (knots[to] - knots[from]).norm();
+    return std::sqrt(speeds[from] * speeds[from] + 2.0 * limits.max_acceleration * length);
+  };
+  for (std::size_t i = 1; i < knots.size(); ++i)
+    speeds[i] = std::min(speeds[i], reachable(i - 1, i));
+  for (std::size_t i = knots.size() - 1; i-- > 1;)
+    speeds[i] = std::min(speeds[i], reachable(i + 1, i));
+  return speeds;
+}
+
+/// Of a trapezoidal speed profile between two speeds.
+double profile_duration(double length, double from, double to, const MotionLimits& limits) {
+  const double v = limits.max_speed, a = limits.max_acceleration;
+  const double peak =
+      std::max({std::min(std::sqrt(0.5 * (from * from + to * to) + a * length), v), from, to});
+  const double changing = (2.0 * peak * peak - from * from - to * to) / (2.0 * a);
+  const double cruise = std::max(length - changing, 0.0) / peak;
+  return (2.0 * peak - from - to) / a + cruise;
+}
+
+}  // namespace
+
+SpaceSpline initial_spline(std::span<const Point> path, const StartState& start, double spacing,
+                           const SplineCostConfig& config) {
+  const std::vector<Point> knots = place_knots(path, spacing);
+  const std::vector<double> speeds =
+      knot_speeds(knots, std::min(start.velocity.norm(), config.limits.max_speed), config.limits);
+  const int rows = knot_size(config.smoothness);
+  SpaceSpline spline;
+  spline.derivatives.setZero(static_cast<Eigen::Index>(knots.size()) * rows, 3);
+  for (std::size_t i = 0; i < knots.size(); ++i)
+    spline.derivatives.row(static_cast<Eigen::Index>(i) * rows) = knots[i].transpose();
+  spline.derivatives.row(1) = start.velocity.transpose();
+  spline.derivatives.row(2) = start.acceleration.transpose();
+  for (std::size_t i = 1; i < knots.size(); ++i)
+    spline.durations.push_back(profile_duration((knots[i] - knots[i - 1]).norm(), speeds[i - 1],
+                                                speeds[i], config.limits));
+  spline.fixed.assign(knots.size(), kPositionFixed);
+  spline.fixed.front() = start.is_rest() ? kAllFixed : kStateFixed;
+  spline.fixed.back() = kAllFixed;
+  spline.movable.assign(knots.size(), true);
+  spline.movable.front() = spline.movable.back() = false;
+  return spline;
+}
+
+}  // namespace ridgeway::detail

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/trajectory/plan_trajectory.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include "initial_spline.hpp"
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/common/number_text.hpp"
+#include "ridgeway/planning/plan.hpp"
+#include "ridgeway/trajectory/verify_trajectory.hpp"
+#include "smooth_path.hpp"
+#include "straight_motion.hpp"
+#include "voxel_reach.hpp"
+#include "yaw.hpp"
+
+namespace ridgeway {
+namespace {
+
+using detail::SmoothPath;
+using detail::StartState;
+
+/// Coincident points count once.
+std::vector<Point> distinct_points(std::span<const Point> path) {
+  if (path.empty()) throw InputError("path", "has no points", "give at least one");
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (!path[i].allFinite())
+      throw InputError("path point " + std::to_string(i), "is not finite",
+                       "give three finite coordinates in metres");
+    if (points.empty() || path[i] != points.back()) points.push_back(path[i]);
+  }
+  return points;
+}
+
+bool is_free(const EsdfMap& esdf, const std::vector<Point>& path, double radius) {
+  const FreeSpace space(esdf);
+  for (const Point& p : path)
+    if (!detail::has_voxel(p, esdf.voxel_size)) return false;
+  if (path.size() == 1) return space.is_free(path.front(), radius);
+  for (std::size_t i = 1; i < path.size(); ++i)
+    if (!space.is_free(path[i - 1], path[i], radius)) return false;
+  return true;
+}
+
+double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+TrajectorySegment standing_at(const Point& p) {
+  TrajectorySegment segment;
+  segment.coefficients.col(0).head<3>() = p;
+  return segment;
+}
+
+/// Yaw, duration, peaks, clearance.
+void describe(const EsdfMap& esdf, const std::vector<Point>& path, const TrajectoryConfig& config,
+              TrajectoryResult& result) {
+  Trajectory& trajectory = result.trajectory;
+  if (trajectory.segments.empty()) trajectory.segments.push_back(standing_at(path.front()));
+  detail::assign_yaw(trajectory, knot_size(config.smoothness), config.limits.max_yaw_rate,
+                     config.start_yaw, config.follow_yaw);
+  const int corners = static_cast<int>(path.size()) - 2;
+  if (corners > 0 && result.stops >= corners) result.step = TrajectoryStep::kStopAndGo;
+  result.duration = trajectory.duration();
+  result.peaks = find_peaks(trajectory);
+  result.clearance =
+      std::max(clearance_of(esdf, trajectory), config.radius * (1.0 - 1e-9));  // as verified
+}
+
+void require_start_within_limits(const TrajectoryConfig& config) {
+  if (config.start_velocity.norm() > config.limits.max_speed)
+    throw InputError("start_velocity", "is faster than max_speed", "raise the limit or slow down");
+  if (config.start_acceleration.norm() > config.limits.max_acceleration)
+    throw InputError("start_acceleration", "is beyond max_acceleration", "raise the limit");
+}
+
+}  // namespace
+
+std::string_view name_of(TrajectoryStatus status) {
+  constexpr std::array<std::string_view, 3> kNames{"ok", "path_not_free", "cannot_stop_in_time"};
+  return kNames[static_cast<std::size_t>(status)];
+}
+
+std::string_view name_of(TrajectoryStep step) {
+  constexpr std::array<std::string_view, 5> kNames{"smooth", "pushed", "inserted", "with_stops",
+                                                   "stop_and_go"};
+  return kNames[static_cast<std::size_t>(step)];
+}
+
+void MotionLimits::validate() const {
+  const auto require = [](const char* name, double value, bool may_be_infinite) {
+    if (value > 0.0 && (may_be_infinite || std::isfinite(value))) return;
+    throw InputError(name, "is " + number_text(value), "give a limit above 0");
+  };
+  require("max_speed", max_speed, false);
+  require("max_acceleration", max_acceleration, false);
+  require("max_jerk", max_jerk, true);
+  require("max_yaw_rate", max_yaw_rate, true);
+}
+
+void TrajectoryConfig::validate() const {
+  limits.validate();
+  if (!(radius > 0.0 && std::isfinite(radius)))
+    throw InputError("radius", "is " + number_text(radius),
+                     "give the robot's radius in metres, above 0");
+  if (!start_velocity.allFinite() || !start_acceleration.allFinite())
+    throw InputError("start_velocity", "or start_acceleration is not finite",
+                     "give three finite numbers each");
+  if (start_yaw && !std::isfinite(*start_yaw))
+    throw InputError("start_yaw", "is not finite", "give radians");
+  if (most_evaluations < 1)
+    throw InputError("most_evaluations", "is " + std::to_string(most_evaluations),
+                     "give 1 or more");
+  require_start_within_limits(*this);
+}
+
+TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> path,
+                                 const TrajectoryConfig& config) {
+  config.validate();
+  if (config.radius > largest_radius(esdf))
+    throw InputError("radius " + number_text(config.radius),
+                     "is beyond the distances that the map holds",
+                     "build the map with a larger --max-distance, or without one");
+  const std::vector<Point> points = distinct_points(path);
+  const double began = seconds_now();
+  TrajectoryResult result;
+  const auto finish = [&](TrajectoryStatus status) {
+    result.status = status;
+    if (!result.ok()) result.trajectory = {};
+    result.seconds.total = seconds_now() - began;
+    return result;
+  };
+  if (!is_free(esdf, points, config.radius)) return finish(TrajectoryStatus::kPathNotFree);
+
+  const StartState start{config.start_velocity, config.start_acceleration};
+  SmoothPath smooth(esdf, config, result);
+  auto found = smooth.run(points, start);
+  if (!found) return finish(TrajectoryStatus::kCannotStopInTime);
+  const Trajectory halting = smooth.stop_and_go(points);
+  result.stop_and_go_duration = halting.duration();
+  result.trajectory = std::move(*found);
+  // Stretches were verified one by one; straight ones hold by the path, but nothing leaves unseen.
+  if (!smooth.holds(result.trajectory)) {
+    result.trajectory = halting;
+    result.step = TrajectoryStep::kStopAndGo;
+    result.stops = static_cast<int>(points.size()) - 2;
+    if (!start.is_rest()) return finish(TrajectoryStatus::kCannotStopInTime);
+    if (!smooth.holds(halting)) return finish(TrajectoryStatus::kPathNotFree);
+  }
+  describe(esdf, points, config, result);
+  return finish(TrajectoryStatus::kOk);
+}
+
+}  // namespace ridgeway

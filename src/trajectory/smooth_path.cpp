@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "smooth_path.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+
+#include "obstacle_field.hpp"
+#include "ridgeway/trajectory/verify_trajectory.hpp"
+#include "speed_scaling.hpp"
+#include "straight_motion.hpp"
+
+namespace ridgeway::detail {
+namespace {
+
+constexpr double kSpacing = 0.75;            // of v^2 / a: between knots, at most
+constexpr double kLeastSpacing = 2.0;        // radii
+constexpr double kMarginOfRadius = 1.0 / 3;  // in which the collision cost pushes,
+constexpr double kLeastMargin = 2.0;         // at least voxels
+
+struct Try {
+  TrajectoryStep step;
+  double spacing;  ///< of knots, times the usual
+  double push;     ///< times the usual weight of collision
+  bool anew;       ///< from knots on the path, not from where the last try ended
+};
+constexpr std::array<Try, 4> kTries{{{TrajectoryStep::kSmooth, 1.0, 1.0, true},
+                                     {TrajectoryStep::kPushed, 1.0, 10.0, false},
+                                     {TrajectoryStep::kInserted, 0.5, 10.0, true},
+                                     {TrajectoryStep::kInserted, 0.5, 100.0, false}}};
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& sum) : sum_(sum) {}
+  ~Stopwatch() { sum_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& sum_;
+  Clock::time_point start_ = Clock::now();
+};
+
+void append(Trajectory& to, const std::vector<TrajectorySegment>& segments) {
+  to.segments.insert(to.segments.end(), segments.begin(), segments.end());
+}
+
+/// The corners, neither first nor last, nearest to places; ascending.
+std::vector<std::size_t> nearest_corners(std::span<const Point> path,
+                                         const std::vector<Point>& places) {
+  std::vector<std::size_t> corners;
+  for (const Point& place : places) {
+    const auto nearest =
+        std::min_element(path.begin() + 1, path.end() - 1, [&](const Point& a, const Point& b) {
+          return (a - place).squaredNorm() < (b - place).squaredNorm();
+        });
+    corners.push_back(static_cast<std::size_t>(nearest - path.begin()));
+  }
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+}  // namespace
+
+SmoothPath::SmoothPath(const EsdfMap& esdf, const TrajectoryConfig& config,
+                       TrajectoryResult& result)
+    : esdf_(esdf), space_(esdf), config_(config), result_(result) {
+  cost_.smoothness = config.smoothness;
+  cost_.limits = config.limits;
+  cost_.radius = config.radius;
+  cost_.margin = std::max(kLeastMargin * esdf.voxel_size, kMarginOfRadius * config.radius);
+  field_ = obstacle_field(esdf, cost_.radius, cost_.margin);
+}
+
+void SmoothPath::note(TrajectoryStep step) { result_.step = std::max(result_.step, step); }
+
+Trajectory SmoothPath::stop_and_go(std::span<const Point> path) const {
+  Trajectory trajectory;
+  for (std::size_t i = 1; i < path.size(); ++i)
+    append(trajectory, straight_motion(path[i - 1], path[i], config_.limits));
+  return trajectory;
+}
+
+bool SmoothPath::holds(const Trajectory& trajectory) const {
+  const Stopwatch watch(result_.seconds.verify);
+  return keeps_limits(trajectory, config_.limits) &&
+         find_doubts(esdf_, trajectory, config_.radius).empty();
+}
+
+std::optional<Trajectory> SmoothPath::run(std::span<const Point> path, const StartState& start) {
+  if (start.is_rest() && config_.stop_and_go) {
+    note(TrajectoryStep::kStopAndGo);
+    result_.stops = std::max(0, static_cast<int>(path.size()) - 2);
+    return stop_and_go(path);
+  }
+  auto found = path.size() > 1 ? smooth_or_stop(path, start) : std::nullopt;
+  if (!found && start.is_rest()) return Trajectory{};  // one point: it stands
+  return found ? found : brake_first(path, start);
+}
+
+/// A smooth trajectory along the path, or smooth ones between stops at corners.
+std::optional<Trajectory> SmoothPath::smooth_or_stop(std::span<const Point> path,
+                                                     const StartState& start) {
+  const Trajectory halting = stop_and_go(path);
+  if (start.is_rest() && path.size() == 2) return halting;  // straight is smooth
+  Attempt attempt = smooth(path, start);
+  if (attempt.holds()) {
+    if (!start.is_rest() || attempt.trajectory.duration() <= halting.duration())
+      return std::move(attempt.trajectory);
+    note(TrajectoryStep::kWithStops);
+    result_.stops += static_cast<int>(path.size()) - 2;
+    return halting;
+  }
+  if (path.size() == 2) return std::nullopt;
+  note(TrajectoryStep::kWithStops);
+  Trajectory whole;
+  std::size_t first = 0;
+  std::vector<std::size_t> stops = nearest_corners(path, attempt.doubts);
+  result_.stops += static_cast<int>(stops.size());
+  stops.push_back(path.size() - 1);
+  for (const std::size_t last : stops) {
+    const auto stretch =
+        smooth_or_stop(path.subspan(first, last - first + 1), first == 0 ? start : StartState{});
+    if (!stretch) return std::nullopt;  // the first, from a motion
+    append(whole, stretch->segments);
+    first = last;
+  }
+  return whole;
+}
+
+/// Tries at a trajectory without stops; the last of them where none holds.
+SmoothPath::Attempt SmoothPath::smooth(std::span<const Point> path, const StartState& start) {
+  const MotionLimits& limits = config_.limits;
+  const double spacing =
+      std::max(kSpacing * limits.max_speed * limits.max_speed / limits.max_acceleration,
+               kLeastSpacing * config_.radius);
+  SpaceSpline spline;
+  Attempt attempt;
+  for (const Try& t : kTries) {
+    SplineCostConfig cost = cost_;
+    cost.collision_weight *= t.push;
+    if (t.anew) spline = initial_spline(path, start, t.spacing * spacing, cost);
+    attempt = optimise(spline, cost);
+    if (!attempt.holds()) continue;
+    note(t.step);
+    break;
+  }
+  return attempt;
+}
+
+SmoothPath::Attempt SmoothPath::optimise(SpaceSpline& spline, const SplineCostConfig& cost) {
+  const bool from_rest = spline.fixed.front() == kAllFixed;
+  Trajectory trajectory;
+  {
+    const Stopwatch watch(result_.seconds.optimise);
+    OptimisationResult found =
+        optimise_spline(std::move(spline), cost, field_, config_.most_evaluations);
+    spline = std::move(found.spline);
+    result_.evaluations += found.report.evaluations;
+    ++result_.optimisations;
+    result_.converged += found.report.converged;
+    result_.cost = found.report.after;
+    if (from_rest) {
+      trajectory = spline.trajectory(cost.smoothness);
+      scale_to_limits(trajectory, config_.limits);
+    } else {
+      trajectory = stretch_to_limits(cost.smoothness, spline.durations, spline.fixed,
+                                     spline.derivatives, config_.limits);
+    }
+  }
+  return verify(std::move(trajectory));
+}
+
+SmoothPath::Attempt SmoothPath::verify(Trajectory trajectory) {
+  const Stopwatch watch(result_.seconds.verify);
+  Attempt attempt{std::move(trajectory), {}};
+  for (const double time : find_doubts(esdf_, attempt.trajectory, config_.radius))
+    attempt.doubts.push_back(attempt.trajectory.at(time).position);
+  if (!keeps_limits(attempt.trajectory, config_.limits))
+    attempt.doubts.push_back(attempt.trajectory.at(0.0).position);
+  return attempt;
+}
+
+/// Where the path cannot be followed from a motion: to rest, and from there to the path.
+std::optional<Trajectory> SmoothPath::brake_first(std::span<const Point> path,
+                                                  const StartState& start) {
+  auto braking = brake(path.front(), start);
+  if (!braking) return std::nullopt;
+  const Point stop = braking->at(braking->duration()).position;
+  std::vector<Point> rest{stop};
+  const bool skips_start = path.size() > 1 && space_.is_free(stop, path[1], config_.radius);
+  rest.insert(rest.end(), path.begin() + (skips_start ? 1 : 0), path.end());
+  if (!space_.is_free(rest[0], rest[1], config_.radius)) return std::nullopt;
+  result_.braked = true;
+  note(TrajectoryStep::kWithStops);
+  ++result_.stops;
+  const Trajectory onward =
+      config_.stop_and_go ? stop_and_go(rest) : smooth_or_stop(rest, {}).value();
+  append(*braking, onward.segments);
+  return braking;
+}
+
+/// The smoothest way to rest, wherever that is, in as short a time as the limits allow.
+std::optional<Trajectory> SmoothPath::brake(const Point& from, const StartState& start) const {
+  const MotionLimits& limits = config_.limits;
+  const int rows = knot_size(config_.smoothness);
+  constexpr DerivativeMask kStopped = kAllFixed & ~kPositionFixed;
+  Eigen::MatrixXd derivatives = Eigen::MatrixXd::Zero(2 * static_cast<Eigen::Index>(rows), 3);
+  derivatives.row(0) = from.transpose();
+  derivatives.row(1) = start.velocity.transpose();
+  derivatives.row(2) = start.acceleration.transpose();
+  const double duration = (start.velocity.norm() +
+                           start.acceleration.norm() * limits.max_speed / limits.max_acceleration) /
+                          limits.max_acceleration;
+  Trajectory trajectory =
+      stretch_to_limits(config_.smoothness, {duration}, std::array{kStateFixed, kStopped},
+                        std::move(derivatives), limits);
+  return holds(trajectory) ? std::optional(std::move(trajectory)) : std::nullopt;
+}
+
+}  // namespace ridgeway::detail

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "initial_spline.hpp"
+#include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/trajectory/plan_trajectory.hpp"
+
+namespace ridgeway::detail {
+
+/// The steps from a free path to a trajectory (without yaw) that holds; reports what it took into
+/// the result as it goes.
+class SmoothPath {
+ public:
+  SmoothPath(const EsdfMap& esdf, const TrajectoryConfig& config, TrajectoryResult& result);
+
+  /// Along a path that is free at the radius, no two points after one another the same. Nothing
+  /// where a moving start can neither follow it nor brake.
+  std::optional<Trajectory> run(std::span<const Point> path, const StartState& start);
+
+  /// Straight from stop to stop.
+  Trajectory stop_and_go(std::span<const Point> path) const;
+
+  /// Whether a trajectory is free all along, and within the limits on speed, acceleration and jerk.
+  bool holds(const Trajectory& trajectory) const;
+
+ private:
+  struct Attempt {
+    Trajectory trajectory;
+    std::vector<Point> doubts;  ///< where it does not hold; empty if it does
+    bool holds() const { return doubts.empty(); }
+  };
+
+  std::optional<Trajectory> smooth_or_stop(std::span<const Point> path, const StartState& start);
+  Attempt smooth(std::span<const Point> path, const StartState& start);
+  Attempt optimise(SpaceSpline& spline, const SplineCostConfig& cost);
+  Attempt verify(Trajectory trajectory);
+  std::optional<Trajectory> brake_first(std::span<const Point> path, const StartState& start);
+  std::optional<Trajectory> brake(const Point& from, const StartState& start) const;
+  void note(TrajectoryStep step);
+
+  const EsdfMap& esdf_;
+  const FreeSpace space_;
+  const TrajectoryConfig& config_;
+  TrajectoryResult& result_;
+  SplineCostConfig cost_;
+  DistanceField field_;
+};
+
+}  // namespace ridgeway::detail

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <vector>
+
+#include "ridgeway/trajectory/motion_limits.hpp"
+
+namespace ridgeway::detail {
+
+/// Motion from rest to rest along a straight segment: acceleration rises smoothly (as 10 x^3 -
+/// 15 x^4 + 6 x^5, so that all derivatives up to the fourth are continuous and 0 at rest), holds,
+/// falls; cruise; the mirror image. Rises take a fifth of a stage of acceleration, or as long as
+/// the limit on jerk asks. Of length L, without a limit on jerk, it lasts L / v + 1.25 v / a, or
+/// sqrt(5 L / a) where it does not reach v: the trapezoidal profile's time, which no smooth motion
+/// attains, and at most an eighth more. Nothing for L = 0.
+std::vector<TrajectorySegment> straight_motion(const Point& from, const Point& to,
+                                               const MotionLimits& limits);
+
+}  // namespace ridgeway::detail
