@@ -12,6 +12,7 @@
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/roadmap/build_graph.hpp"
 #include "shorten.hpp"
+#include "voxel_route.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -25,34 +26,6 @@ constexpr double kQuickWeight = 1.2;      // of those searches' heuristic
 constexpr int kQuickExpansions = 2000;    // about a millisecond
 constexpr double kLatticeExcess = 1.05;   // by which a lattice path shrinks when it is shortened
 constexpr double kMostlyShrinksTo = 0.7;  // of its length a route seldom becomes shorter
-
-/// Start, the lattice voxels (bends only), goal.
-Route route_over_voxels(const EsdfMap& esdf, const RouteQuery& query,
-                        const std::vector<VoxelId>& voxels) {
-  Route route{query.start};
-  VoxelIndex last_step{};
-  for (std::size_t i = 0; i < voxels.size(); ++i) {
-    const VoxelIndex here = esdf.layout.index_of(voxels[i]);
-    const VoxelIndex step =
-        i + 1 < voxels.size() ? esdf.layout.index_of(voxels[i + 1]) - here : VoxelIndex{};
-    if (i == 0 || i + 1 == voxels.size() || step != last_step)
-      route.push_back(centre_of(here, esdf.voxel_size));
-    last_step = step;
-  }
-  route.push_back(query.goal);
-  return route;
-}
-
-/// Joins two ways that end on the same voxel at the first voxel that they share.
-std::vector<VoxelId> join_ways(std::vector<VoxelId> a, std::vector<VoxelId> b) {
-  while (a.size() > 1 && b.size() > 1 && a[a.size() - 2] == b[b.size() - 2]) {
-    a.pop_back();
-    b.pop_back();
-  }
-  b.pop_back();
-  a.insert(a.end(), b.rbegin(), b.rend());
-  return a;
-}
 
 Route route_over_vertices(const Roadmap& roadmap, const RouteQuery& query, const AttachWay& from,
                           const AttachWay& to, const std::vector<VertexId>& vertices,

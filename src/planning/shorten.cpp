@@ -3,6 +3,7 @@
 #include "shorten.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "detour.hpp"
 
@@ -19,22 +20,27 @@ constexpr int kDetourCorners = 2;
 /// Skips waypoints: from each one goes on to the farthest that can be seen, found by doubling
 /// the stride and then halving it.
 std::vector<Point> skip_waypoints(const FreeSpace& space, const std::vector<Point>& path,
-                                  double radius) {
+                                  double radius, const MayReplace& may_replace) {
+  const auto can_skip = [&](std::size_t from, std::size_t to) {
+    if (!space.is_free(path[from], path[to], radius)) return false;
+    return !may_replace || may_replace(std::span(path).subspan(from, to - from + 1),
+                                       std::array{path[from], path[to]});
+  };
   std::vector<Point> result{path.front()};
   for (std::size_t at = 0; at + 1 < path.size();) {
     std::size_t seen = at + 1, blind = path.size();
     for (std::size_t stride = 2; at + stride < path.size(); stride *= 2) {
-      if (!space.is_free(path[at], path[at + stride], radius)) {
+      if (!can_skip(at, at + stride)) {
         blind = at + stride;
         break;
       }
       seen = at + stride;
     }
-    if (blind == path.size() && seen + 1 < blind && space.is_free(path[at], path.back(), radius))
+    if (blind == path.size() && seen + 1 < blind && can_skip(at, path.size() - 1))
       seen = path.size() - 1;
     while (seen + 1 < blind) {
       const std::size_t middle = (seen + blind) / 2;
-      (space.is_free(path[at], path[middle], radius) ? seen : blind) = middle;
+      (can_skip(at, middle) ? seen : blind) = middle;
     }
     result.push_back(path[seen]);
     at = seen;
@@ -69,14 +75,19 @@ double largest_free_share(const IsFree& is_free) {
 /// Moves a corner where that shortens the way over it: along one of its two segments, or towards
 /// the line between its neighbours, as far as it stays free. True: it can go altogether.
 bool draw_in(const FreeSpace& space, const Point& before, Point& corner, const Point& after,
-             double radius) {
-  if (space.is_free(before, after, radius)) return true;
+             double radius, const MayReplace& may_replace) {
+  const auto may_become = [&, old = std::array{before, corner, after}](const auto& stretch) {
+    return !may_replace || may_replace(old, stretch);
+  };
+  if (space.is_free(before, after, radius) && may_become(std::array{before, after})) return true;
   // Along its own segments first: one of the two new segments is part of an old one.
   const double back = largest_free_share([&](double share) {
-    return space.is_clearly_free(corner + share * (before - corner), after, radius);
+    const Point p = corner + share * (before - corner);
+    return space.is_clearly_free(p, after, radius) && may_become(std::array{before, p, after});
   });
   const double on = largest_free_share([&](double share) {
-    return space.is_clearly_free(before, corner + share * (after - corner), radius);
+    const Point p = corner + share * (after - corner);
+    return space.is_clearly_free(before, p, radius) && may_become(std::array{before, p, after});
   });
   const Point backward = corner + back * (before - corner);
   const Point onward = corner + on * (after - corner);
@@ -89,7 +100,8 @@ bool draw_in(const FreeSpace& space, const Point& before, Point& corner, const P
   const Point target = before + t * along;
   const double in = largest_free_share([&](double share) {
     const Point p = corner + share * (target - corner);
-    return space.is_clearly_free(before, p, radius) && space.is_clearly_free(p, after, radius);
+    return space.is_clearly_free(before, p, radius) && space.is_clearly_free(p, after, radius) &&
+           may_become(std::array{before, p, after});
   });
   corner += in * (target - corner);
   return false;
@@ -104,16 +116,16 @@ double length_of(const std::vector<Point>& path) {
 }
 
 std::vector<Point> shorten(const FreeSpace& space, std::vector<Point> path, double radius,
-                           const Deadline& deadline) {
+                           const Deadline& deadline, const MayReplace& may_replace) {
   if (path.size() < 3) return path;
   for (int direction = 0; direction < 2; ++direction) {  // what one end cannot see, the other may
-    path = skip_waypoints(space, subdivide(path, kStep), radius);
+    path = skip_waypoints(space, subdivide(path, kStep), radius, may_replace);
     std::reverse(path.begin(), path.end());
   }
   double length = length_of(path);
   for (int round = 0; round < kRounds && path.size() > 2 && !deadline.has_passed(); ++round) {
     for (std::size_t i = 1; i + 1 < path.size();) {
-      if (draw_in(space, path[i - 1], path[i], path[i + 1], radius)) {
+      if (draw_in(space, path[i - 1], path[i], path[i + 1], radius, may_replace)) {
         path.erase(path.begin() + static_cast<std::ptrdiff_t>(i));
       } else {
         ++i;

@@ -6,59 +6,26 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <numbers>
-#include <random>
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "ridgeway/voxel/disjoint_sets.hpp"
+#include "support/pillars.hpp"
 #include "support/random_maps.hpp"
 #include "support/shapes.hpp"
 
 namespace ridgeway {
 namespace {
 
-constexpr double kVoxel = 0.1, kClearance = 0.2;
-
-/// A low hall with pillars from floor to ceiling, their axes in `axes` (metres).
-OccupancyMap pillars(unsigned seed, std::vector<Eigen::Vector2d>& axes) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> x(1.0, 7.0), y(1.0, 5.0), radius(0.1, 0.5);
-  std::vector<double> radii;
-  axes.clear();
-  for (int tries = 0; tries < 12; ++tries) {
-    const Eigen::Vector2d axis(x(random), y(random));
-    const double r = radius(random);
-    bool clear = true;
-    for (std::size_t i = 0; i < axes.size(); ++i)
-      clear &= (axis - axes[i]).norm() > r + radii[i] + 2.0 * kClearance + 0.4;
-    if (!clear) continue;
-    axes.push_back(axis);
-    radii.push_back(r);
-  }
-  return testing::make_map(kVoxel, {0, 0, 0}, {79, 59, 7}, [&](const VoxelIndex& v) {
-    if (v.x == 0 || v.y == 0 || v.z == 0 || v.x == 79 || v.y == 59 || v.z == 7)
-      return VoxelState::kOccupied;
-    const Point p = centre_of(v, kVoxel);
-    for (std::size_t i = 0; i < axes.size(); ++i)
-      if ((p.head<2>() - axes[i]).norm() < radii[i]) return VoxelState::kOccupied;
-    return VoxelState::kFree;
-  });
-}
+constexpr double kClearance = testing::kPillarClearance;
 
 /// How often each independent cycle of a graph winds around each vertical axis: one row a cycle.
 /// Every link outside a spanning forest closes one.
 Eigen::MatrixXd windings(const SparseGraph& graph, const std::vector<Eigen::Vector2d>& axes) {
   const auto turn = [&](VertexId a, VertexId b) {
-    Eigen::RowVectorXd angles(static_cast<Eigen::Index>(axes.size()));
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-      const Eigen::Vector2d u = graph.vertices[number(a)].position.head<2>() - axes[i];
-      const Eigen::Vector2d v = graph.vertices[number(b)].position.head<2>() - axes[i];
-      angles[static_cast<Eigen::Index>(i)] =
-          std::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v)) / (2.0 * std::numbers::pi);
-    }
-    return angles;
+    return testing::turns(graph.vertices[number(a)].position, graph.vertices[number(b)].position,
+                          axes);
   };
   const std::size_t count = graph.vertices.size();
   std::vector<Eigen::RowVectorXd> angle(count);  // turned on the way from the root
@@ -136,7 +103,7 @@ TEST(SimplifyGraph, EveryPillarKeepsItsWayAround) {
   std::size_t elements_before = 0, elements_after = 0;
   for (unsigned seed = 0; seed < 20; ++seed) {
     std::vector<Eigen::Vector2d> axes;
-    const Pair pair = build_pair(pillars(seed, axes), kClearance);
+    const Pair pair = build_pair(testing::pillars(seed, axes), kClearance);
     ASSERT_GT(axes.size(), 3u);
     EXPECT_EQ(rank_of(windings(pair.whole.graph, axes)), static_cast<Eigen::Index>(axes.size()));
     EXPECT_EQ(rank_of(windings(pair.simple, axes)), static_cast<Eigen::Index>(axes.size()));
@@ -172,7 +139,7 @@ TEST(SimplifyGraph, EdgesKeepTheirContractAndComponentsStay) {
 TEST(SimplifyGraph, ConnectsAtLargerRadiiWhatItDid) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     std::vector<Eigen::Vector2d> axes;
-    const Pair pair = build_pair(pillars(seed, axes), kClearance);
+    const Pair pair = build_pair(testing::pillars(seed, axes), kClearance);
     for (const double factor : {1.0, 1.25, 1.5, 1.9})
       expect_connected_alike(pair.whole.graph, pair.simple, factor * kClearance);
   }

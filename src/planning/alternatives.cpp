@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/planning/alternatives.hpp"
+
+#include <algorithm>
+
+#include "deadline.hpp"
+#include "deformation.hpp"
+#include "query.hpp"
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/esdf/free_space.hpp"
+#include "route_enumeration.hpp"
+#include "shorten.hpp"
+
+namespace ridgeway {
+namespace {
+
+using detail::Deadline;
+
+constexpr double kMostlyShrinksTo = 0.7;  // of its length a route seldom becomes shorter
+constexpr int kShortenings = 3;
+constexpr double kApart = 4.0;  // radii along a path between places that may not meet
+
+/// Smallest distance between two segments.
+double distance_between(const Point& a0, const Point& a1, const Point& b0, const Point& b1) {
+  const Point a = a1 - a0, b = b1 - b0, c = a0 - b0;
+  const double aa = a.squaredNorm(), bb = b.squaredNorm(), ab = a.dot(b);
+  const double ac = a.dot(c), bc = b.dot(c), divisor = aa * bb - ab * ab;
+  const auto share = [](double numerator, double denominator) {
+    return denominator > 0.0 ? std::clamp(numerator / denominator, 0.0, 1.0) : 0.0;
+  };
+  double s = share(ab * bc - bb * ac, divisor);
+  const double t = share(ab * s + bc, bb);
+  s = share(ab * t - ac, aa);
+  return (c + s * a - t * b).norm();
+}
+
+/// Whether a tight path comes back to where it was, to within the radius: the two sides of an
+/// obstacle that it bends around are two radii apart.
+bool meets_itself(const std::vector<Point>& path, double radius) {
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    double between = 0.0;  // along the path, from the end of segment i to the start of segment j
+    for (std::size_t j = i + 1; j < path.size(); ++j) {
+      if (between > kApart * radius &&
+          distance_between(path[i - 1], path[i], path[j - 1], path[j]) < radius)
+        return true;
+      between += (path[j] - path[j - 1]).norm();
+    }
+  }
+  return false;
+}
+
+/// The routes found, no two of one class, shortest first.
+class DistinctRoutes {
+ public:
+  DistinctRoutes(const FreeSpace& space, double radius) : space_(space), radius_(radius) {}
+
+  /// Whether a path is in the class of one of them.
+  bool know(const std::vector<Point>& path) const {
+    return std::any_of(routes_.begin(), routes_.end(), [&](const PlanResult& route) {
+      return detail::deforms_into(space_, path, route.waypoints, radius_);
+    });
+  }
+
+  /// Keeps a route unless it is in the class of a shorter one.
+  void add(PlanResult route) {
+    const auto is_alike = [&](const PlanResult& other) {
+      return detail::deforms_into(space_, route.waypoints, other.waypoints, radius_);
+    };
+    const auto is_shorter = [](const PlanResult& a, const PlanResult& b) {
+      return a.length < b.length;
+    };
+    const auto place = std::upper_bound(routes_.begin(), routes_.end(), route, is_shorter);
+    if (std::any_of(routes_.begin(), place, is_alike)) return;
+    routes_.erase(std::remove_if(place, routes_.end(), is_alike), routes_.end());
+    routes_.insert(std::upper_bound(routes_.begin(), routes_.end(), route, is_shorter),
+                   std::move(route));
+  }
+
+  /// Whether a route as long as this before it is shortened can still be among the first `count`.
+  bool may_use(double length, std::size_t count) const {
+    return routes_.size() < count || length * kMostlyShrinksTo < routes_[count - 1].length;
+  }
+
+  std::vector<PlanResult> first(std::size_t count) && {
+    if (routes_.size() > count) routes_.resize(count);
+    return std::move(routes_);
+  }
+
+ private:
+  const FreeSpace& space_;
+  const double radius_;
+  std::vector<PlanResult> routes_;
+};
+
+/// Pulled tight without leaving its class.
+PlanResult tighten(const EsdfMap& esdf, const FreeSpace& space, detail::Route route, double radius,
+                   const Deadline& deadline) {
+  const auto stays_in_class = [&](std::span<const Point> before, std::span<const Point> after) {
+    return detail::deforms_into(space, before, after, radius);
+  };
+  for (int i = 0; i < kShortenings; ++i)
+    route = detail::shorten(space, std::move(route), radius, deadline, stays_in_class);
+  PlanResult result;
+  result.status = PlanStatus::kOk;
+  result.waypoints = std::move(route);
+  detail::describe(esdf, space, {}, result);
+  return result;
+}
+
+}  // namespace
+
+Alternatives plan_alternatives(const Roadmap& roadmap, const Point& start, const Point& goal,
+                               std::size_t count, const PlanConfig& config) {
+  if (config.planner != Planner::kGraph || !config.shorten)
+    throw InputError("alternatives", "are planned on the graph and pulled tight",
+                     "leave out the planner, and shorten paths");
+  if (count == 0) throw InputError("alternatives", "are none", "ask for at least 1");
+  const double began = detail::seconds_now();
+  const Deadline deadline(config.time_limit);
+  Alternatives result;
+  PlanResult shortest = plan(roadmap, start, goal, config);
+  result.status = shortest.status;
+  if (shortest.ok()) {
+    const EsdfMap& esdf = roadmap.esdf;
+    const FreeSpace space(esdf);
+    const double radius = config.radius.value_or(roadmap.min_clearance);
+    const detail::QueryEnds ends = detail::find_ends(esdf, start, goal, radius);
+    DistinctRoutes routes(space, radius);
+    routes.add(std::move(shortest));
+    detail::RouteEnumeration others(roadmap, {ends.from, ends.to, start, goal, radius}, deadline);
+    std::optional<detail::Route> route;
+    while ((route = others.next()) && routes.may_use(detail::length_of(*route), count)) {
+      if (routes.know(*route)) continue;
+      PlanResult tight = tighten(esdf, space, std::move(*route), radius, deadline);
+      if (!meets_itself(tight.waypoints, radius) && detail::is_verified(esdf, space, tight, radius))
+        routes.add(std::move(tight));
+    }
+    result.complete = !route && others.complete();
+    result.routes = std::move(routes).first(count);
+  }
+  result.seconds = detail::seconds_now() - began;
+  return result;
+}
+
+}  // namespace ridgeway

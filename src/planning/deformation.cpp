@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "deformation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ridgeway::detail {
+namespace {
+
+constexpr double kSeenAt = 0.75;  // of the radius
+constexpr double kStep = 0.5;     // of the radius
+
+double length_of(std::span<const Point> path) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
+  return length;
+}
+
+/// Walks along a path; lengths must not fall from call to call.
+class Walker {
+ public:
+  explicit Walker(std::span<const Point> path) : path_(path) {}
+
+  Point at(double length) {
+    for (; next_ < path_.size(); ++next_) {
+      const double segment = (path_[next_] - path_[next_ - 1]).norm();
+      if (passed_ + segment > length)
+        return path_[next_ - 1] +
+               (path_[next_] - path_[next_ - 1]) * ((length - passed_) / segment);
+      passed_ += segment;
+    }
+    return path_.back();
+  }
+
+ private:
+  std::span<const Point> path_;
+  std::size_t next_ = 1;
+  double passed_ = 0.0;
+};
+
+}  // namespace
+
+bool deforms_into(const FreeSpace& space, std::span<const Point> a, std::span<const Point> b,
+                  double radius) {
+  const double length_a = length_of(a), length_b = length_of(b);
+  const double steps = std::ceil(std::max(length_a, length_b) / (kStep * radius));
+  Walker on_a(a), on_b(b);
+  for (double k = 1.0; k < steps; k += 1.0)
+    if (!space.is_free(on_a.at(length_a * k / steps), on_b.at(length_b * k / steps),
+                       kSeenAt * radius))
+      return false;
+  return true;
+}
+
+}  // namespace ridgeway::detail

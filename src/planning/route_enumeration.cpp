@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "route_enumeration.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "attach_way.hpp"
+#include "deformation.hpp"
+#include "shorten.hpp"
+#include "voxel_route.hpp"
+
+namespace ridgeway::detail {
+namespace {
+
+constexpr std::size_t kMostExpansions = 5000;
+constexpr int kMostAlike = 4;  // routes to a fork that deform into each other over other vertices
+
+}  // namespace
+
+RouteEnumeration::RouteEnumeration(const Roadmap& roadmap, const RouteQuery& query,
+                                   const Deadline& deadline)
+    : roadmap_(roadmap),
+      space_(roadmap.esdf),
+      query_(query),
+      deadline_(deadline),
+      starts_(legs_from(query.start, query.from)),
+      goals_(legs_from(query.goal, query.to)) {
+  measure_rest();
+  for (const auto& [vertex, leg] : starts_)
+    push({.vertex = vertex, .length = length_of(leg)}, rest_[number(vertex)]);
+}
+
+std::optional<Route> RouteEnumeration::next() {
+  while (!open_.empty() && expansions_ < kMostExpansions && !deadline_.has_passed()) {
+    const std::uint32_t piece = open_.top().piece;
+    open_.pop();
+    ++expansions_;
+    if (pieces_[piece].vertex == kNoVertex) return route_to(piece);
+    if (!is_redundant(piece)) expand(piece);
+  }
+  return std::nullopt;
+}
+
+RouteEnumeration::Legs RouteEnumeration::legs_from(const Point& end, VoxelId voxel) const {
+  const AttachWay way = follow_attach(roadmap_, voxel, query_.radius);
+  if (!way.reached()) return {};
+  RouteQuery leg = query_;
+  leg.start = end;
+  Route route = route_over_voxels(roadmap_.esdf, leg, way.voxels);
+  route.pop_back();  // the goal
+  Legs legs{{way.vertex, std::move(route)}};
+  const std::vector<Vertex>& vertices = roadmap_.graph.vertices;
+  std::vector<bool> seen(vertices.size());
+  for (std::size_t v = 0; v < vertices.size(); ++v)
+    seen[v] = space_.is_free(end, vertices[v].position, query_.radius);
+  for (std::uint32_t v = 0; v < vertices.size(); ++v) {
+    const Point& position = vertices[v].position;
+    const auto leads_here = [&](const Link& link) {
+      const Point& nearer = vertices[number(link.vertex)].position;
+      return seen[number(link.vertex)] && is_wide_enough(link) &&
+             (nearer - end).norm() < (position - end).norm() &&
+             deforms_into(space_, std::array{end, nearer, position}, std::array{end, position},
+                          query_.radius);
+    };
+    const auto links = roadmap_.graph.links_of(VertexId{v});
+    if (seen[v] && std::none_of(links.begin(), links.end(), leads_here))
+      legs[VertexId{v}] = {end, position};
+  }
+  return legs;
+}
+
+/// Dijkstra from the goal.
+void RouteEnumeration::measure_rest() {
+  rest_.assign(roadmap_.graph.vertices.size(), std::numeric_limits<double>::infinity());
+  using Entry = std::pair<double, VertexId>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  for (const auto& [vertex, leg] : goals_) open.push({length_of(leg), vertex});
+  while (!open.empty()) {
+    const auto [length, vertex] = open.top();
+    open.pop();
+    if (length >= rest_[number(vertex)]) continue;
+    rest_[number(vertex)] = length;
+    for (const Link& link : roadmap_.graph.links_of(vertex))
+      if (is_wide_enough(link))
+        open.push({length + roadmap_.graph.edges[number(link.edge)].length, link.vertex});
+  }
+}
+
+bool RouteEnumeration::is_wide_enough(const Link& link) const {
+  return roadmap_.graph.edges[number(link.edge)].clearance >= query_.radius * (1.0 - 1e-9);
+}
+
+void RouteEnumeration::push(Piece piece, double rest) {
+  if (rest == std::numeric_limits<double>::infinity()) return;
+  open_.push({piece.length + rest, static_cast<std::uint32_t>(pieces_.size())});
+  pieces_.push_back(piece);
+}
+
+void RouteEnumeration::expand(std::uint32_t piece) {
+  const Piece here = pieces_[piece];
+  const auto goal_leg = goals_.find(here.vertex);
+  if (goal_leg != goals_.end())
+    push({.from = piece, .length = here.length + length_of(goal_leg->second)}, 0.0);
+  const std::vector<VertexId> passed = vertices_to(piece);
+  for (const Link& link : roadmap_.graph.links_of(here.vertex)) {
+    if (!is_wide_enough(link)) continue;
+    if (std::binary_search(passed.begin(), passed.end(), link.vertex)) continue;
+    push({link.vertex, piece, here.length + roadmap_.graph.edges[number(link.edge)].length},
+         rest_[number(link.vertex)]);
+  }
+}
+
+/// Sorted.
+std::vector<VertexId> RouteEnumeration::vertices_to(std::uint32_t piece) const {
+  std::vector<VertexId> vertices;
+  for (; piece != kNone; piece = pieces_[piece].from) vertices.push_back(pieces_[piece].vertex);
+  std::sort(vertices.begin(), vertices.end());
+  return vertices;
+}
+
+Route RouteEnumeration::route_to(std::uint32_t piece) const {
+  Route route;  // backwards
+  if (pieces_[piece].vertex == kNoVertex) {
+    piece = pieces_[piece].from;
+    route = goals_.at(pieces_[piece].vertex);
+    route.pop_back();
+  }
+  for (; pieces_[piece].from != kNone; piece = pieces_[piece].from)
+    route.push_back(roadmap_.graph.vertices[number(pieces_[piece].vertex)].position);
+  const Route& leg = starts_.at(pieces_[piece].vertex);
+  route.insert(route.end(), leg.rbegin(), leg.rend());
+  std::reverse(route.begin(), route.end());
+  return route;
+}
+
+bool RouteEnumeration::is_redundant(std::uint32_t piece) {
+  const VertexId fork = pieces_[piece].vertex;
+  if (roadmap_.graph.links_of(fork).size() < 3) return false;
+  std::vector<std::uint32_t>& others = followed_[fork];
+  const Route route = route_to(piece);
+  const std::vector<VertexId> vertices = vertices_to(piece);
+  int alike = 0;
+  for (const std::uint32_t other : others) {
+    if (!deforms_into(space_, route_to(other), route, query_.radius)) continue;
+    const std::vector<VertexId> fewer = vertices_to(other);
+    if (++alike == kMostAlike ||
+        std::includes(vertices.begin(), vertices.end(), fewer.begin(), fewer.end()))
+      return true;
+  }
+  others.push_back(piece);
+  return false;
+}
+
+}  // namespace ridgeway::detail

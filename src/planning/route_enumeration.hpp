@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <queue>
+#include <vector>
+
+#include "deadline.hpp"
+#include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/roadmap/roadmap.hpp"
+#include "route.hpp"
+
+namespace ridgeway::detail {
+
+/// Routes from start to goal that pass no vertex of the graph twice, by increasing length. Start
+/// and goal are joined to the vertices that the attach field leads to, and to those that they see
+/// and do not see past another.
+///
+/// A route to a fork is followed no further where it deforms into a shorter one over some of the
+/// same vertices: whatever goes on from it goes on from the other.
+class RouteEnumeration {
+ public:
+  RouteEnumeration(const Roadmap& roadmap, const RouteQuery& query, const Deadline& deadline);
+
+  /// Nothing when there are no more, or too many were looked at; see `complete`.
+  std::optional<Route> next();
+  bool complete() const { return open_.empty(); }
+
+ private:
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+
+  /// One vertex of a route; `from` is the piece before it.
+  struct Piece {
+    VertexId vertex = kNoVertex;  ///< kNoVertex: the goal
+    std::uint32_t from = kNone;
+    double length = 0.0;
+  };
+  struct OpenEntry {
+    double estimate;
+    std::uint32_t piece;
+    bool operator<(const OpenEntry& other) const {  // the queue's top is the best
+      return estimate != other.estimate ? estimate > other.estimate : piece > other.piece;
+    }
+  };
+  using Legs = std::map<VertexId, Route>;  ///< from an end of the query to a vertex
+
+  Legs legs_from(const Point& end, VoxelId voxel) const;
+  void measure_rest();
+  bool is_wide_enough(const Link& link) const;
+  void push(Piece piece, double rest);
+  void expand(std::uint32_t piece);
+  std::vector<VertexId> vertices_to(std::uint32_t piece) const;
+  Route route_to(std::uint32_t piece) const;
+  bool is_redundant(std::uint32_t piece);
+
+  const Roadmap& roadmap_;
+  const FreeSpace space_;
+  const RouteQuery query_;
+  const Deadline deadline_;
+  Legs starts_, goals_;
+  std::vector<double> rest_;  ///< length from each vertex to the goal
+  std::vector<Piece> pieces_;
+  std::priority_queue<OpenEntry> open_;
+  std::map<VertexId, std::vector<std::uint32_t>> followed_;  ///< pieces at a fork
+  std::size_t expansions_ = 0;
+};
+
+}  // namespace ridgeway::detail

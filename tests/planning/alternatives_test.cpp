@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/planning/alternatives.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/roadmap/build_roadmap.hpp"
+#include "support/pillars.hpp"
+#include "support/shapes.hpp"
+
+namespace ridgeway {
+namespace {
+
+using Axes = std::vector<Eigen::Vector2d>;
+/// The homotopy class of a path in a hall of pillars, among those with the same ends: which of the
+/// rays that go out from the pillars towards +y it crosses, freely reduced; i + 1 where it crosses
+/// that of pillar i towards +x, else -(i + 1).
+using Word = std::vector<int>;
+
+constexpr double kClearance = testing::kPillarClearance;
+const Point kStart(0.5, 2.9, 0.4), kGoal(7.4, 3.1, 0.4);
+
+Roadmap build(const OccupancyMap& map) {
+  return build_roadmap(map, {.min_clearance = kClearance}).roadmap;
+}
+
+void append_crossings(const Point& a, const Point& b, const Axes& axes, Word& word) {
+  std::vector<std::pair<double, int>> crossings;  // share of the segment, letter
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    if ((a.x() < axes[i].x()) == (b.x() < axes[i].x())) continue;
+    const double t = (axes[i].x() - a.x()) / (b.x() - a.x());
+    const int letter = static_cast<int>(i) + 1;
+    if (a.y() + t * (b.y() - a.y()) > axes[i].y())
+      crossings.emplace_back(t, a.x() < b.x() ? letter : -letter);
+  }
+  std::sort(crossings.begin(), crossings.end());
+  for (const auto& [t, letter] : crossings) {
+    if (!word.empty() && word.back() == -letter)
+      word.pop_back();
+    else
+      word.push_back(letter);
+  }
+}
+
+Word word_of(const std::vector<Point>& path, const Axes& axes) {
+  Word word;
+  for (std::size_t i = 1; i < path.size(); ++i) append_crossings(path[i - 1], path[i], axes, word);
+  return word;
+}
+
+/// Whether a triangle has none of the axes in it.
+bool is_swept(const Point& a, const Point& b, const Point& c, const Axes& axes) {
+  const Word word = word_of({a, b, c, a}, axes);
+  return word.empty();
+}
+
+/// To which vertices start and goal are joined: to all that they see, or without those that they
+/// see past a nearer one.
+enum class Joined { kAll, kNearest };
+
+/// The classes of all paths that pass no vertex twice, one by one.
+class SimplePaths {
+ public:
+  SimplePaths(const Roadmap& roadmap, const Axes& axes)
+      : graph_(roadmap.graph), space_(roadmap.esdf), axes_(axes) {}
+
+  std::set<Word> between(const Point& start, const Point& goal, Joined which) {
+    words_.clear();
+    goal_ = goal;
+    passed_.assign(graph_.vertices.size(), false);
+    last_ = joined_to(goal, which);
+    if (space_.is_free(start, goal, kClearance)) words_.insert(word_of({start, goal}, axes_));
+    const std::vector<bool> first = joined_to(start, which);
+    for (std::uint32_t v = 0; v < first.size(); ++v)
+      if (first[v]) visit(VertexId{v}, start, {});
+    return words_;
+  }
+
+ private:
+  std::vector<bool> joined_to(const Point& end, Joined which) const {
+    const auto at = [&](VertexId v) { return graph_.vertices[number(v)].position; };
+    std::vector<bool> joined(graph_.vertices.size());
+    for (std::uint32_t v = 0; v < joined.size(); ++v) {
+      joined[v] = space_.is_free(end, at(VertexId{v}), kClearance);
+      if (which == Joined::kAll) continue;
+      for (const Link& link : graph_.links_of(VertexId{v}))
+        if ((at(link.vertex) - end).norm() < (at(VertexId{v}) - end).norm() &&
+            space_.is_free(end, at(link.vertex), kClearance) &&
+            is_swept(end, at(link.vertex), at(VertexId{v}), axes_))
+          joined[v] = false;
+    }
+    return joined;
+  }
+
+  void visit(VertexId v, const Point& from, Word word) {
+    const Point& here = graph_.vertices[number(v)].position;
+    append_crossings(from, here, axes_, word);
+    passed_[number(v)] = true;
+    if (last_[number(v)]) {
+      Word whole = word;
+      append_crossings(here, goal_, axes_, whole);
+      words_.insert(whole);
+    }
+    for (const Link& link : graph_.links_of(v))
+      if (!passed_[number(link.vertex)]) visit(link.vertex, here, word);
+    passed_[number(v)] = false;
+  }
+
+  const SparseGraph& graph_;
+  const FreeSpace space_;
+  const Axes& axes_;
+  Point goal_ = Point::Zero();
+  std::vector<bool> passed_, last_;
+  std::set<Word> words_;
+};
+
+/// The shortest path of a class over a grid of points, a fifth of a metre apart, at the height of
+/// start and goal. Sheets of the hall are told apart by their words; from one to the next it goes
+/// over the rays that the class names.
+std::vector<Point> shortest_of_class(const EsdfMap& esdf, const Axes& axes, const Word& word) {
+  constexpr int kColumns = 40, kRows = 30;
+  constexpr double kStep = 0.2;
+  const FreeSpace space(esdf);
+  const auto at = [&](int cell) {
+    return Point(kStep * (cell % kColumns + 0.5), kStep * (cell / kColumns + 0.5), kStart.z());
+  };
+  const auto nearest = [&](const Point& p) {
+    return static_cast<int>(p.x() / kStep) + kColumns * static_cast<int>(p.y() / kStep);
+  };
+  using State = std::pair<std::size_t, int>;  // letters of the word done, cell
+  std::map<State, double> cost{{{0, nearest(kStart)}, 0.0}};
+  std::map<State, State> from;
+  std::set<std::pair<double, State>> open{{0.0, {0, nearest(kStart)}}};
+  const State goal{word.size(), nearest(kGoal)};
+  while (!open.empty() && open.begin()->second != goal) {
+    const auto [length, here] = *open.begin();
+    open.erase(open.begin());
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        const int x = here.second % kColumns + dx, y = here.second / kColumns + dy;
+        if ((dx == 0 && dy == 0) || x < 0 || y < 0 || x >= kColumns || y >= kRows) continue;
+        const Point a = at(here.second), b = at(x + kColumns * y);
+        Word sheet(word.begin(), word.begin() + static_cast<std::ptrdiff_t>(here.first));
+        append_crossings(a, b, axes, sheet);
+        const State next{sheet.size(), x + kColumns * y};
+        if (sheet.size() > word.size() || !std::equal(sheet.begin(), sheet.end(), word.begin()))
+          continue;
+        const double there = length + (b - a).norm();
+        const auto known = cost.find(next);
+        if ((known != cost.end() && known->second <= there) || !space.is_free(a, b, kClearance))
+          continue;
+        if (known != cost.end()) open.erase({known->second, next});
+        cost[next] = there;
+        from[next] = here;
+        open.insert({there, next});
+      }
+  }
+  std::vector<Point> path;
+  for (State s = goal; from.contains(s); s = from.at(s)) path.push_back(at(s.second));
+  return path;
+}
+
+/// Whether a path comes back to within a radius and a half of where it was.
+bool comes_back(const std::vector<Point>& path) {
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    double between = 0.0;
+    for (std::size_t j = i + 1; j < path.size(); ++j) {
+      between += (path[j] - path[j - 1]).norm();
+      if (between > 4.0 * kClearance && (path[j] - path[i]).norm() < 1.5 * kClearance) return true;
+    }
+  }
+  return false;
+}
+
+TEST(Alternatives, AreOneForEachClassOfSimpleRoutesAroundPillars) {
+  std::size_t classes = 0, left_out = 0;
+  for (std::size_t count = 1; count <= 3; ++count)
+    for (unsigned seed = 4; seed < 12; ++seed) {
+      SCOPED_TRACE(std::to_string(count) + " pillars, seed " + std::to_string(seed));
+      Axes axes;
+      const Roadmap roadmap = build(testing::pillars(seed, axes, count));
+      const Alternatives found = plan_alternatives(roadmap, kStart, kGoal, 100);
+      ASSERT_TRUE(found.ok());
+      EXPECT_TRUE(found.complete);
+      std::set<Word> words;
+      for (const PlanResult& route : found.routes) words.insert(word_of(route.waypoints, axes));
+      EXPECT_EQ(words.size(), found.routes.size());  // no two are homotopic
+      classes += words.size();
+      SimplePaths simple(roadmap, axes);
+      for (const Word& word : simple.between(kStart, kGoal, Joined::kNearest)) {
+        if (words.contains(word)) continue;
+        EXPECT_TRUE(comes_back(shortest_of_class(roadmap.esdf, axes, word)));
+        ++left_out;
+      }
+      const std::set<Word> all = simple.between(kStart, kGoal, Joined::kAll);
+      EXPECT_TRUE(std::includes(all.begin(), all.end(), words.begin(), words.end()));
+      if (count == 1) EXPECT_EQ(words.size(), 2u);
+    }
+  EXPECT_GT(classes, 8u * (2 + 3 + 6));
+  EXPECT_LT(left_out, classes / 10);
+}
+
+TEST(Alternatives, AreVerifiedShortestFirstAndNoLongerThanThePlan) {
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    SCOPED_TRACE(seed);
+    Axes axes;
+    const Roadmap roadmap = build(testing::pillars(seed, axes));
+    const FreeSpace space(roadmap.esdf);
+    for (const double radius : {kClearance, 1.2 * kClearance}) {
+      const PlanConfig config{.radius = radius};
+      const Alternatives found = plan_alternatives(roadmap, kStart, kGoal, 4, config);
+      ASSERT_TRUE(found.ok());
+      ASSERT_EQ(found.routes.size(), 4u);
+      EXPECT_LE(found.routes[0].length,
+                plan(roadmap, kStart, kGoal, config).length * (1.0 + 1e-12));
+      std::set<Word> words;
+      for (std::size_t i = 0; i < found.routes.size(); ++i) {
+        const PlanResult& route = found.routes[i];
+        EXPECT_EQ(route.waypoints.front(), kStart);
+        EXPECT_EQ(route.waypoints.back(), kGoal);
+        EXPECT_GE(space.clearance(route.waypoints), radius * (1.0 - 1e-9));
+        if (i > 0) EXPECT_GE(route.length, found.routes[i - 1].length);
+        words.insert(word_of(route.waypoints, axes));
+      }
+      EXPECT_EQ(words.size(), found.routes.size());
+      // Fewer are the first ones of these, but for what more searching shortens.
+      const Alternatives two = plan_alternatives(roadmap, kStart, kGoal, 2, config);
+      ASSERT_EQ(two.routes.size(), 2u);
+      for (std::size_t i = 0; i < 2; ++i)
+        EXPECT_NEAR(two.routes[i].length, found.routes[i].length, 0.01 * found.routes[i].length);
+    }
+  }
+}
+
+TEST(Alternatives, GoPastAFloatingBoxOnEverySide) {
+  for (const testing::Shape& shape : testing::test_shapes()) {
+    if (shape.name != "floating_box") continue;
+    const Roadmap roadmap =
+        build_roadmap(shape.map(), {.min_clearance = shape.min_clearance}).roadmap;
+    const Point start(0.6, 2, 1.5), goal(3.4, 2, 1.5);  // the box stands between them
+    const Alternatives found = plan_alternatives(roadmap, start, goal, 10);
+    ASSERT_TRUE(found.ok());
+    std::set<std::string> sides;
+    for (const PlanResult& route : found.routes)
+      for (std::size_t i = 1; i < route.waypoints.size(); ++i) {
+        const Point a = route.waypoints[i - 1], b = route.waypoints[i];
+        if ((a.x() < 2) == (b.x() < 2)) continue;
+        const Point p = a + (b - a) * ((2 - a.x()) / (b.x() - a.x()));
+        if (p.z() < 1.2) sides.insert("below");
+        if (p.z() > 1.9) sides.insert("above");
+        if (p.y() < 1.5) sides.insert("right");
+        if (p.y() > 2.5) sides.insert("left");
+      }
+    EXPECT_EQ(sides.size(), 4u);
+  }
+}
+
+TEST(Alternatives, SayWhyThereIsNoneAndRefuseOtherPlanners) {
+  Axes axes;
+  const Roadmap roadmap = build(testing::pillars(0, axes));
+  const Alternatives none = plan_alternatives(roadmap, kStart, Point(7.4, 3.1, 5.0), 3);
+  EXPECT_EQ(none.status, PlanStatus::kGoalOutsideMap);
+  EXPECT_TRUE(none.routes.empty());
+  EXPECT_THROW(plan_alternatives(roadmap, kStart, kGoal, 0), InputError);
+  EXPECT_THROW(plan_alternatives(roadmap, kStart, kGoal, 2, {.planner = Planner::kEsdf}),
+               InputError);
+  EXPECT_THROW(plan_alternatives(roadmap, kStart, kGoal, 2, {.shorten = false}), InputError);
+}
+
+}  // namespace
+}  // namespace ridgeway
