@@ -3,6 +3,7 @@
 #include "graph_search.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <queue>
 
@@ -99,6 +100,24 @@ class GraphSearch {
 std::vector<VertexId> search_graph(const SparseGraph& graph, VertexId start, VertexId goal,
                                    double radius, const std::vector<float>* penalty) {
   return GraphSearch(graph, start, goal, radius, penalty).run();
+}
+
+std::vector<double> lengths_from(const SparseGraph& graph, const Sources& sources, double radius) {
+  std::vector<double> lengths(graph.vertices.size(), std::numeric_limits<double>::infinity());
+  using Entry = std::pair<double, VertexId>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  for (const auto& [vertex, length] : sources) open.push({length, vertex});
+  while (!open.empty()) {
+    const auto [length, vertex] = open.top();
+    open.pop();
+    if (length >= lengths[number(vertex)]) continue;
+    lengths[number(vertex)] = length;
+    for (const Link& link : graph.links_of(vertex)) {
+      const Edge& edge = graph.edges[number(link.edge)];
+      if (edge.clearance >= radius * (1.0 - 1e-9)) open.push({length + edge.length, link.vertex});
+    }
+  }
+  return lengths;
 }
 
 EdgeId edge_between(const SparseGraph& graph, VertexId a, VertexId b) {

@@ -7,6 +7,7 @@
 
 #include "attach_way.hpp"
 #include "deformation.hpp"
+#include "graph_search.hpp"
 #include "shorten.hpp"
 #include "voxel_route.hpp"
 
@@ -26,7 +27,9 @@ RouteEnumeration::RouteEnumeration(const Roadmap& roadmap, const RouteQuery& que
       deadline_(deadline),
       starts_(legs_from(query.start, query.from)),
       goals_(legs_from(query.goal, query.to)) {
-  measure_rest();
+  Sources goals;
+  for (const auto& [vertex, leg] : goals_) goals.emplace_back(vertex, length_of(leg));
+  rest_ = lengths_from(roadmap.graph, goals, query.radius);
   for (const auto& [vertex, leg] : starts_)
     push({.vertex = vertex, .length = length_of(leg)}, rest_[number(vertex)]);
 }
@@ -68,23 +71,6 @@ RouteEnumeration::Legs RouteEnumeration::legs_from(const Point& end, VoxelId vox
       legs[VertexId{v}] = {end, position};
   }
   return legs;
-}
-
-/// Dijkstra from the goal.
-void RouteEnumeration::measure_rest() {
-  rest_.assign(roadmap_.graph.vertices.size(), std::numeric_limits<double>::infinity());
-  using Entry = std::pair<double, VertexId>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  for (const auto& [vertex, leg] : goals_) open.push({length_of(leg), vertex});
-  while (!open.empty()) {
-    const auto [length, vertex] = open.top();
-    open.pop();
-    if (length >= rest_[number(vertex)]) continue;
-    rest_[number(vertex)] = length;
-    for (const Link& link : roadmap_.graph.links_of(vertex))
-      if (is_wide_enough(link))
-        open.push({length + roadmap_.graph.edges[number(link.edge)].length, link.vertex});
-  }
 }
 
 bool RouteEnumeration::is_wide_enough(const Link& link) const {

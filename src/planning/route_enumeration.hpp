@@ -49,7 +49,6 @@ class RouteEnumeration {
   using Legs = std::map<VertexId, Route>;  ///< from an end of the query to a vertex
 
   Legs legs_from(const Point& end, VoxelId voxel) const;
-  void measure_rest();
   bool is_wide_enough(const Link& link) const;
   void push(Piece piece, double rest);
   void expand(std::uint32_t piece);

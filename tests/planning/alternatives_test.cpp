@@ -201,7 +201,9 @@ TEST(Alternatives, AreOneForEachClassOfSimpleRoutesAroundPillars) {
       }
       const std::set<Word> all = simple.between(kStart, kGoal, Joined::kAll);
       EXPECT_TRUE(std::includes(all.begin(), all.end(), words.begin(), words.end()));
-      if (count == 1) EXPECT_EQ(words.size(), 2u);
+      if (count == 1) {
+        EXPECT_EQ(words.size(), 2u);
+      }
     }
   EXPECT_GT(classes, 8u * (2 + 3 + 6));
   EXPECT_LT(left_out, classes / 10);
@@ -226,7 +228,9 @@ TEST(Alternatives, AreVerifiedShortestFirstAndNoLongerThanThePlan) {
         EXPECT_EQ(route.waypoints.front(), kStart);
         EXPECT_EQ(route.waypoints.back(), kGoal);
         EXPECT_GE(space.clearance(route.waypoints), radius * (1.0 - 1e-9));
-        if (i > 0) EXPECT_GE(route.length, found.routes[i - 1].length);
+        if (i > 0) {
+          EXPECT_GE(route.length, found.routes[i - 1].length);
+        }
         words.insert(word_of(route.waypoints, axes));
       }
       EXPECT_EQ(words.size(), found.routes.size());

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "ridgeway/planning/plan.hpp"
+
+namespace ridgeway {
+
+/// Lengths, metres, of the shortest routes along the sparse graph from one start to many goals, not
+/// pulled tight: those of plan() with `shorten` off, all from one search. Infinite where the graph
+/// has no route for the radius (finer structures may), and where start or goal are no places to be.
+/// Thread-safe on one roadmap. Throws InputError as plan() does.
+std::vector<double> distances_to_goals(const Roadmap& roadmap, const Point& start,
+                                       std::span<const Point> goals,
+                                       std::optional<double> radius = std::nullopt);
+
+struct GoalPlan {
+  double distance = std::numeric_limits<double>::infinity();  ///< as distances_to_goals has it
+  PlanResult plan;                                            ///< as plan() has it
+};
+
+/// Plans from one start to each of many goals; the results are in the order of the goals. The time
+/// limit is for each. Thread-safe on one roadmap. Throws InputError as plan() does.
+std::vector<GoalPlan> plan_to_many(const Roadmap& roadmap, const Point& start,
+                                   std::span<const Point> goals, const PlanConfig& config = {});
+
+struct NearestGoal {
+  std::optional<std::size_t> goal;  ///< its index; nothing where none can be reached
+  PlanResult plan;                  ///< the path to it; else why the first goal has none
+  /// What was found out about each goal; nothing about those that had to be farther.
+  std::vector<std::optional<PlanStatus>> statuses;
+};
+
+/// The goal whose plan() is shortest, and that plan; of equally near ones the first. Goals are
+/// tried by their distance along the graph, and not at all where the straight line is longer than
+/// the best path. Throws InputError as plan() does, and where there are no goals.
+NearestGoal plan_to_nearest(const Roadmap& roadmap, const Point& start,
+                            std::span<const Point> goals, const PlanConfig& config = {});
+
+}  // namespace ridgeway

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/planning/many_goals.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "attach_way.hpp"
+#include "endpoint.hpp"
+#include "graph_search.hpp"
+#include "query.hpp"
+#include "ridgeway/common/error.hpp"
+#include "shorten.hpp"
+#include "voxel_route.hpp"
+
+namespace ridgeway {
+namespace {
+
+/// Where a point joins the graph, and the length of the way there.
+struct Entry {
+  VoxelId voxel = kNoVoxel;
+  detail::AttachWay way;
+  double length = 0.0;
+};
+
+Entry find_entry(const Roadmap& roadmap, const Point& point, double radius) {
+  Entry entry;
+  entry.voxel = detail::find_endpoint(roadmap.esdf, point, radius).voxel;
+  if (entry.voxel == kNoVoxel) return entry;
+  entry.way = detail::follow_attach(roadmap, entry.voxel, radius);
+  detail::Route route = detail::route_over_voxels(
+      roadmap.esdf, {entry.voxel, entry.voxel, point, point, radius}, entry.way.voxels);
+  route.pop_back();  // the point again
+  entry.length = detail::length_of(route);
+  return entry;
+}
+
+}  // namespace
+
+std::vector<double> distances_to_goals(const Roadmap& roadmap, const Point& start,
+                                       std::span<const Point> goals, std::optional<double> radius) {
+  PlanConfig{.radius = radius}.validate();
+  const double r = radius.value_or(roadmap.min_clearance);
+  for (const Point& goal : goals) detail::validate_query(roadmap.esdf, start, goal, r);
+  std::vector<double> distances(goals.size(), std::numeric_limits<double>::infinity());
+  if (r < roadmap.min_clearance * (1.0 - 1e-9)) return distances;
+  const Entry from = find_entry(roadmap, start, r);
+  if (from.voxel == kNoVoxel) return distances;
+  std::vector<double> along;  // the graph, to each vertex
+  if (from.way.reached())
+    along = detail::lengths_from(roadmap.graph, {{from.way.vertex, from.length}}, r);
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    const Entry to = find_entry(roadmap, goals[i], r);
+    if (to.voxel == kNoVoxel) continue;
+    if (start == goals[i])
+      distances[i] = 0.0;
+    else if (from.way.voxels.back() == to.way.voxels.back())
+      distances[i] = detail::length_of(
+          detail::route_over_voxels(roadmap.esdf, {from.voxel, to.voxel, start, goals[i], r},
+                                    detail::join_ways(from.way.voxels, to.way.voxels)));
+    else if (from.way.reached() && to.way.reached())
+      distances[i] = along[number(to.way.vertex)] + to.length;
+  }
+  return distances;
+}
+
+std::vector<GoalPlan> plan_to_many(const Roadmap& roadmap, const Point& start,
+                                   std::span<const Point> goals, const PlanConfig& config) {
+  config.validate();
+  const std::vector<double> distances = distances_to_goals(roadmap, start, goals, config.radius);
+  std::vector<GoalPlan> plans;
+  for (std::size_t i = 0; i < goals.size(); ++i)
+    plans.push_back({distances[i], plan(roadmap, start, goals[i], config)});
+  return plans;
+}
+
+NearestGoal plan_to_nearest(const Roadmap& roadmap, const Point& start,
+                            std::span<const Point> goals, const PlanConfig& config) {
+  config.validate();
+  if (goals.empty()) throw InputError("goals", "are none", "give at least one");
+  const std::vector<double> distances = distances_to_goals(roadmap, start, goals, config.radius);
+  std::vector<std::size_t> order(goals.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return distances[a] < distances[b]; });
+  NearestGoal nearest;
+  nearest.statuses.resize(goals.size());
+  std::optional<PlanResult> refusal;  // of the first goal
+  for (const std::size_t i : order) {
+    if (nearest.goal && (goals[i] - start).norm() > nearest.plan.length) continue;
+    PlanResult result = plan(roadmap, start, goals[i], config);
+    nearest.statuses[i] = result.status;
+    if (i == 0 && !result.ok()) refusal = result;
+    if (!result.ok()) continue;
+    if (nearest.goal && std::tie(nearest.plan.length, *nearest.goal) < std::tie(result.length, i))
+      continue;
+    nearest.goal = i;
+    nearest.plan = std::move(result);
+  }
+  if (!nearest.goal) nearest.plan = std::move(*refusal);
+  return nearest;
+}
+
+}  // namespace ridgeway
