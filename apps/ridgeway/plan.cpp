@@ -14,6 +14,9 @@
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "plan_options.hpp"
+#include "plan_output.hpp"
+#include "plan_several.hpp"
 #include "query_file.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/io/path_io.hpp"
@@ -26,28 +29,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
-  std::string file, from, to, planner = "graph", output, queries;
-  std::optional<double> radius, time_limit;
-  bool raw = false;
-  int repeat = 1;
-  SamplingConfig sampling;  // of planners that sample
-  std::optional<std::size_t> iteration_limit;
-  std::vector<const CLI::Option*> sampling_options;  // those that the two above come from
-
-  Planner chosen() const { return planner_named(planner).value_or(Planner::kGraph); }
-};
-
-/// What was planned; of planners that do not sample only the plan.
-using Answer = SamplingResult;
-
-PlanConfig plan_config(const Options& options, std::optional<double> radius) {
-  PlanConfig config{.planner = options.chosen(), .radius = radius, .shorten = !options.raw};
-  if (options.time_limit) config.time_limit = *options.time_limit;
-  return config;
-}
-
-SamplingConfig sampling_config(const Options& options, double radius) {
+SamplingConfig sampling_config(const PlanOptions& options, double radius) {
   SamplingConfig config = options.sampling;
   config.planner = options.chosen();
   config.radius = radius;
@@ -58,7 +40,7 @@ SamplingConfig sampling_config(const Options& options, double radius) {
 }
 
 /// Found before the file is loaded.
-void validate(const Options& options) {
+void validate(const PlanOptions& options) {
   if (is_sampling(options.chosen()))
     return sampling_config(options, options.radius.value_or(1.0)).validate();
   plan_config(options, options.radius).validate();
@@ -69,7 +51,7 @@ void validate(const Options& options) {
 }
 
 /// Plans once; the seed of a further run is the next one.
-Answer plan_once(const Roadmap& roadmap, const Query& query, const Options& options, int run) {
+Answer plan_once(const Roadmap& roadmap, const Query& query, const PlanOptions& options, int run) {
   if (!is_sampling(options.chosen()))
     return {.plan = plan(roadmap, query.start, query.goal, plan_config(options, query.radius))};
   SamplingConfig config = sampling_config(options, query.radius);
@@ -78,7 +60,7 @@ Answer plan_once(const Roadmap& roadmap, const Query& query, const Options& opti
 }
 
 /// Plans `repeat` times; the times are then medians, the rest is of the first run.
-Answer plan_repeatedly(const Roadmap& roadmap, const Query& query, const Options& options) {
+Answer plan_repeatedly(const Roadmap& roadmap, const Query& query, const PlanOptions& options) {
   Answer answer = plan_once(roadmap, query, options, 0);
   std::vector<PlanSeconds> runs = {answer.plan.seconds};
   for (int run = 1; run < options.repeat; ++run)
@@ -93,40 +75,8 @@ Answer plan_repeatedly(const Roadmap& roadmap, const Query& query, const Options
   return answer;
 }
 
-Json json_of(const Answer& answer, const Query& query, const std::string& reason) {
-  Json json = Json::parse(plan_json(answer.plan));
-  json["radius"] = query.radius;
-  if (!answer.plan.ok()) json["reason"] = reason;
-  if (!is_sampling(answer.plan.answered_by)) return json;
-  json["iterations"] = answer.iterations;
-  if (answer.plan.ok())
-    json["first_solution"] = {{"seconds", answer.first_seconds}, {"length", answer.first_length}};
-  return json;
-}
-
-void print_result(const Answer& answer, const Query& query, const std::string& reason) {
-  const PlanResult& result = answer.plan;
-  if (!result.ok()) {
-    print_row("no path", std::string(name_of(result.status)));
-    print_row("reason", reason);
-    return;
-  }
-  const PlanSeconds& s = result.seconds;
-  print_row("path", text_of(result.length) + " m, " + count_text(result.waypoints.size()) +
-                        " waypoints, answered by the " + std::string(name_of(result.answered_by)));
-  print_row("clearance",
-            text_of(result.clearance) + " m, robot radius " + text_of(query.radius) + " m");
-  print_row("beside unknown", text_of(100.0 * result.unknown_share, 0) + " % of the length");
-  print_row("time", seconds_text(s.total) + " (attach " + seconds_text(s.attach) + ", search " +
-                        seconds_text(s.search) + ", shorten " + seconds_text(s.shorten) + ")");
-  if (is_sampling(result.answered_by))
-    print_row("first path", seconds_text(answer.first_seconds) + ", " +
-                                text_of(answer.first_length) + " m; " +
-                                count_text(answer.iterations) + " iterations");
-}
-
-int run_one(const Options& options, const Roadmap& roadmap, const Globals& globals) {
-  const Query query = {parse_point(options.from, "--from"), parse_point(options.to, "--to"),
+int run_one(const PlanOptions& options, const Roadmap& roadmap, const Globals& globals) {
+  const Query query = {parse_point(options.from, "--from"), parse_point(options.to[0], "--to"),
                        options.radius.value_or(roadmap.min_clearance)};
   const Answer answer = plan_repeatedly(roadmap, query, options);
   const PlanResult& result = answer.plan;
@@ -145,7 +95,7 @@ int run_one(const Options& options, const Roadmap& roadmap, const Globals& globa
   return result.ok() ? kExitDone : kExitNoPlan;
 }
 
-int run_batch(const Options& options, const Roadmap& roadmap, const Globals& globals) {
+int run_batch(const PlanOptions& options, const Roadmap& roadmap, const Globals& globals) {
   const std::vector<Query> queries =
       read_queries(options.queries, options.radius.value_or(roadmap.min_clearance),
                    largest_radius(roadmap.esdf));
@@ -156,14 +106,10 @@ int run_batch(const Options& options, const Roadmap& roadmap, const Globals& glo
     const PlanResult& result = answer.plan;
     const std::string reason = explain(roadmap, query, result.status, options.file);
     solved += result.ok();
-    if (globals.json) {
+    if (globals.json)
       results.push_back(json_of(answer, query, reason));
-    } else if (result.ok()) {
-      print_row("ok", text_of(result.length) + " m, clearance " + text_of(result.clearance) +
-                          " m, " + seconds_text(result.seconds.total));
-    } else {
-      print_row(name_of(result.status), reason);
-    }
+    else
+      print_line(result, reason);
   }
   if (globals.json)
     print_json({{"queries", queries.size()}, {"solved", solved}, {"results", results}});
@@ -172,7 +118,21 @@ int run_batch(const Options& options, const Roadmap& roadmap, const Globals& glo
   return solved == queries.size() ? kExitDone : kExitNoPlan;
 }
 
-int run(const Options& options, const Globals& globals) {
+/// Of what answers with several paths or chooses among goals, what does not go together.
+void require_one_form(const PlanOptions& options) {
+  const bool several = options.alternatives || options.to.size() > 1;
+  if (options.alternatives && (options.to.size() > 1 || options.nearest))
+    throw InputError("--alternatives", "is for one goal", "give one --to, without --nearest");
+  if (options.nearest && options.to.empty())
+    throw InputError("--nearest", "chooses among goals", "give several --to X,Y,Z");
+  if ((several || options.nearest) && (is_sampling(options.chosen()) || options.repeat > 1))
+    throw InputError("plan", "samples and repeats for one start and one goal alone",
+                     "leave out --repeat and --planner " + options.planner);
+  if (several && !options.nearest && !options.output.empty())
+    throw InputError("--output", "is for one path", "use --json for several");
+}
+
+int run(const PlanOptions& options, const Globals& globals) {
   validate(options);
   const bool batch = !options.queries.empty();
   if (batch == (!options.from.empty() || !options.to.empty()) ||
@@ -181,17 +141,22 @@ int run(const Options& options, const Globals& globals) {
                      "give --from X,Y,Z and --to X,Y,Z, or --queries FILE alone");
   if (!batch) {  // found before the file is loaded
     parse_point(options.from, "--from");
-    parse_point(options.to, "--to");
+    for (const std::string& to : options.to) parse_point(to, "--to");
   }
+  require_one_form(options);
   if (!options.output.empty()) {
     require_path_format(options.output);
     require_writable({options.output}, {options.file});
   }
   const Roadmap roadmap = load_roadmap(options.file);
-  return batch ? run_batch(options, roadmap, globals) : run_one(options, roadmap, globals);
+  if (batch) return run_batch(options, roadmap, globals);
+  if (options.alternatives) return run_alternatives(options, roadmap, globals);
+  if (options.nearest) return run_nearest(options, roadmap, globals);
+  return options.to.size() > 1 ? run_goals(options, roadmap, globals)
+                               : run_one(options, roadmap, globals);
 }
 
-void add_sampling_options(CLI::App& command, Options& options) {
+void add_sampling_options(CLI::App& command, PlanOptions& options) {
   add_seed_option(command, options.sampling.seed, "Of a planner that samples");
   options.sampling_options = {
       command.get_option("--seed"),
@@ -206,11 +171,20 @@ void add_sampling_options(CLI::App& command, Options& options) {
 }  // namespace
 
 void add_plan_command(CLI::App& app, const Globals& globals, Command& chosen) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PlanOptions>();
   CLI::App* command = app.add_subcommand("plan", "Plan a path on a roadmap");
   command->add_option("roadmap", options->file, "Roadmap, .ridge")->required();
   command->add_option("--from", options->from, "Start X,Y,Z, metres");
-  command->add_option("--to", options->to, "Goal X,Y,Z, metres");
+  command
+      ->add_option("--to", options->to,
+                   "Goal X,Y,Z, metres; several, each with its own --to, are planned to one by one")
+      ->allow_extra_args(false);
+  command->add_flag("--nearest", options->nearest, "Of several goals only the one nearest by path");
+  command
+      ->add_option("--alternatives", options->alternatives,
+                   "Up to so many routes, shortest first, none of which can be deformed into "
+                   "another in sight of it; none winds around an obstacle")
+      ->check(CLI::Range(1, 1000));
   command
       ->add_option(
           "--planner", options->planner,

@@ -124,5 +124,52 @@ TEST_F(CliPlan, AnswersAFileOfQueries) {
   expect_refused({"plan", map, "--queries", path("queries.csv")}, {"line 2"});
 }
 
+TEST_F(CliPlan, AlternativesAreRoutesWithTheKeysOfPlans) {
+  // A pillar before the door.
+  ASSERT_EQ(build_rooms("pillar.ridge", {"--exclude", "-1.6,-0.2,0,-1.2,0.2,2"}).code, 0);
+  const std::string map = path("pillar.ridge");
+  const std::vector<std::string> query = {"plan", map, "--from", "-2,0,1", "--to", "2,0,1"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), query.begin(), query.end());
+    return more;
+  };
+  const Json json = run(with({"--alternatives", "5", "--json"})).json();
+  EXPECT_EQ(json["status"], "ok");
+  EXPECT_EQ(json["complete"], true);
+  ASSERT_EQ(json["routes"].size(), 2u);
+  EXPECT_LE(json["routes"][0]["length"].get<double>(), json["routes"][1]["length"].get<double>());
+  const Json single = run(with({"--json"})).json();
+  for (const auto& [key, value] : single.items()) EXPECT_TRUE(json["routes"][1].contains(key));
+  EXPECT_NE(run(with({"--alternatives", "5"})).out.find("no others"), std::string::npos);
+  expect_refused(with({"--alternatives", "2", "--planner", "esdf"}), {"alternatives", "graph"});
+  expect_refused(with({"--alternatives", "2", "--to", "1,0,1"}), {"--alternatives", "one --to"});
+  expect_refused(with({"--alternatives", "2", "-o", path("path.csv")}), {"--output"});
+}
+
+TEST_F(CliPlan, GoesToManyGoalsOrTheNearest) {
+  const std::string map = rooms();
+  const std::vector<std::string> query = {"plan", map,       "--from", "-2,1,1",   "--to",  "2,1,1",
+                                          "--to", "-2,-1,1", "--to",   "-2,1.9,1", "--json"};
+  const Outcome many = run(query);
+  EXPECT_EQ(many.code, 2);
+  EXPECT_EQ(many.json()["queries"], 3);
+  EXPECT_EQ(many.json()["solved"], 2);
+  EXPECT_GE(many.json()["results"][0]["distance"].get<double>(),
+            many.json()["results"][0]["length"].get<double>());
+  EXPECT_EQ(many.json()["results"][2]["status"], "goal_in_collision");
+
+  std::vector<std::string> more = query;
+  more.insert(more.end(), {"--nearest", "-o", path("nearest.csv")});
+  const Outcome nearest = run(more);
+  EXPECT_EQ(nearest.code, 0) << nearest.err;
+  EXPECT_EQ(nearest.json()["goal"], 1);
+  EXPECT_EQ(nearest.json()["goals"], Json({"farther", "ok", "goal_in_collision"}));
+  EXPECT_EQ(nearest.json()["waypoints"].back(), Json({-2.0, -1.0, 1.0}));
+  EXPECT_TRUE(exists("nearest.csv"));
+  expect_refused(
+      {"plan", map, "--from", "-2,1,1", "--to", "2,1,1", "--to", "1,1,1", "--planner", "rrtstar"},
+      {"samples"});
+}
+
 }  // namespace
 }  // namespace ridgeway

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ridgeway/sampling/plan_by_sampling.hpp"
+
+namespace ridgeway::cli {
+
+/// Options of `ridgeway plan`.
+struct PlanOptions {
+  std::string file, from, planner = "graph", output, queries;
+  std::vector<std::string> to;
+  std::optional<double> radius, time_limit;
+  std::optional<std::size_t> alternatives;
+  bool raw = false, nearest = false;
+  int repeat = 1;
+  SamplingConfig sampling;  // of planners that sample
+  std::optional<std::size_t> iteration_limit;
+  std::vector<const CLI::Option*> sampling_options;  // those that the two above come from
+
+  Planner chosen() const { return planner_named(planner).value_or(Planner::kGraph); }
+};
+
+inline PlanConfig plan_config(const PlanOptions& options, std::optional<double> radius) {
+  PlanConfig config{.planner = options.chosen(), .radius = radius, .shorten = !options.raw};
+  if (options.time_limit) config.time_limit = *options.time_limit;
+  return config;
+}
+
+}  // namespace ridgeway::cli

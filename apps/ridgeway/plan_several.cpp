@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "plan_several.hpp"
+
+#include "arguments.hpp"
+#include "console.hpp"
+#include "plan_output.hpp"
+#include "ridgeway/io/path_io.hpp"
+#include "ridgeway/planning/alternatives.hpp"
+#include "ridgeway/planning/many_goals.hpp"
+#include "roadmap_facts.hpp"
+
+namespace ridgeway::cli {
+namespace {
+
+double radius_of(const PlanOptions& options, const Roadmap& roadmap) {
+  return options.radius.value_or(roadmap.min_clearance);
+}
+
+std::vector<Point> goals_of(const PlanOptions& options) {
+  std::vector<Point> goals;
+  for (const std::string& text : options.to) goals.push_back(parse_point(text, "--to"));
+  return goals;
+}
+
+}  // namespace
+
+int run_alternatives(const PlanOptions& options, const Roadmap& roadmap, const Globals& globals) {
+  const Query query = {parse_point(options.from, "--from"), parse_point(options.to[0], "--to"),
+                       radius_of(options, roadmap)};
+  const Alternatives found = plan_alternatives(
+      roadmap, query.start, query.goal, *options.alternatives, plan_config(options, query.radius));
+  const std::string reason = explain(roadmap, query, found.status, options.file);
+  if (globals.json) {
+    Json json = {{"status", std::string(name_of(found.status))},
+                 {"radius", query.radius},
+                 {"complete", found.complete},
+                 {"seconds", found.seconds},
+                 {"routes", Json::array()}};
+    if (!found.ok()) json["reason"] = reason;
+    for (const PlanResult& route : found.routes)
+      json["routes"].push_back(json_of({.plan = route}, query, {}));
+    print_json(json);
+    return found.ok() ? kExitDone : kExitNoPlan;
+  }
+  if (!found.ok()) print_row(name_of(found.status), reason);
+  for (std::size_t i = 0; i < found.routes.size(); ++i) {
+    const PlanResult& route = found.routes[i];
+    print_row("route " + count_text(i + 1),
+              text_of(route.length) + " m, clearance " + text_of(route.clearance) + " m");
+    for (const Point& p : route.waypoints) print_row("", point_text(p));
+  }
+  if (found.ok() && found.routes.size() < *options.alternatives)
+    print_row("no more", found.complete ? "the graph has no others" : "the search was cut short");
+  return found.ok() ? kExitDone : kExitNoPlan;
+}
+
+int run_goals(const PlanOptions& options, const Roadmap& roadmap, const Globals& globals) {
+  const Point start = parse_point(options.from, "--from");
+  const std::vector<Point> goals = goals_of(options);
+  const double radius = radius_of(options, roadmap);
+  const std::vector<GoalPlan> plans =
+      plan_to_many(roadmap, start, goals, plan_config(options, radius));
+  Json results = Json::array();
+  std::size_t solved = 0;
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    const Query query = {start, goals[i], radius};
+    const PlanResult& plan = plans[i].plan;
+    const std::string reason = explain(roadmap, query, plan.status, options.file);
+    solved += plan.ok();
+    if (globals.json) {
+      results.push_back(json_of({.plan = plan}, query, reason));
+      results.back()["distance"] = plans[i].distance;
+    } else {
+      print_line(plan, reason);
+    }
+  }
+  if (globals.json)
+    print_json({{"queries", goals.size()}, {"solved", solved}, {"results", results}});
+  else
+    print_row("solved", count_text(solved) + " of " + count_text(goals.size()));
+  return solved == goals.size() ? kExitDone : kExitNoPlan;
+}
+
+int run_nearest(const PlanOptions& options, const Roadmap& roadmap, const Globals& globals) {
+  const Point start = parse_point(options.from, "--from");
+  const std::vector<Point> goals = goals_of(options);
+  const double radius = radius_of(options, roadmap);
+  const NearestGoal nearest = plan_to_nearest(roadmap, start, goals, plan_config(options, radius));
+  const Query query = {start, goals[nearest.goal.value_or(0)], radius};
+  const PlanResult& plan = nearest.plan;
+  const std::string reason = explain(roadmap, query, plan.status, options.file);
+  const bool write = plan.ok() && !options.output.empty();
+  if (write) write_plan(plan, options.output);
+  if (globals.json) {
+    Json json = json_of({.plan = plan}, query, reason);
+    json["goal"] = nearest.goal ? Json(*nearest.goal) : Json(nullptr);
+    json["goals"] = Json::array();
+    for (const auto& status : nearest.statuses)
+      json["goals"].push_back(status ? std::string(name_of(*status)) : "farther");
+    print_json(json);
+  } else {
+    if (plan.ok()) print_row("nearest", point_text(query.goal));
+    print_result({.plan = plan}, query, reason);
+    if (write)
+      print_row("written to", options.output);
+    else
+      for (const Point& p : plan.waypoints) print_row("", point_text(p));
+  }
+  return plan.ok() ? kExitDone : kExitNoPlan;
+}
+
+}  // namespace ridgeway::cli
