@@ -18,6 +18,7 @@ struct PlanOptions {
   std::vector<std::string> to;
   std::optional<double> radius, time_limit;
   std::optional<std::size_t> alternatives;
+  double prefer_clearance = 0.0;
   bool raw = false, nearest = false;
   int repeat = 1;
   SamplingConfig sampling;  // of planners that sample
@@ -28,7 +29,10 @@ struct PlanOptions {
 };
 
 inline PlanConfig plan_config(const PlanOptions& options, std::optional<double> radius) {
-  PlanConfig config{.planner = options.chosen(), .radius = radius, .shorten = !options.raw};
+  PlanConfig config{.planner = options.chosen(),
+                    .radius = radius,
+                    .shorten = !options.raw,
+                    .prefer_clearance = options.prefer_clearance};
   if (options.time_limit) config.time_limit = *options.time_limit;
   return config;
 }

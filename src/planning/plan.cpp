@@ -63,6 +63,9 @@ void PlanConfig::validate() const {
   if (!(time_limit > 0.0))
     throw InputError("time_limit", "is " + number_text(time_limit),
                      "give seconds above 0, or leave it out for no limit");
+  if (!(prefer_clearance >= 0.0 && std::isfinite(prefer_clearance)))
+    throw InputError("prefer_clearance", "is " + number_text(prefer_clearance),
+                     "give a number from 0, for shortest paths, to about 10");
 }
 
 PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
@@ -84,14 +87,14 @@ PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
   if (ends.status != PlanStatus::kOk) return finish(ends.status);
 
   const FreeSpace space(esdf);
-  if ((config.shorten || start == goal) &&
+  if (((config.shorten && config.prefer_clearance == 0.0) || start == goal) &&
       space.is_free(start, goal, radius)) {  // nothing is shorter
     result.answered_by = config.planner;
     result.waypoints = {start, goal};
     detail::describe(esdf, space, {}, result);
     return finish(PlanStatus::kOk);
   }
-  const detail::RouteQuery query{ends.from, ends.to, start, goal, radius};
+  const detail::RouteQuery query{ends.from, ends.to, start, goal, radius, config.prefer_clearance};
   detail::RouteResult found = detail::find_route(roadmap, query, config.planner, deadline);
   result.seconds.attach = found.attach_seconds;
   result.seconds.search = found.search_seconds;
@@ -104,7 +107,7 @@ PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
     result.waypoints = {start, goal};
   } else {
     result.waypoints =
-        config.shorten ? detail::tightest(esdf, space, found, radius, deadline) : found.route;
+        config.shorten ? detail::tightest(esdf, space, found, query, deadline) : found.route;
   }
   result.seconds.shorten = seconds_now() - shortening;
   detail::describe(esdf, space, config.shorten ? EdgeStretch{} : found.edges, result);

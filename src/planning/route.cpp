@@ -3,12 +3,15 @@
 #include "route.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
+#include <span>
 
 #include "any_angle_search.hpp"
 #include "attach_way.hpp"
 #include "endpoint.hpp"
 #include "graph_search.hpp"
+#include "path_cost.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/roadmap/build_graph.hpp"
 #include "shorten.hpp"
@@ -49,7 +52,9 @@ Route route_over_vertices(const Roadmap& roadmap, const RouteQuery& query, const
 class GraphRoutes {
  public:
   GraphRoutes(const Roadmap& roadmap, const RouteQuery& query, AttachWay from, AttachWay to)
-      : roadmap_(roadmap), query_(query), from_(std::move(from)), to_(std::move(to)) {}
+      : roadmap_(roadmap), query_(query), from_(std::move(from)), to_(std::move(to)) {
+    if (query.prefer_clearance > 0.0) charge_for_walls();
+  }
 
   /// Of the last route.
   const EdgeStretch& edges() const { return edges_; }
@@ -75,6 +80,13 @@ class GraphRoutes {
   }
 
  private:
+  void charge_for_walls() {
+    const FreeSpace space(roadmap_.esdf);
+    const PathCost cost(space, query_.radius, query_.prefer_clearance);
+    for (const Edge& edge : roadmap_.graph.edges)
+      penalty_.push_back(static_cast<float>(cost.factor(edge.clearance)));
+  }
+
   const Roadmap& roadmap_;
   const RouteQuery query_;
   const AttachWay from_, to_;
@@ -209,10 +221,39 @@ Route search_quickly(const EsdfMap& esdf, const FreeSpace& space, const Point& s
   return route_over_voxels(esdf, {from, to, start, goal, radius}, path.voxels);
 }
 
+/// As tightest(), by cost; short paths count among what it chooses from.
+Route cheapest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found,
+               const RouteQuery& query, const Deadline& deadline) {
+  const PathCost cost(space, query.radius, query.prefer_clearance);
+  const auto is_kept = [&](std::span<const Point> before, std::span<const Point> after) {
+    return cost.is_kept(before, after);
+  };
+  Route best;
+  double least = std::numeric_limits<double>::infinity();
+  const auto offer = [&](Route route) {
+    const double own = cost.of(route);
+    if (own >= least) return;
+    least = own;
+    best = std::move(route);
+  };
+  if (space.is_free(query.start, query.goal, query.radius)) offer({query.start, query.goal});
+  for (std::optional<Route> route = found.route; route;) {
+    Route tight = shorten(space, *route, query.radius, deadline);
+    offer(redirect(esdf, space, tight, query.radius, deadline));
+    offer(std::move(tight));
+    offer(shorten(space, std::move(*route), query.radius, deadline, is_kept));
+    if (!found.next_alternative || deadline.has_passed()) break;
+    route = found.next_alternative();
+  }
+  return best;
+}
+
 }  // namespace
 
-Route tightest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found, double radius,
-               const Deadline& deadline) {
+Route tightest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found,
+               const RouteQuery& query, const Deadline& deadline) {
+  if (query.prefer_clearance > 0.0) return cheapest(esdf, space, found, query, deadline);
+  const double radius = query.radius;
   Route best = shorten(space, found.route, radius, deadline);
   double shortest = length_of(best);
   const double enough = kNearlyStraight * (best.back() - best.front()).norm();

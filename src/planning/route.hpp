@@ -20,6 +20,7 @@ struct RouteQuery {
   VoxelId from, to;  ///< traversable voxels that start and goal join
   Point start, goal;
   double radius;
+  double prefer_clearance = 0.0;  ///< see PlanConfig
 };
 
 struct RouteResult {
@@ -40,8 +41,9 @@ RouteResult find_route(const Roadmap& roadmap, const RouteQuery& query, Planner 
                        const Deadline& deadline);
 
 /// The route pulled tight; where that stays longer than the straight line, alternatives are tried
-/// as well, and ways past what blocks the line. Returns the shortest.
-Route tightest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found, double radius,
-               const Deadline& deadline);
+/// as well, and ways past what blocks the line. Returns the shortest. Where clearance is preferred
+/// it is pulled only as far as it gets no costlier, and the cheapest of the alternatives returned.
+Route tightest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found,
+               const RouteQuery& query, const Deadline& deadline);
 
 }  // namespace ridgeway::detail

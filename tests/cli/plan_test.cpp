@@ -146,6 +146,25 @@ TEST_F(CliPlan, AlternativesAreRoutesWithTheKeysOfPlans) {
   expect_refused(with({"--alternatives", "2", "-o", path("path.csv")}), {"--output"});
 }
 
+TEST_F(CliPlan, KeepsFromWallsWhenAskedTo) {
+  const std::string map = rooms();
+  const std::vector<std::string> query = {"plan", map,       "--from", "-2.6,1.5,1",
+                                          "--to", "2,1.5,1", "--json"};
+  const auto with = [&](const std::string& weight) {
+    std::vector<std::string> all = query;
+    all.insert(all.end(), {"--prefer-clearance", weight});
+    return all;
+  };
+  EXPECT_EQ(run(with("0")).json()["waypoints"], run(query).json()["waypoints"]);
+  const Json wide = run(with("10")).json(), tight = run(query).json();
+  EXPECT_GT(wide["length"].get<double>(), tight["length"].get<double>());
+  EXPECT_GT(wide["clearance"].get<double>(), tight["clearance"].get<double>());
+  expect_refused(with("-1"), {"prefer_clearance", "-1"});
+  std::vector<std::string> sampled = with("1");
+  sampled.insert(sampled.end(), {"--planner", "rrtstar"});
+  expect_refused(sampled, {"--prefer-clearance", "rrtstar"});
+}
+
 TEST_F(CliPlan, GoesToManyGoalsOrTheNearest) {
   const std::string map = rooms();
   const std::vector<std::string> query = {"plan", map,       "--from", "-2,1,1",   "--to",  "2,1,1",

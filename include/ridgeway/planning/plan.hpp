@@ -53,9 +53,15 @@ struct PlanConfig {
   std::optional<double> radius = std::nullopt;
   bool shorten = true;  ///< pull the path tight; otherwise as the search found it
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds
+  /// What distance from walls is worth: a metre of a path at a distance d from the nearest obstacle
+  /// costs 1 + prefer_clearance * (radius / d)^2. At 0 paths are as short as can be; at 1 they keep
+  /// some distance where that is cheap; at 10 they follow the middle. The graph's edges count with
+  /// their smallest distance. The other planners search for short paths whatever this is: there it
+  /// only keeps paths from being pulled towards walls.
+  double prefer_clearance = 0.0;
 
-  /// Throws InputError naming the bad field (radius or time limit negative, NaN; a planner that
-  /// samples).
+  /// Throws InputError naming the bad field (radius, time limit or prefer_clearance negative, NaN;
+  /// a planner that samples).
   void validate() const;
 };
 

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "path_cost.hpp"
+
+#include <cmath>
+
+namespace ridgeway::detail {
+namespace {
+
+constexpr double kStep = 0.5;    // radii between looks at the clearance
+constexpr double kSlack = 1e-3;  // relative; what the sum over steps may be off by
+
+}  // namespace
+
+double PathCost::factor(double clearance) const {
+  const double share = radius_ / clearance;
+  return 1.0 + prefer_clearance_ * share * share;
+}
+
+double PathCost::of(std::span<const Point> path) const {
+  double cost = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Point along = path[i] - path[i - 1];
+    const double length = along.norm();
+    if (!prefers_clearance()) {
+      cost += length;
+      continue;
+    }
+    const int pieces = 1 + static_cast<int>(length / (kStep * radius_));
+    double factors = 0.0;
+    for (int k = 0; k < pieces; ++k)
+      factors += factor(space_.distance(path[i - 1] + along * ((k + 0.5) / pieces)));
+    cost += length * factors / pieces;
+  }
+  return cost;
+}
+
+bool PathCost::is_kept(std::span<const Point> before, std::span<const Point> after) const {
+  return of(after) <= of(before) * (1.0 + kSlack);
+}
+
+}  // namespace ridgeway::detail
