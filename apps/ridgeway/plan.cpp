@@ -41,8 +41,9 @@ SamplingConfig sampling_config(const PlanOptions& options, double radius) {
 
 /// Found before the file is loaded.
 void validate(const PlanOptions& options) {
-  if (is_sampling(options.chosen()) && options.prefer_clearance != 0.0)
-    throw InputError("--prefer-clearance", "is of planners that do not sample",
+  if (is_sampling(options.chosen()) && (options.prefer_clearance != 0.0 || options.escape))
+    throw InputError(options.escape ? "--escape" : "--prefer-clearance",
+                     "is of planners that do not sample",
                      "leave it out with --planner " + options.planner);
   if (is_sampling(options.chosen()))
     return sampling_config(options, options.radius.value_or(1.0)).validate();
@@ -203,6 +204,8 @@ void add_plan_command(CLI::App& app, const Globals& globals, Command& chosen) {
       ->add_option("--prefer-clearance", options->prefer_clearance,
                    "What distance d from walls is worth: a metre costs 1 + W (radius / d)^2")
       ->type_name("W");
+  command->add_flag("--escape", options->escape,
+                    "Start and goal may be too close to an obstacle: leave it the short way first");
   command->add_flag("--raw", options->raw, "Do not shorten the path");
   command->add_option("--time-limit", options->time_limit,
                       "Seconds (default: no limit, 10 where the planner samples)");

@@ -7,6 +7,16 @@
 
 namespace ridgeway::cli {
 
+namespace {
+
+void print_escape(const std::string& end, const Escape& escape) {
+  if (escape.length > 0.0)
+    print_row("escape", text_of(escape.length) + " m at the " + end + ", clearance " +
+                            text_of(escape.clearance) + " m");
+}
+
+}  // namespace
+
 Json json_of(const Answer& answer, const Query& query, const std::string& reason) {
   Json json = Json::parse(plan_json(answer.plan));
   json["radius"] = query.radius;
@@ -30,6 +40,8 @@ void print_result(const Answer& answer, const Query& query, const std::string& r
                         " waypoints, answered by the " + std::string(name_of(result.answered_by)));
   print_row("clearance",
             text_of(result.clearance) + " m, robot radius " + text_of(query.radius) + " m");
+  print_escape("start", result.escape_start);
+  print_escape("goal", result.escape_goal);
   print_row("beside unknown", text_of(100.0 * result.unknown_share, 0) + " % of the length");
   print_row("time", seconds_text(s.total) + " (attach " + seconds_text(s.attach) + ", search " +
                         seconds_text(s.search) + ", shorten " + seconds_text(s.shorten) + ")");

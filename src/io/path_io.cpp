@@ -123,6 +123,12 @@ std::string plan_json(const PlanResult& result) {
   json["status"] = std::string(name_of(result.status));
   json["length"] = result.length;
   json["clearance"] = result.clearance;
+  const auto add_escape = [&](const char* key, const Escape& escape) {
+    if (escape.length > 0.0)
+      json[key] = {{"length", escape.length}, {"clearance", escape.clearance}};
+  };
+  add_escape("escape_start", result.escape_start);
+  add_escape("escape_goal", result.escape_goal);
   json["unknown_share"] = result.unknown_share;
   json["waypoints"] = Json::array();
   for (const Point& p : result.waypoints) json["waypoints"].push_back({p.x(), p.y(), p.z()});

@@ -112,9 +112,10 @@ PlanResult tighten(const EsdfMap& esdf, const FreeSpace& space, detail::Route ro
 
 Alternatives plan_alternatives(const Roadmap& roadmap, const Point& start, const Point& goal,
                                std::size_t count, const PlanConfig& config) {
-  if (config.planner != Planner::kGraph || !config.shorten || config.prefer_clearance != 0.0)
+  if (config.planner != Planner::kGraph || !config.shorten || config.prefer_clearance != 0.0 ||
+      config.escape)
     throw InputError("alternatives", "are planned on the graph and pulled tight",
-                     "leave out the planner and the preference for clearance, and shorten paths");
+                     "leave out the planner, escapes and the preference for clearance");
   if (count == 0) throw InputError("alternatives", "are none", "ask for at least 1");
   const double began = detail::seconds_now();
   const Deadline deadline(config.time_limit);

@@ -8,6 +8,8 @@
 #include <string>
 
 #include "deadline.hpp"
+#include "endpoint.hpp"
+#include "escape.hpp"
 #include "query.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/number_text.hpp"
@@ -68,12 +70,12 @@ void PlanConfig::validate() const {
                      "give a number from 0, for shortest paths, to about 10");
 }
 
-PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
-                const PlanConfig& config) {
-  config.validate();
+namespace {
+
+/// Between places where the robot fits.
+PlanResult plan_between(const Roadmap& roadmap, const Point& start, const Point& goal,
+                        double radius, const PlanConfig& config) {
   const EsdfMap& esdf = roadmap.esdf;
-  const double radius = config.radius.value_or(roadmap.min_clearance);
-  detail::validate_query(esdf, start, goal, radius);
   const Deadline deadline(config.time_limit);
   const double began = seconds_now();
   PlanResult result;
@@ -120,6 +122,53 @@ PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
   }
   result.waypoints.clear();
   return finish(PlanStatus::kNoRoute);
+}
+
+/// Where a path begins that has to leave a place too close to an obstacle first; nothing where it
+/// has not, or cannot.
+std::optional<Point> escape_from(const EsdfMap& esdf, const Point& point, double radius) {
+  if (detail::find_endpoint(esdf, point, radius).status != detail::EndpointStatus::kInCollision)
+    return std::nullopt;
+  return detail::find_escape(esdf, point, radius);
+}
+
+PlanResult plan_with_escapes(const Roadmap& roadmap, const Point& start, const Point& goal,
+                             double radius, const PlanConfig& config) {
+  const double began = seconds_now();
+  const EsdfMap& esdf = roadmap.esdf;
+  const std::optional<Point> from = escape_from(esdf, start, radius);
+  const std::optional<Point> to = escape_from(esdf, goal, radius);
+  PlanResult result =
+      plan_between(roadmap, from.value_or(start), to.value_or(goal), radius, config);
+  if (result.ok() && (from || to)) {
+    const FreeSpace space(esdf);
+    std::vector<Point>& path = result.waypoints;
+    if (from && to && *from == *to) path = {*from};
+    if (from) {
+      path.insert(path.begin(), start);
+      result.escape_start = {(*from - start).norm(), space.clearance(start, *from)};
+    }
+    if (to) {
+      path.push_back(goal);
+      result.escape_goal = {(*to - goal).norm(), space.clearance(goal, *to)};
+    }
+    const double clearance = result.clearance;
+    detail::describe(esdf, space, {}, result);
+    result.clearance = clearance;
+  }
+  result.seconds.total = seconds_now() - began;
+  return result;
+}
+
+}  // namespace
+
+PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
+                const PlanConfig& config) {
+  config.validate();
+  const double radius = config.radius.value_or(roadmap.min_clearance);
+  detail::validate_query(roadmap.esdf, start, goal, radius);
+  return config.escape ? plan_with_escapes(roadmap, start, goal, radius, config)
+                       : plan_between(roadmap, start, goal, radius, config);
 }
 
 }  // namespace ridgeway

@@ -148,21 +148,42 @@ TEST_F(CliPlan, AlternativesAreRoutesWithTheKeysOfPlans) {
 
 TEST_F(CliPlan, KeepsFromWallsWhenAskedTo) {
   const std::string map = rooms();
-  const std::vector<std::string> query = {"plan", map,       "--from", "-2.6,1.5,1",
-                                          "--to", "2,1.5,1", "--json"};
+  const std::vector<std::string> query = {"plan", map, "--from", "-2.6,1.5,1", "--to", "2,1.5,1"};
   const auto with = [&](const std::string& weight) {
     std::vector<std::string> all = query;
     all.insert(all.end(), {"--prefer-clearance", weight});
     return all;
   };
-  EXPECT_EQ(run(with("0")).json()["waypoints"], run(query).json()["waypoints"]);
-  const Json wide = run(with("10")).json(), tight = run(query).json();
+  const auto planned = [&](std::vector<std::string> all) {
+    all.push_back("--json");
+    return run(all).json();
+  };
+  const Json wide = planned(with("10")), tight = planned(query);
+  EXPECT_EQ(planned(with("0"))["waypoints"], tight["waypoints"]);
   EXPECT_GT(wide["length"].get<double>(), tight["length"].get<double>());
   EXPECT_GT(wide["clearance"].get<double>(), tight["clearance"].get<double>());
   expect_refused(with("-1"), {"prefer_clearance", "-1"});
   std::vector<std::string> sampled = with("1");
   sampled.insert(sampled.end(), {"--planner", "rrtstar"});
   expect_refused(sampled, {"--prefer-clearance", "rrtstar"});
+}
+
+TEST_F(CliPlan, EscapesFromPlacesTooCloseToAWall) {
+  const std::string map = rooms();  // the wall is 0.1 m off, the radius 0.3 m
+  const std::vector<std::string> query = {"plan", map, "--from", "-2,1.9,1", "--to", "2,1.5,1"};
+  EXPECT_EQ(run(query).code, 2);
+  std::vector<std::string> more = query;
+  more.push_back("--escape");
+  const Outcome person = run(more);
+  EXPECT_EQ(person.code, 0) << person.err;
+  EXPECT_NE(person.out.find("at the start, clearance 0.1 m"), std::string::npos) << person.out;
+  more.push_back("--json");
+  const Json json = run(more).json();
+  EXPECT_EQ(json["waypoints"].front(), Json({-2.0, 1.9, 1.0}));
+  EXPECT_NEAR(json["escape_start"]["clearance"].get<double>(), 0.1, 1e-9);
+  EXPECT_GE(json["escape_start"]["length"].get<double>(), 0.2 - 1e-9);
+  EXPECT_FALSE(json.contains("escape_goal"));
+  EXPECT_GE(json["clearance"].get<double>(), 0.3 * (1 - 1e-9));
 }
 
 TEST_F(CliPlan, GoesToManyGoalsOrTheNearest) {

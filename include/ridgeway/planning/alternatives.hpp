@@ -32,8 +32,9 @@ struct Alternatives {
 /// They are looked at by their length along the graph, up to a few thousand pieces of them:
 /// `complete` says whether that, or the time limit, left some out.
 ///
-/// The planner must be the graph's, and paths are always pulled tight. Thread-safe on one roadmap.
-/// Throws InputError as plan() does, and where `count` is 0.
+/// The planner must be the graph's; paths are always pulled tight, prefer no clearance and have no
+/// escapes. Thread-safe on one roadmap. Throws InputError for another configuration, as plan()
+/// does, and where `count` is 0.
 Alternatives plan_alternatives(const Roadmap& roadmap, const Point& start, const Point& goal,
                                std::size_t count, const PlanConfig& config = {});
 

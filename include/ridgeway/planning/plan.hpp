@@ -59,6 +59,9 @@ struct PlanConfig {
   /// their smallest distance. The other planners search for short paths whatever this is: there it
   /// only keeps paths from being pulled towards walls.
   double prefer_clearance = 0.0;
+  /// Start and goal may be too close to an obstacle, though not in one: paths then begin and end
+  /// with a leg straight to the nearest place where the robot fits. See Escape.
+  bool escape = false;
 
   /// Throws InputError naming the bad field (radius, time limit or prefer_clearance negative, NaN;
   /// a planner that samples).
@@ -72,14 +75,24 @@ struct PlanSeconds {
   double total = 0.0;
 };
 
+/// The first or last segment of a path whose start or goal is too close to an obstacle for the
+/// radius. It stays in known-free voxels, and its distance to obstacles never falls on the way from
+/// that end; it is at most two radii long.
+struct Escape {
+  double length = 0.0;     ///< metres; 0 where there is no such segment
+  double clearance = 0.0;  ///< at that end, the smallest on it, metres
+};
+
 /// A path, or the one reason why there is none.
 struct PlanResult {
   PlanStatus status = PlanStatus::kNoRoute;
   Planner answered_by = Planner::kGraph;
   std::vector<Point> waypoints;  ///< start first, goal last; empty unless ok
   double length = 0.0;           ///< metres
-  double clearance = 0.0;        ///< smallest distance to an obstacle along the path, metres
-  double unknown_share = 0.0;    ///< share of the length whose nearest obstacle is unknown space
+  double clearance = 0.0;        ///< smallest distance to an obstacle along the path, metres,
+                                 ///< without its escapes
+  Escape escape_start, escape_goal;
+  double unknown_share = 0.0;  ///< share of the length whose nearest obstacle is unknown space
   PlanSeconds seconds;
 
   bool ok() const { return status == PlanStatus::kOk; }
@@ -90,11 +103,10 @@ struct PlanResult {
 double largest_radius(const EsdfMap& esdf);
 
 /// Plans from start to goal (metres, map frame) for a sphere of the asked radius. Every segment of
-/// the path has been verified by the free-space predicate (esdf/free_space.hpp). The answer is
-/// exact on the voxel lattice: a path is found exactly when A* through the ESDF would find one.
-/// Thread-safe on one roadmap.
-/// Throws InputError where the configuration or a point is no number, or the radius is larger than
-/// the map knows distances for.
+/// the path, but for escapes, has been verified by the free-space predicate (esdf/free_space.hpp).
+/// The answer is exact on the voxel lattice: a path is found exactly when A* through the ESDF would
+/// find one. Thread-safe on one roadmap. Throws InputError where the configuration or a point is no
+/// number, or the radius is larger than the map knows distances for.
 PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
                 const PlanConfig& config = {});
 
