@@ -26,7 +26,8 @@ Json flat(const Json& row) {
       result[key] = value;
       continue;
     }
-    for (const auto& [inner, number] : value.items()) result[key + "." + inner] = number;
+    for (const auto& [inner, number] : value.items())
+      result[std::string(key).append(".").append(inner)] = number;
   }
   return result;
 }

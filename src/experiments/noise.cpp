@@ -92,6 +92,7 @@ NoiseMap make_map(const World& world, const std::vector<Eigen::Isometry3d>& pose
 std::vector<Pair> common_pairs(const World& world, const NoiseConfig& config,
                                const std::vector<NoiseMap>& maps) {
   std::vector<VoxelMask> main;
+  main.reserve(maps.size());
   for (const NoiseMap& map : maps) main.push_back(main_component(map.built.roadmap));
   const auto is_common = [&](const Point& p) {
     const double distance = surface_distance(world, p).distance;

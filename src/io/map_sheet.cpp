@@ -35,10 +35,12 @@ void draw_map_sheet(std::span<const SheetMap> maps, int columns, const std::stri
   for (std::size_t i = 0; i < maps.size(); ++i) {
     const Roadmap& roadmap = *maps[i].roadmap;
     const double s = roadmap.esdf.voxel_size;
-    const auto column = static_cast<double>(i % static_cast<std::size_t>(columns));
+    const std::size_t across = static_cast<std::size_t>(columns);
+    const auto column = static_cast<double>(i % across),
+               line = std::floor(static_cast<double>(i) / columns);
     MapFrame frame;
     frame.left = gap + column * (cell + gap);
-    frame.top = head + static_cast<double>(i / static_cast<std::size_t>(columns)) * row + caption;
+    frame.top = head + line * row + caption;
     frame.scale = scale;
     frame.width = rasters[i].width(s) * scale;
     frame.height = rasters[i].height(s) * scale;
