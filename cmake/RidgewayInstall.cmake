@@ -20,6 +20,7 @@ install(
   COMPONENT dev
   FILES_MATCHING
   PATTERN "*.hpp"
+  PATTERN "experiments" EXCLUDE
   PATTERN "sampling" EXCLUDE
   PATTERN "trajectory" EXCLUDE
   PATTERN "io" EXCLUDE)

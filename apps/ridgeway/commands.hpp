@@ -35,6 +35,7 @@ void run_when_given(App& command, const std::shared_ptr<Options>& options, const
 }
 
 /// Each adds a subcommand to `app` that, when given, puts itself into `chosen`.
+void add_bench_command(CLI::App& app, const Globals& globals, Command& chosen);
 void add_build_command(CLI::App& app, const Globals& globals, Command& chosen);
 void add_plan_command(CLI::App& app, const Globals& globals, Command& chosen);
 void add_check_command(CLI::App& app, const Globals& globals, Command& chosen);

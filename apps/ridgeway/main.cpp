@@ -39,6 +39,7 @@ void add_commands(CLI::App& app, Globals& globals, Command& chosen) {
   add_world_command(app, globals, chosen);
   add_simulate_command(app, globals, chosen);
   add_fuse_command(app, globals, chosen);
+  add_bench_command(app, globals, chosen);
   for (CLI::App* command : app.get_subcommands({}))
     command->footer("Every command has --json, --quiet and --threads N: see ridgeway --help.\n" +
                     command->get_footer());

@@ -22,8 +22,9 @@ struct Options {
 
 int run(const Options& options, const Globals& globals) {
   require_writable({options.output}, {});
-  const World world = options.kind == "maze" ? make_maze({.seed = options.seed})
-                                             : make_hall({.seed = options.seed});
+  const World world = options.kind == "maze"   ? make_maze({.seed = options.seed})
+                      : options.kind == "hall" ? make_hall({.seed = options.seed})
+                                               : make_house();
   save_world(world, options.output);
   const std::size_t solids =
       world.planes.size() + world.boxes.size() + world.spheres.size() + world.cylinders.size();
@@ -41,9 +42,11 @@ int run(const Options& options, const Globals& globals) {
 void add_world_command(CLI::App& app, const Globals& globals, Command& chosen) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("world", "Make a simulated world from a seed");
-  command->add_option("kind", options->kind, "A maze of 30 x 30 m or a machine hall of 20 x 22 m")
+  command
+      ->add_option("kind", options->kind,
+                   "A maze of 30 x 30 m, a machine hall of 20 x 22 m, or the house of 15 x 10 m")
       ->required()
-      ->check(CLI::IsMember({"maze", "hall"}));
+      ->check(CLI::IsMember({"maze", "hall", "house"}));
   command->add_option("-o,--output", options->output, "World to write, .yaml")->required();
   add_seed_option(*command, options->seed, "Another seed, another world");
   command->footer(

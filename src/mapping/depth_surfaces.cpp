@@ -70,6 +70,7 @@ class TileSums {
 struct Plane {
   Eigen::Vector3d slope = Eigen::Vector3d::Zero();  // of the inverse depth along u, v; and at 0, 0
   double residual = std::numeric_limits<double>::infinity();  // mean square
+  double reach = 0.0;  // of the inverse depth: a pixel farther off is not on it
 };
 
 Plane fit(const Sums& s) {
@@ -94,31 +95,6 @@ Plane best_plane(const TileSums& sums, int x, int y, int reach) {
     if (plane.residual < best.residual) best = plane;
   }
   return best;
-}
-
-std::vector<Plane> fit_tiles(const TileSums& sums) {
-  constexpr int kWide = 2, kNarrow = 1;  // tiles to each side
-  constexpr double kMuchBetter = 0.1;    // of the wide one's mean square
-  std::vector<Plane> planes(static_cast<std::size_t>(sums.across() * sums.down()));
-  parallel_for_each_index(static_cast<std::size_t>(sums.down()), [&](std::size_t row) {
-    for (int x = 0; x < sums.across(); ++x) {
-      const int y = static_cast<int>(row);
-      Plane plane = best_plane(sums, x, y, kWide);
-      const Plane narrow = best_plane(sums, x, y, kNarrow);
-      if (narrow.residual < kMuchBetter * plane.residual) plane = narrow;
-      planes[row * static_cast<std::size_t>(sums.across()) + static_cast<std::size_t>(x)] = plane;
-    }
-  });
-  return planes;
-}
-
-/// 1 / z = a u + b v + c is the plane a fx X + b fy Y + c Z = 1.
-Eigen::Vector3f normal_of(const Plane& plane, const PinholeCamera& camera) {
-  if (std::isinf(plane.residual)) return Eigen::Vector3f::Zero();
-  const Eigen::Vector3d m(plane.slope.x() * camera.fx, plane.slope.y() * camera.fy,
-                          plane.slope.z());
-  if (!(m.squaredNorm() > 0.0)) return Eigen::Vector3f::Zero();
-  return -m.normalized().cast<float>();
 }
 
 /// Standard deviation of the inverse depth's noise around each tile: that of the calmer quarter of
@@ -153,6 +129,39 @@ std::vector<double> noise_of(const TileSums& sums) {
   return noise;
 }
 
+/// The plane of each tile, and how far a pixel may be off it to be taken for a part of it.
+std::vector<Plane> fit_tiles(const TileSums& sums, const std::vector<double>& noise) {
+  constexpr int kWide = 2, kNarrow = 1;  // tiles to each side
+  constexpr double kMuchBetter = 0.1;    // of the wide one's mean square
+  constexpr double kOutlier = 4.0;       // standard deviations
+  std::vector<Plane> planes(static_cast<std::size_t>(sums.across() * sums.down()));
+  parallel_for_each_index(static_cast<std::size_t>(sums.down()), [&](std::size_t row) {
+    for (int x = 0; x < sums.across(); ++x) {
+      const std::size_t tile =
+          row * static_cast<std::size_t>(sums.across()) + static_cast<std::size_t>(x);
+      const int y = static_cast<int>(row);
+      Plane& plane = planes[tile];
+      plane = best_plane(sums, x, y, kWide);
+      // Nothing can be much better than the noise itself.
+      if (kMuchBetter * plane.residual > 0.1 * noise[tile] * noise[tile]) {
+        const Plane narrow = best_plane(sums, x, y, kNarrow);
+        if (narrow.residual < kMuchBetter * plane.residual) plane = narrow;
+      }
+      plane.reach = kOutlier * std::sqrt(plane.residual);
+    }
+  });
+  return planes;
+}
+
+/// 1 / z = a u + b v + c is the plane a fx X + b fy Y + c Z = 1.
+Eigen::Vector3f normal_of(const Plane& plane, const PinholeCamera& camera) {
+  if (std::isinf(plane.residual)) return Eigen::Vector3f::Zero();
+  const Eigen::Vector3d m(plane.slope.x() * camera.fx, plane.slope.y() * camera.fy,
+                          plane.slope.z());
+  if (!(m.squaredNorm() > 0.0)) return Eigen::Vector3f::Zero();
+  return -m.normalized().cast<float>();
+}
+
 struct Choice {
   std::uint32_t tile;
   double off = std::numeric_limits<double>::infinity();  // of the inverse depth, from its plane
@@ -162,18 +171,17 @@ struct Choice {
 /// around, or none.
 Choice choose_plane(const std::vector<Plane>& planes, const TileSums& sums, int x, int y,
                     const Eigen::Vector3d& pixel, double inverse, double noise) {
-  constexpr double kOutlier = 4.0;    // standard deviations that a pixel may be off its plane
   constexpr double kRounding = 1e-3;  // of the inverse depth
+  constexpr double kSpotOn = 1e-5;    // of the inverse depth: no other plane can be better
   Choice best{static_cast<std::uint32_t>(planes.size())};
   const auto consider = [&](int a, int b) {
     const auto tile = static_cast<std::uint32_t>(b * sums.across() + a);
     const Plane& plane = planes[tile];
     const double off = std::abs(plane.slope.dot(pixel) - inverse);
-    if (off < best.off && off <= kOutlier * std::sqrt(plane.residual) + kRounding * inverse)
-      best = {tile, off};
+    if (off < best.off && off <= plane.reach + kRounding * inverse) best = {tile, off};
   };
   consider(x, y);
-  if (best.off <= noise) return best;
+  if (best.off <= std::max(noise, kSpotOn * inverse)) return best;
   for (int b = std::max(y - 1, 0); b <= std::min(y + 1, sums.down() - 1); ++b)
     for (int a = std::max(x - 1, 0); a <= std::min(x + 1, sums.across() - 1); ++a) consider(a, b);
   return best;
@@ -213,8 +221,8 @@ DepthSurfaces::DepthSurfaces(const DepthImage& raw, const PinholeCamera& camera)
     : image_(raw), tile_(raw.depth.size()) {
   constexpr double kMostNoise = 3.0;  // standard deviations
   const TileSums sums(raw, camera);
-  const std::vector<Plane> planes = fit_tiles(sums);
   const std::vector<double> noise = noise_of(sums);
+  const std::vector<Plane> planes = fit_tiles(sums, noise);
   for (const Plane& plane : planes) normals_.push_back(normal_of(plane, camera));
   normals_.emplace_back(Eigen::Vector3f::Zero());
   std::vector<float> stray(raw.depth.size(), kNoStray);  // noise at pixels that are farther off

@@ -20,7 +20,7 @@ namespace ridgeway::detail {
 /// before a wall is no noise, and an image without noise stays as it is.
 class DepthSurfaces {
  public:
-  DepthSurfaces(const DepthImage& image, const PinholeCamera& camera);
+  DepthSurfaces(const DepthImage& raw, const PinholeCamera& camera);
 
   /// Of length one, towards the camera, in its frame; zero where there is none.
   const Eigen::Vector3f& normal_at(int u, int v) const { return normals_[tile_[pixel(u, v)]]; }

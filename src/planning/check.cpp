@@ -64,16 +64,6 @@ bool holds_clearance(const FreeSpace& space, const PlanResult& result, double ra
   return result.clearance >= radius * (1.0 - 1e-9);
 }
 
-Spread spread_of(std::vector<double> values) {
-  if (values.empty()) return {};
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    return values[std::min(values.size() - 1,
-                           static_cast<std::size_t>(share * static_cast<double>(values.size())))];
-  };
-  return {at(0.5), at(0.95), at(0.99), values.back()};
-}
-
 void summarise(const Roadmap& roadmap, const std::vector<Query>& queries,
                std::vector<Outcome>& outcomes, CheckReport& report) {
   const FreeSpace space(roadmap.esdf);

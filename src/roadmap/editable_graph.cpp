@@ -22,14 +22,14 @@ double EditableGraph::length(const std::vector<Number>& way) const {
   return sum;
 }
 
-void EditableGraph::mark_widest_ways(double most) {
+void EditableGraph::mark_widest_ways(const std::function<double(double)>& width) {
   std::vector<std::tuple<double, double, Number, Number>> edges;
   for (Number v = 0; v < links_.size(); ++v)
     for (auto& [w, link] : links_[v])
-      if (v < w) edges.emplace_back(-std::min(link.clearance, most), length(v, w), v, w);
+      if (v < w) edges.emplace_back(-width(link.clearance), length(v, w), v, w);
   std::sort(edges.begin(), edges.end());
   DisjointSets parts(links_.size());
-  for (const auto& [width, length, v, w] : edges) {
+  for (const auto& [narrowness, length, v, w] : edges) {
     const bool widest = parts.find(v) != parts.find(w);
     if (widest) parts.join(v, w);
     links_[v].at(w).widest = links_[w].at(v).widest = widest;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <vector>
 
@@ -36,9 +37,9 @@ class EditableGraph {
     links_[b].erase(a);
   }
 
-  /// Marks the links of a maximum spanning forest over clearances, those above `most` all alike:
-  /// at every radius up to it they connect as much as all links do.
-  void mark_widest_ways(double most);
+  /// Marks the links of a maximum spanning forest over `width(clearance)`, which never falls: at
+  /// every such width they connect as much as all links do. Shorter links win among equals.
+  void mark_widest_ways(const std::function<double(double)>& width);
 
   /// The vertices from the end of a link to the next fork or end, both included.
   std::vector<Number> way_to_fork(Number end) const;

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "editable_graph.hpp"
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/common/number_text.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 
 namespace ridgeway {
@@ -37,18 +39,26 @@ class Simplification {
 
   SparseGraph run() {
     for (bool again = true; again;) {
-      graph_.mark_widest_ways(widest_kept_);
+      mark_widest_ways();
       again = drop_dead_ends();
       again |= merge_vertices();
-      graph_.mark_widest_ways(widest_kept_);
+      mark_widest_ways();
       again |= drop_parallel_ways();
     }
     return graph_.result();
   }
 
  private:
+  void mark_widest_ways() {
+    graph_.mark_widest_ways([&](double clearance) { return kept(clearance); });
+  }
+
   /// How much of a width matters.
-  double kept(double clearance) const { return std::min(clearance, widest_kept_); }
+  double kept(double clearance) const {
+    const double step = config_.width_step * radius_;
+    const double whole = std::floor(clearance / step * (1.0 + 1e-9)) * step;
+    return std::clamp(whole, radius_, widest_kept_);
+  }
 
   /// Whether the ball at a dead end (`way` leads from it to its base) reaches far enough beyond
   /// those of the vertices around: of all that are no farther from its base than the end itself.
@@ -205,10 +215,23 @@ class Simplification {
   EditableGraph graph_;
 };
 
+void require(bool holds, const char* field, double value, const char* remedy) {
+  if (!holds) throw InputError(field, "is " + number_text(value), remedy);
+}
+
 }  // namespace
+
+void SimplifyConfig::validate() const {
+  require(significance >= 0.0, "significance", significance, "give metres, 0 or more");
+  require(steepness >= 0.0, "steepness", steepness, "give a share of a length, 0 or more");
+  require(widest_kept >= 0.0, "widest_kept", widest_kept, "give metres, 0 for twice min_clearance");
+  require(width_step > 0.0, "width_step", width_step, "give a share of min_clearance, above 0");
+  require(stretch >= 1.0, "stretch", stretch, "give a factor, 1 or more");
+}
 
 SparseGraph simplify_graph(const EsdfMap& esdf, const SparseGraph& graph,
                            const SimplifyConfig& config) {
+  config.validate();
   return Simplification(esdf, graph, config).run();
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/sensing/random.hpp"
 #include "ridgeway/sensing/world_generators.hpp"
 #include "temporary_folder.hpp"
 
@@ -127,6 +128,17 @@ TEST(WorldFile, MistakesAreNamedWithTheirLine) {
       refusal(box + "size: [1, 1, 0]}\n"),
       (folder / "bad.yaml").string() + " box 1: has no size (give finite lengths above 0 metres)");
   EXPECT_THROW(load_world(folder / "none.yaml"), InputError);
+}
+
+TEST(WorldFile, TheHouseIsThatOfTheGenerator) {
+  const World file = load_world(std::string(RIDGEWAY_SOURCE_DIR) + "/worlds/house.yaml");
+  const World made = make_house();
+  Random random(3);
+  for (int i = 0; i < 2000; ++i) {
+    const Point p(random.uniform(-1, 16), random.uniform(-1, 11), random.uniform(-1, 6));
+    EXPECT_DOUBLE_EQ(surface_distance(file, p).distance, surface_distance(made, p).distance);
+  }
+  EXPECT_EQ(file.name, made.name);
 }
 
 }  // namespace

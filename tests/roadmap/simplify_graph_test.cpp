@@ -49,8 +49,8 @@ Eigen::MatrixXd windings(const SparseGraph& graph, const std::vector<Eigen::Vect
   for (std::size_t e = 0; e < graph.edges.size(); ++e) {
     const Edge& edge = graph.edges[e];
     if (!used[e])
-      cycles.push_back(angle[number(edge.from)] + turn(edge.from, edge.to) -
-                       angle[number(edge.to)]);
+      cycles.emplace_back(angle[number(edge.from)] + turn(edge.from, edge.to) -
+                          angle[number(edge.to)]);
   }
   Eigen::MatrixXd rows(static_cast<Eigen::Index>(cycles.size()),
                        static_cast<Eigen::Index>(axes.size()));
@@ -140,8 +140,8 @@ TEST(SimplifyGraph, ConnectsAtLargerRadiiWhatItDid) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     std::vector<Eigen::Vector2d> axes;
     const Pair pair = build_pair(testing::pillars(seed, axes), kClearance);
-    for (const double factor : {1.0, 1.25, 1.5, 1.9})
-      expect_connected_alike(pair.whole.graph, pair.simple, factor * kClearance);
+    for (const double factor : {1.0, 1.25, 1.5, 1.75, 2.0})
+      expect_connected_alike(pair.whole.graph, pair.simple, factor * kClearance * (1.0 - 1e-9));
   }
 }
 

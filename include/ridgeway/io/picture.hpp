@@ -59,4 +59,15 @@ struct PictureConfig {
 void draw_floor_plan(const Roadmap& roadmap, std::span<const Point> path,
                      const std::filesystem::path& out, const PictureConfig& config = {});
 
+/// One of the maps of a sheet and the line of text above it.
+struct SheetMap {
+  const Roadmap* roadmap = nullptr;  ///< must live while the sheet is drawn
+  std::string caption;
+};
+
+/// Draws maps side by side, `columns` in a row, as floor plans with diagram and graph, all at the
+/// scale of the widest; PNG or SVG. Throws InputError like draw_floor_plan.
+void draw_map_sheet(std::span<const SheetMap> maps, int columns, const std::string& title,
+                    const std::filesystem::path& out, const PictureConfig& config = {});
+
 }  // namespace ridgeway

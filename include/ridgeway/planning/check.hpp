@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ridgeway/common/progress.hpp"
+#include "ridgeway/common/spread.hpp"
 #include "ridgeway/planning/plan.hpp"
 
 namespace ridgeway {
@@ -13,10 +14,6 @@ namespace ridgeway {
 struct CheckConfig {
   std::size_t queries = 0;
   std::uint64_t seed = 1;
-};
-
-struct Spread {
-  double median = 0.0, p95 = 0.0, p99 = 0.0, max = 0.0;
 };
 
 /// One query of a check and the path that the roadmap answered with, for independent checkers.

@@ -13,7 +13,12 @@ struct SimplifyConfig {
   double steepness = 0.6;      ///< and those that reach less far than this share of their length
   double widest_kept = 0.0;    ///< up to this clearance ways stay as wide as they were; 0: twice
                                ///< the graph's min_clearance
+  double width_step = 0.25;    ///< which counts in steps of this share of min_clearance: a way as
+                               ///< wide as 1.45 times min_clearance may become 1.25 times as wide
   double stretch = 1.5;        ///< but may become longer by this factor
+
+  /// Throws InputError naming the bad field.
+  void validate() const;
 };
 
 /// Leaves out of a graph what noise and voxels put into it, and nothing that matters: whatever is
@@ -26,8 +31,10 @@ struct SimplifyConfig {
 ///   into any neighbour;
 /// - an edge goes if it can be swept onto another way between its ends, as wide and at most
 ///   `stretch` times as long (a spanner that keeps homotopy).
-/// What the graph connects at a radius up to `widest_kept` it connects after, too.
-/// The contract of SparseGraph holds for the result. Components stay. Deterministic.
+/// What the graph connects at a radius, a whole number of steps up to `widest_kept`, it connects
+/// after, too; for radii between them ways that have become narrower may be missing.
+/// The contract of SparseGraph holds for the result. Components stay. Deterministic. Throws
+/// InputError naming the bad field.
 SparseGraph simplify_graph(const EsdfMap& esdf, const SparseGraph& graph,
                            const SimplifyConfig& config = {});
 

@@ -34,4 +34,7 @@ struct HallConfig {
 };
 World make_hall(const HallConfig& config = {});
 
+/// The house of the paper's first experiment, 15 x 10 x 5 m: that of worlds/house.yaml.
+World make_house();
+
 }  // namespace ridgeway

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "arguments.hpp"
+#include "bench.hpp"
+#include "bench_table.hpp"
+#include "console.hpp"
+#include "ridgeway/experiments/noise.hpp"
+#include "ridgeway/io/chart.hpp"
+#include "ridgeway/io/picture.hpp"
+#include "ridgeway/io/world_file.hpp"
+#include "ridgeway/sensing/world_generators.hpp"
+
+namespace ridgeway::cli {
+namespace {
+
+using Json = BenchTable::Json;
+
+struct Options {
+  std::string world, volume = "1,1,1,14,10,5", output;
+  std::size_t scans = 200;
+  NoiseConfig config;
+};
+
+std::string source_text(const NoiseMap& map) {
+  return map.sigma ? "scans, sigma " + text_of(*map.sigma) + " m" : "ground truth";
+}
+
+std::size_t graph_size(const NoiseMap& map) {
+  const SparseGraph& graph = map.built.roadmap.graph;
+  return graph.vertices.size() + graph.edges.size();
+}
+
+BenchTable table_of(const NoiseResult& result) {
+  BenchTable table;
+  for (const NoiseMap& map : result.maps) {
+    const BuildReport& report = map.built.report;
+    const SparseGraph& graph = map.built.roadmap.graph;
+    Json sigma, milliseconds;
+    if (map.sigma) {
+      sigma = *map.sigma;
+      milliseconds = map.scan_milliseconds;
+    }
+    table.add(
+        {{"voxel_size", map.voxel_size},
+         {"source", map.sigma ? "scans" : "truth"},
+         {"sigma", sigma},
+         {"diagram_voxels", report.diagram_voxels},
+         {"vertices", graph.vertices.size()},
+         {"edges", graph.edges.size()},
+         {"components", report.graph_components},
+         {"traversable_components", report.traversable_components},
+         {"cycles", map.cycles},
+         {"clean", map.check.is_clean()},
+         {"success", static_cast<double>(map.solved) / static_cast<double>(result.pairs)},
+         {"length_ratio", {{"median", map.length_ratio.median}, {"p95", map.length_ratio.p95}}},
+         {"scan_milliseconds", milliseconds}});
+  }
+  return table;
+}
+
+/// The paper's figure: elements of diagram and graph against voxel size.
+void draw_elements(const NoiseResult& result, const std::filesystem::path& out) {
+  ScatterSeries diagram{"diagram (voxels)", {}}, graph{"graph (vertices + edges)", {}};
+  for (const NoiseMap& map : result.maps) {
+    diagram.points.emplace_back(map.voxel_size,
+                                static_cast<double>(map.built.report.diagram_voxels));
+    graph.points.emplace_back(map.voxel_size, static_cast<double>(graph_size(map)));
+  }
+  ScatterChart chart;
+  chart.title = "The diagram grows with resolution and noise, the graph does not";
+  chart.x_label = "voxel size (m)";
+  chart.y_label = "elements";
+  chart.series = {diagram, graph};
+  chart.log_y = true;
+  draw_scatter(chart, out);
+}
+
+/// The paper's picture: every map with its graph.
+void draw_maps(const NoiseResult& result, int columns, const std::filesystem::path& out) {
+  std::vector<SheetMap> maps;
+  for (const NoiseMap& map : result.maps)
+    maps.push_back({&map.built.roadmap, text_of(map.voxel_size) + " m, " + source_text(map) + ": " +
+                                            count_text(graph_size(map)) + " elements"});
+  PictureConfig picture;
+  picture.diagram = false;
+  picture.width = 2000;
+  draw_map_sheet(maps, columns, "One house, " + count_text(maps.size()) + " maps", out, picture);
+}
+
+int run(const Options& options, const Globals& globals) {
+  NoiseConfig config = options.config;
+  const Box volume = parse_box(options.volume, "--volume");
+  config.poses = {
+      .low = volume.min, .high = volume.max, .count = options.scans, .seed = config.seed};
+  const World world = options.world.empty() ? make_house() : load_world(options.world);
+  if (!options.output.empty()) require_folder(options.output);
+  ProgressBar bar(globals);
+  const NoiseResult result = run_noise(world, config, bar.callback());
+  bar.clear();
+  const BenchTable table = table_of(result);
+  const Json facts = {{"world", world.name},
+                      {"scans", options.scans},
+                      {"seed", config.seed},
+                      {"pairs", result.pairs},
+                      {"checked_queries", config.queries},
+                      {"size_ratio", result.size_ratio}};
+  if (!options.output.empty()) {
+    const std::filesystem::path folder = options.output;
+    table.write(folder, "noise", facts);
+    const int columns = static_cast<int>(1 + config.sigmas.size());
+    for (const char* extension : {".png", ".svg"}) {
+      draw_elements(result, folder / (std::string("noise_elements") + extension));
+      draw_maps(result, columns, folder / (std::string("noise_maps") + extension));
+    }
+  }
+  if (globals.json) {
+    Json json = facts;
+    json["rows"] = table.rows();
+    print_json(json);
+  } else {
+    table.print();
+    print_row("pairs", count_text(result.pairs));
+    print_row("largest graph", text_of(result.size_ratio, 2) + " times the smallest");
+  }
+  return kExitDone;
+}
+
+}  // namespace
+
+void add_bench_noise(CLI::App& bench, const Globals& globals, Command& chosen) {
+  const auto options = std::make_shared<Options>();
+  NoiseConfig& config = options->config;
+  CLI::App* command = bench.add_subcommand(
+      "noise", "Does the graph depend on voxel size and noise? One world, twelve maps");
+  command->add_option("--world", options->world, "World, .yaml (default: the house)");
+  command->add_option("--volume", options->volume, "Where the camera may be, x0,y0,z0,x1,y1,z1")
+      ->capture_default_str();
+  command->add_option("--scans", options->scans, "Images for each map")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_option("--voxel-sizes", config.voxel_sizes, "Metres")
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_option("--sigmas", config.sigmas, "Gaussian noise on every range, metres")
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_option("--min-clearance", config.min_clearance, "And radius of the routes, metres")
+      ->capture_default_str();
+  command
+      ->add_option("--isolated", config.isolated_below,
+                   "Take clusters of fewer occupied voxels as free")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_option("--pairs", config.pairs, "Starts and goals, common to all maps")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command->add_option("--queries", config.queries, "Of the check of each map")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
+  command->add_option("-o,--output", options->output,
+                      "Folder for noise.json, noise.csv and the pictures (PNG, SVG)");
+  add_seed_option(*command, config.seed, "Of poses, noise, starts and goals");
+  command->footer("Example:\n  ridgeway bench noise -o results");
+  run_when_given(*command, options, globals, chosen, run);
+}
+
+}  // namespace ridgeway::cli
