@@ -49,8 +49,8 @@ Eigen::MatrixXd windings(const SparseGraph& graph, const std::vector<Eigen::Vect
   for (std::size_t e = 0; e < graph.edges.size(); ++e) {
     const Edge& edge = graph.edges[e];
     if (!used[e])
-      cycles.push_back(angle[number(edge.from)] + turn(edge.from, edge.to) -
-                       angle[number(edge.to)]);
+      cycles.emplace_back(angle[number(edge.from)] + turn(edge.from, edge.to) -
+                          angle[number(edge.to)]);
   }
   Eigen::MatrixXd rows(static_cast<Eigen::Index>(cycles.size()),
                        static_cast<Eigen::Index>(axes.size()));
