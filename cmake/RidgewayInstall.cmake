@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 The Ridgeway authors
 
-# Installation, find_package(ridgeway COMPONENTS core sampling trajectory io), and the Debian packages
-# ridgeway (the program) and ridgeway-dev (headers and static libraries).
+# Installation, find_package(ridgeway COMPONENTS core sampling trajectory io), and the Debian
+# packages ridgeway (the program) and ridgeway-dev (headers and static libraries).
 
 include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/ridgeway")

@@ -38,6 +38,7 @@ std::vector<Point> places_around(const EsdfMap& esdf, const Point& point, double
   std::stable_sort(places.begin(), places.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Point> result;
+  result.reserve(places.size());
   for (const auto& [distance, place] : places) result.push_back(place);
   return result;
 }

@@ -129,7 +129,8 @@ std::vector<Point> shortest_of_class(const EsdfMap& esdf, const Axes& axes, cons
   constexpr double kStep = 0.2;
   const FreeSpace space(esdf);
   const auto at = [&](int cell) {
-    return Point(kStep * (cell % kColumns + 0.5), kStep * (cell / kColumns + 0.5), kStart.z());
+    const int column = cell % kColumns, row = cell / kColumns;
+    return Point(kStep * (column + 0.5), kStep * (row + 0.5), kStart.z());
   };
   const auto nearest = [&](const Point& p) {
     return static_cast<int>(p.x() / kStep) + kColumns * static_cast<int>(p.y() / kStep);

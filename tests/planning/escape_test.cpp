@@ -20,6 +20,7 @@ constexpr double kVoxel = 0.1, kRadius = 0.2;
 OccupancyMap room_with_boxes(unsigned seed, int boxes = 3) {
   std::mt19937 random(seed);
   std::vector<VoxelIndex> corners;
+  corners.reserve(static_cast<std::size_t>(boxes));
   for (int i = 0; i < boxes; ++i)
     corners.push_back({static_cast<int>(random() % 20) + 2, static_cast<int>(random() % 20) + 2,
                        static_cast<int>(random() % 8) + 1});

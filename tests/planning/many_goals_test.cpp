@@ -31,6 +31,7 @@ std::vector<Point> random_places(const Roadmap& roadmap, unsigned seed) {
   const std::vector<VoxelId> places = testing::traversable_places(esdf, kClearance);
   std::mt19937 random(seed);
   std::vector<Point> points;
+  points.reserve(11);
   for (int i = 0; i < 10; ++i)
     points.push_back(
         centre_of(esdf.layout.index_of(places[random() % places.size()]), esdf.voxel_size));
