@@ -62,7 +62,26 @@ TEST_F(CliBench, FusionComparesWithPlainLoops) {
   EXPECT_GT(rows[0]["times_as_fast"], 0.0);
 }
 
+TEST_F(CliBench, MazeHasARowForEveryPlanner) {
+  const Outcome outcome =
+      run({"bench", "maze", "--cells", "3", "--voxel-size", "0.15", "--pairs", "4", "--long-pairs",
+           "1", "--time-limit", "0.3", "-o", path("out"), "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto rows = outcome.json()["rows"];
+  ASSERT_EQ(rows.size(), 7u);
+  for (const auto& row : rows) {
+    EXPECT_EQ(row["solved"], row["queries"]) << row["planner"];
+    EXPECT_GT(row["single"]["length"], 6.0) << row["planner"];
+  }
+  EXPECT_EQ(rows[3]["planner"], "esdf");
+  EXPECT_EQ(rows[3]["length_over_esdf"]["median"], 1.0);
+  EXPECT_EQ(rows[6]["planner"], "graph");
+  EXPECT_LE(rows[6]["length"]["median"], rows[5]["length"]["median"]);
+  EXPECT_GT(read_whole(folder_ / "out/maze_graph.png").size(), 1000u);
+}
+
 TEST_F(CliBench, BadArgumentsAreRefused) {
+  EXPECT_EQ(run({"bench", "maze", "--min-clearance", "2"}).code, 1);
   EXPECT_EQ(run({"bench"}).code, 1);
   EXPECT_EQ(run({"bench", "noise", "--world", path("none.yaml")}).code, 1);
   EXPECT_EQ(run({"bench", "noise", "--world", room(), "--voxel-sizes", "-1"}).code, 1);

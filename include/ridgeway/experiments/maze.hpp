@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "ridgeway/common/progress.hpp"
+#include "ridgeway/common/spread.hpp"
+#include "ridgeway/roadmap/roadmap.hpp"
+#include "ridgeway/sensing/world_generators.hpp"
+
+namespace ridgeway {
+
+/// How fast is a plan, and how long is the path? (Paper: Planning.) Lengths in metres.
+struct MazeExperimentConfig {
+  MazeConfig maze = {};
+  double voxel_size = 0.1;
+  double min_clearance = 0.4;  ///< and radius of the robot
+  std::size_t pairs = 100;     ///< random starts and goals
+  std::size_t long_pairs = 3;  ///< of them, for RRT* with all of its time
+  double time_limit = 10.0;    ///< seconds of a planner that samples
+  double range = 3.0;          ///< longest motion of a tree: about a cell, best in a maze
+  std::uint64_t seed = 1;      ///< of starts, goals and samples
+
+  /// Throws InputError naming the bad field.
+  void validate() const;
+};
+
+/// One planner's answers.
+struct MazeRow {
+  std::string planner;  ///< "rrtstar", "rrtstar_10s", "rrtconnect", "esdf", "diagram", "graph_raw",
+                        ///< "graph"
+  std::size_t queries = 0, solved = 0;  ///< of the random pairs
+  Spread seconds, length, vertices;     ///< of those solved
+  Spread length_over_esdf;              ///< over the path of A* through the ESDF as it found it
+  double single_seconds = 0.0, single_length = 0.0;  ///< from one corner to the opposite one
+  std::size_t single_vertices = 0;
+  std::vector<Point> single_path;  ///< empty where there is none
+};
+
+struct MazeResult {
+  Roadmap roadmap;  ///< of the ground truth
+  std::vector<MazeRow> rows;
+};
+
+/// Plans with every planner on the same maze, one query after the other on one thread. Planners
+/// that sample stop at their first path, which is not shortened, but for RRT* with all of its time;
+/// "graph" is the roadmap with shortening, all others are as they come.
+MazeResult run_maze(const MazeExperimentConfig& config, const Progress& progress = {});
+
+}  // namespace ridgeway

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/experiments/maze.hpp"
+
+#include <cmath>
+#include <functional>
+
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/common/number_text.hpp"
+#include "ridgeway/mapping/world_map.hpp"
+#include "ridgeway/planning/plan.hpp"
+#include "ridgeway/roadmap/build_roadmap.hpp"
+#include "ridgeway/sampling/plan_by_sampling.hpp"
+#include "ridgeway/sensing/poses.hpp"
+#include "ridgeway/sensing/random.hpp"
+
+namespace ridgeway {
+namespace {
+
+struct Pair {
+  Point start, goal;
+};
+
+using Plan = std::function<PlanResult(const Pair&)>;
+
+struct Contender {
+  std::string name;
+  Plan plan;
+  bool is_slow = false;  ///< takes all of its time
+};
+
+Plan on_roadmap(const Roadmap& roadmap, Planner planner, bool shorten) {
+  return [&roadmap, planner, shorten](const Pair& pair) {
+    return plan(roadmap, pair.start, pair.goal, {.planner = planner, .shorten = shorten});
+  };
+}
+
+Plan by_sampling(const Roadmap& roadmap, const MazeExperimentConfig& config, Planner planner,
+                 bool first_solution) {
+  return [&roadmap, &config, planner, first_solution](const Pair& pair) {
+    const SamplingConfig sampling{.planner = planner,
+                                  .radius = config.min_clearance,
+                                  .seed = config.seed,
+                                  .time_limit = config.time_limit,
+                                  .first_solution = first_solution,
+                                  .shorten = false,
+                                  .range = config.range};
+    return plan_by_sampling(roadmap.esdf, pair.start, pair.goal, sampling).plan;
+  };
+}
+
+std::vector<Contender> contenders(const Roadmap& roadmap, const MazeExperimentConfig& config) {
+  return {{"rrtstar", by_sampling(roadmap, config, Planner::kRrtStar, true)},
+          {"rrtstar_10s", by_sampling(roadmap, config, Planner::kRrtStar, false), true},
+          {"rrtconnect", by_sampling(roadmap, config, Planner::kRrtConnect, true)},
+          {"esdf", on_roadmap(roadmap, Planner::kEsdf, false)},
+          {"diagram", on_roadmap(roadmap, Planner::kDiagram, false)},
+          {"graph_raw", on_roadmap(roadmap, Planner::kGraph, false)},
+          {"graph", on_roadmap(roadmap, Planner::kGraph, true)}};
+}
+
+/// The middles of the first and the last cell.
+Pair corners(const MazeConfig& maze) {
+  const double near = 0.5 * maze.cell, far = (maze.cells - 0.5) * maze.cell;
+  return {Point(near, near, 0.5 * maze.height), Point(far, far, 0.5 * maze.height)};
+}
+
+std::vector<Pair> random_pairs(const World& world, const MazeExperimentConfig& config) {
+  const PoseSampling inside = sampling_inside(world);
+  Random random(config.seed);
+  const auto place = [&] {
+    for (;;) {  // a maze has room: its generator refuses cells that are all wall
+      Point p;
+      for (int axis = 0; axis < 3; ++axis)
+        p[axis] = random.uniform(inside.low[axis], inside.high[axis]);
+      if (surface_distance(world, p).distance >= config.min_clearance + config.voxel_size) return p;
+    }
+  };
+  std::vector<Pair> pairs;
+  while (pairs.size() < config.pairs) {
+    const Point start = place();
+    pairs.push_back({start, place()});
+  }
+  return pairs;
+}
+
+MazeRow measure(const Contender& contender, const Pair& single, const std::vector<Pair>& pairs,
+                const std::vector<double>& esdf_lengths) {
+  MazeRow row;
+  row.planner = contender.name;
+  row.queries = pairs.size();
+  std::vector<double> seconds, lengths, vertices, ratios;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const PlanResult result = contender.plan(pairs[i]);
+    if (!result.ok()) continue;
+    ++row.solved;
+    seconds.push_back(result.seconds.total);
+    lengths.push_back(result.length);
+    vertices.push_back(static_cast<double>(result.waypoints.size()));
+    ratios.push_back(result.length / esdf_lengths[i]);
+  }
+  row.seconds = spread_of(std::move(seconds));
+  row.length = spread_of(std::move(lengths));
+  row.vertices = spread_of(std::move(vertices));
+  row.length_over_esdf = spread_of(std::move(ratios));
+  const PlanResult result = contender.plan(single);
+  if (result.ok()) {
+    row.single_seconds = result.seconds.total;
+    row.single_length = result.length;
+    row.single_vertices = result.waypoints.size();
+    row.single_path = result.waypoints;
+  }
+  return row;
+}
+
+}  // namespace
+
+void MazeExperimentConfig::validate() const {
+  maze.validate();
+  const auto require = [](bool holds, const char* field, double value, const char* remedy) {
+    if (!holds) throw InputError(field, "is " + number_text(value), remedy);
+  };
+  require(voxel_size > 0.0 && std::isfinite(voxel_size), "voxel_size", voxel_size,
+          "give metres, above 0");
+  require(2.0 * (min_clearance + voxel_size) < std::min(maze.cell - maze.wall, maze.height),
+          "min_clearance", min_clearance, "give a radius that fits into the maze's corridors");
+  require(min_clearance > 0.0, "min_clearance", min_clearance, "give metres, above 0");
+  require(time_limit > 0.0, "time_limit", time_limit, "give seconds, above 0");
+}
+
+MazeResult run_maze(const MazeExperimentConfig& config, const Progress& progress) {
+  config.validate();
+  const World world = make_maze(config.maze);
+  const PoseSampling inside = sampling_inside(world);
+  MazeResult result;
+  result.roadmap = build_roadmap(occupancy_of(world, config.voxel_size, {inside.low, inside.high}),
+                                 {.min_clearance = config.min_clearance})
+                       .roadmap;
+  const std::vector<Pair> pairs = random_pairs(world, config);
+  std::vector<double> esdf_lengths;
+  for (const Pair& pair : pairs)
+    esdf_lengths.push_back(on_roadmap(result.roadmap, Planner::kEsdf, false)(pair).length);
+  const std::vector<Contender> all = contenders(result.roadmap, config);
+  for (const Contender& contender : all) {
+    const auto done = static_cast<double>(result.rows.size()) / static_cast<double>(all.size());
+    if (progress && !progress(contender.name, done)) throw Cancelled();
+    std::vector<Pair> own = pairs;
+    if (contender.is_slow) own.resize(std::min(own.size(), config.long_pairs));
+    result.rows.push_back(measure(contender, corners(config.maze), own, esdf_lengths));
+  }
+  return result;
+}
+
+}  // namespace ridgeway
