@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "level_peeling.hpp"
 #include "parallel_deletion.hpp"
 #include "ridgeway/skeleton/simple_point.hpp"
 
@@ -116,17 +117,7 @@ VoxelMask significant_peaks(const EsdfMap& esdf, const Basins& basins) {
 }
 
 VoxelMask compute_kernel(const EsdfMap& esdf, const VoxelMask& traversable, const Basins& basins) {
-  VoxelMask kernel = traversable;
-  const VoxelMask keep = significant_peaks(esdf, basins);
-  OrderedDeletion deletion(esdf.layout, kernel);
-  for_each_level(
-      ascending_by_distance(esdf, traversable), [](std::uint64_t value) { return value; },
-      [&](std::vector<VoxelId> ids) {
-        deletion.process(std::move(ids), [&](VoxelId id, Cube27 cube) {
-          return is_simple(cube) && !keep.test(id);
-        });
-      });
-  return kernel;
+  return detail::peel_levels(esdf, traversable, significant_peaks(esdf, basins));
 }
 
 void open_shells(const EsdfMap& esdf, VoxelMask& voxels, const VoxelMask& keep) {
