@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 
 #include "ridgeway/esdf/esdf_map.hpp"
 #include "ridgeway/voxel/cube_gather.hpp"
@@ -35,9 +36,11 @@ class LevelGather {
   }
 
   /// Level of a voxel of this block; its neighbour's is `step(direction)` away.
-  const Level* at(VoxelId id) const {
-    return &levels_[((id >> 6 & 7) + 1) * 100 + ((id >> 3 & 7) + 1) * 10 + (id & 7) + 1];
+  const Level* at(VoxelId id) const { return &levels_[place(id)]; }
+  static constexpr std::size_t place(VoxelId id) {
+    return ((id >> 6 & 7) + 1) * 100 + ((id >> 3 & 7) + 1) * 10 + (id & 7) + 1;
   }
+  const std::array<Level, 1000>& all() const { return levels_; }
   static constexpr int step(int direction) {
     const VoxelIndex o = offset_of(direction);
     return o.x + 10 * o.y + 100 * o.z;
@@ -47,31 +50,74 @@ class LevelGather {
   std::array<Level, 1000> levels_;
 };
 
-/// For the voxels of a row of eight, beginning at `row` in a gather, their neighbours above them
-/// and those as high as they are.
-struct RowCubes {
-  std::array<Cube27, kBlockSide> higher{};
-  std::array<Cube27, kBlockSide> level{};
+/// Four voxels in a row along x, the first at a multiple of four, are compared at once: a number
+/// for each. Comparisons give all ones where they hold.
+inline constexpr int kLanes = 4;
+typedef Cube27 Cubes __attribute__((vector_size(16)));
+typedef float Floats __attribute__((vector_size(16)));
 
-  explicit RowCubes(const LevelGather::Level* row) {
+template <typename Lanes>
+Lanes load_lanes(const void* first) {
+  Lanes lanes;
+  std::memcpy(&lanes, first, sizeof lanes);
+  return lanes;
+}
+
+/// For four voxels of a gather, their neighbours above them and those as high as they are.
+struct LevelCubes {
+  Cubes higher{};
+  Cubes level{};
+
+  explicit LevelCubes(const LevelGather::Level* first) {
+    const auto own = load_lanes<Cubes>(first);
+#pragma GCC unroll 27
     for (int d = 0; d < 27; ++d) {
-      const LevelGather::Level* beside = row + LevelGather::step(d);
-      for (std::size_t x = 0; x < kBlockSide; ++x) {
-        higher[x] |= static_cast<Cube27>(beside[x] > row[x]) << d;
-        level[x] |= static_cast<Cube27>(beside[x] == row[x]) << d;
-      }
+      const auto beside = load_lanes<Cubes>(first + LevelGather::step(d));
+      const Cube27 cell = 1u << d;
+      higher |= reinterpret_cast<Cubes>(beside > own) & cell;
+      level |= reinterpret_cast<Cubes>(beside == own) & cell;
     }
   }
 };
 
-/// Calls body(first voxel of the row, its members as bits) for the rows of a block that hold any
-/// voxel of a mask.
+inline bool any(const Cubes& cubes) {
+  std::array<std::uint64_t, 2> halves;
+  std::memcpy(halves.data(), &cubes, sizeof cubes);
+  return (halves[0] | halves[1]) != 0;
+}
+
+/// flood26 and flood6 for four cubes.
+inline Cubes flood26(Cubes cells, const Cubes& within) {
+  for (Cubes before = cells ^ 1u; any(before ^ cells);) {
+    before = cells;
+    cells = grow26(cells) & within;
+  }
+  return cells;
+}
+inline Cubes flood6(Cubes cells, const Cubes& within) {
+  for (Cubes before = cells ^ 1u; any(before ^ cells);) {
+    before = cells;
+    cells = grow6(cells) & within;
+  }
+  return cells;
+}
+
+/// is_simple for four cubes.
+inline Cubes are_simple(const Cubes& cubes) {
+  const Cubes foreground = cubes & kCells26, background = ~cubes & kCells18;
+  const Cubes faces = background & kCells6;
+  const Cubes part = flood26(foreground & -foreground, foreground);
+  const Cubes unreached = faces & ~flood6(faces & -faces, background);
+  return reinterpret_cast<Cubes>((foreground != 0u) & (faces != 0u) & (part == foreground) &
+                                 (unreached == 0u));
+}
+
+/// Calls body(first of four voxels, those of a mask as four bits) for a block, where there are any.
 template <typename Body>
-void for_each_row(const VoxelMask& mask, std::uint32_t slot, const Body& body) {
-  for (std::uint32_t z = 0; z < kBlockSide; ++z)
-    for (std::uint32_t y = 0; y < kBlockSide; ++y)
-      if (const auto bits = static_cast<unsigned>(mask.block(slot)[z] >> (8 * y) & 0xff); bits != 0)
-        body(slot * kBlockVoxels + z * 64 + y * 8, bits);
+void for_each_four(const VoxelMask& mask, std::uint32_t slot, const Body& body) {
+  for (std::uint32_t place = 0; place < kBlockVoxels; place += kLanes)
+    if (const unsigned members = mask.block(slot)[place / 64] >> (place % 64) & 0xf; members != 0)
+      body(slot * kBlockVoxels + place, members);
 }
 
 }  // namespace ridgeway::detail

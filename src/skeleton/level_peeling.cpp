@@ -25,14 +25,13 @@ struct Turn {
   friend auto operator<=>(const Turn&, const Turn&) = default;
 };
 
-/// By sub-field: the directions in which a neighbour's sub-field is a later one.
-constexpr std::array<Cube27, 8> kLaterFields = [] {
-  std::array<Cube27, 8> later{};
-  for (int field = 0; field < 8; ++field)
+/// By place in a block: the directions in which a neighbour's sub-field is a later one.
+constexpr std::array<Cube27, kBlockVoxels> kLaterFields = [] {
+  std::array<Cube27, kBlockVoxels> later{};
+  for (VoxelId place = 0; place < kBlockVoxels; ++place)
     for (int d = 0; d < 27; ++d) {
-      const VoxelIndex o = offset_of(d);
-      const int other = field ^ ((o.x & 1) | (o.y & 1) << 1 | (o.z & 1) << 2);
-      if (other > field) later[static_cast<std::size_t>(field)] |= 1u << d;
+      const VoxelIndex n = voxel_of({}, static_cast<int>(place)) + offset_of(d);
+      if (sub_field(static_cast<VoxelId>(local_of(n))) > sub_field(place)) later[place] |= 1u << d;
     }
   return later;
 }();
@@ -46,13 +45,13 @@ VoxelMask find_obstinate(const EsdfMap& esdf, const VoxelMask& traversable, cons
         const auto slot = static_cast<std::uint32_t>(block);
         if (traversable.block(slot) == VoxelMask::Block{}) return;
         const LevelGather gather(esdf, traversable, slot);
-        for_each_row(traversable, slot, [&](VoxelId row, unsigned members) {
-          const RowCubes cubes(gather.at(row));
+        for_each_four(traversable, slot, [&](VoxelId first, unsigned members) {
+          const LevelCubes cubes(gather.at(first));
+          const auto later_fields = load_lanes<Cubes>(&kLaterFields[first % kBlockVoxels]);
+          const Cubes simple = are_simple(cubes.higher | (cubes.level & later_fields));
           for (; members != 0; members &= members - 1) {
             const auto x = static_cast<VoxelId>(std::countr_zero(members));
-            const Cube27 later =
-                cubes.higher[x] | (cubes.level[x] & kLaterFields[sub_field(row + x)]);
-            if (!is_simple(later)) obstinate.set(row + x);
+            if (!simple[x]) obstinate.set(first + x);
           }
         });
       },
