@@ -21,7 +21,6 @@ namespace {
 using detail::Cubes;
 using detail::Floats;
 using detail::LevelCubes;
-using detail::LevelGather;
 using detail::load_lanes;
 
 /// Place of a voxel in the total order of heights; larger is higher. Zero: not traversable.
@@ -60,7 +59,7 @@ Cubes steepest_ways(const float* first, const Cubes& higher) {
 #pragma GCC unroll 27
   for (Cube27 d = 0; d < 27; ++d) {
     const auto direction = static_cast<int>(d);
-    const Floats rise = load_lanes<Floats>(first + LevelGather::step(direction)) - own;
+    const Floats rise = load_lanes<Floats>(first + detail::bordered_step(direction)) - own;
     const Floats slope = rise * kInverseLength[d];
     const int squared = squared_length(direction);
     // A diagonal move that rises less might dip.
@@ -94,15 +93,15 @@ Landscape climb(const EsdfMap& esdf, const VoxelMask& traversable) {
       [&](std::size_t block) {
         const auto slot = static_cast<std::uint32_t>(block);
         if (traversable.block(slot) == VoxelMask::Block{}) return;
-        const LevelGather gather(esdf, traversable, slot);
-        std::array<float, 1000> heights;
-        std::copy(gather.all().begin(), gather.all().end(), heights.begin());
+        const detail::Levels levels = detail::gather_levels(esdf, traversable, slot);
+        detail::Bordered<float> heights;
+        std::copy(levels.begin(), levels.end(), heights.begin());
         detail::for_each_four(traversable, slot, [&](VoxelId first, unsigned members) {
-          const LevelCubes cubes(gather.at(first));
+          const LevelCubes cubes(levels, detail::bordered_place(first));
           const Cubes higher =
               cubes.higher |
               (cubes.level & load_lanes<Cubes>(&kSmallerHandles[first % kBlockVoxels]));
-          const Cubes steepest = steepest_ways(&heights[gather.place(first)], higher);
+          const Cubes steepest = steepest_ways(&heights[detail::bordered_place(first)], higher);
           const Cubes regular = are_regular(higher);
           for (; members != 0; members &= members - 1) {
             const auto x = static_cast<VoxelId>(std::countr_zero(members));

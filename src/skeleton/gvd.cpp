@@ -6,11 +6,16 @@
 #include <array>
 #include <cmath>
 
+#include "lanes.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/voxel/cube_gather.hpp"
 
 namespace ridgeway {
 namespace {
+
+using detail::Cubes;
+using detail::Floats;
+using detail::load_lanes;
 
 constexpr std::size_t kGrain = 16;
 constexpr int kEdgeNeighbours = 18;
@@ -63,6 +68,51 @@ bool has_basis_points(const EsdfMap& esdf, VoxelId id, double cosine, std::size_
   });
 }
 
+/// Where the sites of the free voxels of a block and its border lie, voxels from the block's
+/// corner; not a number where there is none.
+struct SiteGather {
+  std::array<detail::Bordered<float>, 3> at;
+
+  SiteGather(const EsdfMap& esdf, std::uint32_t slot) {
+    detail::for_each_bordered(esdf.layout, slot, [&](std::size_t place, VoxelId id) {
+      const bool has_site =
+          id != kNoVoxel && esdf.state[id] == VoxelState::kFree && esdf.squared[id] != kNoSite;
+      const SiteOffset o = has_site ? esdf.site[id] : SiteOffset{};
+      const auto p = static_cast<int>(place);
+      at[0][place] = has_site ? static_cast<float>(o.x + p % 10) : NAN;
+      at[1][place] = static_cast<float>(o.y + p / 10 % 10);
+      at[2][place] = static_cast<float>(o.z + p / 100);
+    });
+  }
+};
+
+/// For four voxels of a block whether rounding leaves no doubt that all six neighbours have sites,
+/// in directions less than theta away: true for almost all that are not on the GVD.
+Cubes surely_off_ridge(const SiteGather& sites, std::size_t first, double cosine) {
+  const auto x = static_cast<float>(first % 10), y = static_cast<float>(first / 10 % 10),
+             z = static_cast<float>(first / 100);
+  const Floats here[3] = {Floats{x, x + 1, x + 2, x + 3}, Floats{y, y, y, y}, Floats{z, z, z, z}};
+  Floats v[3], vv{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    v[axis] = load_lanes<Floats>(&sites.at[axis][first]) - here[axis];
+    vv += v[axis] * v[axis];
+  }
+  const auto least = static_cast<float>(std::max(cosine, 0.0) + 1e-5);  // far above float rounding
+  const Floats limit = vv * (least * least);
+  Cubes sure = ~Cubes{};
+  for (const Direction d : kFaceDirections) {
+    Floats dot{}, ww{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto w =
+          load_lanes<Floats>(&sites.at[axis][first] + detail::bordered_step(d)) - here[axis];
+      dot += v[axis] * w;
+      ww += w * w;
+    }
+    sure &= reinterpret_cast<Cubes>((dot > 0.0f) & (dot * dot >= limit * ww));
+  }
+  return sure;
+}
+
 /// Those voxels of a mask for which keep(voxel) holds.
 template <typename Keep>
 VoxelMask filter(const BlockLayout& layout, const VoxelMask& mask, const Keep& keep) {
@@ -97,7 +147,23 @@ VoxelMask traversable_voxels(const EsdfMap& esdf, double radius) {
 
 VoxelMask compute_gvd(const EsdfMap& esdf, const VoxelMask& traversable, const GvdConfig& config) {
   const double cosine = std::cos(config.theta);
-  return filter(esdf.layout, traversable, [&](VoxelId id) { return is_on_gvd(esdf, id, cosine); });
+  VoxelMask gvd(esdf.layout);
+  parallel_for_each_index(
+      esdf.layout.block_count(),
+      [&](std::size_t index) {
+        const auto slot = static_cast<std::uint32_t>(index);
+        if (traversable.block(slot) == VoxelMask::Block{}) return;
+        const SiteGather sites(esdf, slot);
+        detail::for_each_four(traversable, slot, [&](VoxelId first, unsigned members) {
+          const Cubes sure = surely_off_ridge(sites, detail::bordered_place(first), cosine);
+          for (; members != 0; members &= members - 1) {
+            const auto x = static_cast<VoxelId>(std::countr_zero(members));
+            if (!sure[x] && is_on_gvd(esdf, first + x, cosine)) gvd.set(first + x);
+          }
+        });
+      },
+      kGrain);
+  return gvd;
 }
 
 VoxelMask extract_basis_point_edges(const EsdfMap& esdf, const VoxelMask& gvd,

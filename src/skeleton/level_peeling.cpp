@@ -44,9 +44,9 @@ VoxelMask find_obstinate(const EsdfMap& esdf, const VoxelMask& traversable, cons
       [&](std::size_t block) {
         const auto slot = static_cast<std::uint32_t>(block);
         if (traversable.block(slot) == VoxelMask::Block{}) return;
-        const LevelGather gather(esdf, traversable, slot);
+        const Levels levels = gather_levels(esdf, traversable, slot);
         for_each_four(traversable, slot, [&](VoxelId first, unsigned members) {
-          const LevelCubes cubes(gather.at(first));
+          const LevelCubes cubes(levels, bordered_place(first));
           const auto later_fields = load_lanes<Cubes>(&kLaterFields[first % kBlockVoxels]);
           const Cubes simple = are_simple(cubes.higher | (cubes.level & later_fields));
           for (; members != 0; members &= members - 1) {
