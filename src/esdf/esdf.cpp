@@ -98,7 +98,9 @@ class Sweeper {
     const auto end = scratch.is_obstacle.end();
     for (auto first = scratch.is_obstacle.begin(); first != end;) {
       const auto last = std::find(first, end, true);
-      const auto place = [&](auto it) { return static_cast<int>(it - scratch.is_obstacle.begin()); };
+      const auto place = [&](auto it) {
+        return static_cast<int>(it - scratch.is_obstacle.begin());
+      };
       if (last != first) sweep_run(axis, place(first), place(last) - 1, scratch);
       first = last + 1;
     }
@@ -119,8 +121,8 @@ class Sweeper {
       if (winner >= first && winner <= last)
         offset = scratch.before[static_cast<std::size_t>(winner)];
       for (int i = begin; i < end; ++i) {
-        const auto along =
-            static_cast<std::int16_t>(std::clamp(winner - i, -kFarthestSite - 1, kFarthestSite + 1));
+        const auto along = static_cast<std::int16_t>(
+            std::clamp(winner - i, -kFarthestSite - 1, kFarthestSite + 1));
         (axis == 0 ? offset.x : axis == 1 ? offset.y : offset.z) = along;
         scratch.after[static_cast<std::size_t>(i)] = offset;
       }

@@ -68,8 +68,8 @@ bool has_basis_points(const EsdfMap& esdf, VoxelId id, double cosine, std::size_
   });
 }
 
-/// Where the sites of the free voxels of a block and its border lie, voxels from the block's
-/// corner; not a number where there is none.
+/// Where the nearest sites of a block and its border lie, each seen from its own voxel; not a
+/// number where a voxel is not free or has none.
 struct SiteGather {
   std::array<detail::Bordered<float>, 3> at;
 
@@ -78,10 +78,9 @@ struct SiteGather {
       const bool has_site =
           id != kNoVoxel && esdf.state[id] == VoxelState::kFree && esdf.squared[id] != kNoSite;
       const SiteOffset o = has_site ? esdf.site[id] : SiteOffset{};
-      const auto p = static_cast<int>(place);
-      at[0][place] = has_site ? static_cast<float>(o.x + p % 10) : NAN;
-      at[1][place] = static_cast<float>(o.y + p / 10 % 10);
-      at[2][place] = static_cast<float>(o.z + p / 100);
+      at[0][place] = has_site ? o.x : NAN;
+      at[1][place] = o.y;
+      at[2][place] = o.z;
     });
   }
 };
@@ -89,22 +88,21 @@ struct SiteGather {
 /// For four voxels of a block whether rounding leaves no doubt that all six neighbours have sites,
 /// in directions less than theta away: true for almost all that are not on the GVD.
 Cubes surely_off_ridge(const SiteGather& sites, std::size_t first, double cosine) {
-  const auto x = static_cast<float>(first % 10), y = static_cast<float>(first / 10 % 10),
-             z = static_cast<float>(first / 100);
-  const Floats here[3] = {Floats{x, x + 1, x + 2, x + 3}, Floats{y, y, y, y}, Floats{z, z, z, z}};
   Floats v[3], vv{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    v[axis] = load_lanes<Floats>(&sites.at[axis][first]) - here[axis];
+    v[axis] = load_lanes<Floats>(&sites.at[axis][first]);
     vv += v[axis] * v[axis];
   }
   const auto least = static_cast<float>(std::max(cosine, 0.0) + 1e-5);  // far above float rounding
   const Floats limit = vv * (least * least);
   Cubes sure = ~Cubes{};
   for (const Direction d : kFaceDirections) {
+    const VoxelIndex o = offset_of(d);
+    const std::array<int, 3> step{o.x, o.y, o.z};
     Floats dot{}, ww{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto w =
-          load_lanes<Floats>(&sites.at[axis][first] + detail::bordered_step(d)) - here[axis];
+      const Floats w = load_lanes<Floats>(&sites.at[axis][first] + detail::bordered_step(d)) +
+                       static_cast<float>(step[axis]);
       dot += v[axis] * w;
       ww += w * w;
     }
