@@ -68,25 +68,28 @@ bool has_basis_points(const EsdfMap& esdf, VoxelId id, double cosine, std::size_
   });
 }
 
-/// Where the nearest sites of a block and its border lie, each seen from its own voxel; not a
-/// number where a voxel is not free or has none.
+/// Where the nearest sites of a block and its border lie, each seen from its own voxel; zero where
+/// there is none.
 struct SiteGather {
-  std::array<detail::Bordered<float>, 3> at;
+  std::array<detail::Bordered<float>, 3> at{};
 
   SiteGather(const EsdfMap& esdf, std::uint32_t slot) {
-    detail::for_each_bordered(esdf.layout, slot, [&](std::size_t place, VoxelId id) {
-      const bool has_site =
-          id != kNoVoxel && esdf.state[id] == VoxelState::kFree && esdf.squared[id] != kNoSite;
-      const SiteOffset o = has_site ? esdf.site[id] : SiteOffset{};
-      at[0][place] = has_site ? o.x : NAN;
-      at[1][place] = o.y;
-      at[2][place] = o.z;
-    });
+    detail::for_each_bordered_row(
+        esdf.layout, slot, [&](std::size_t place, VoxelId first, std::size_t count) {
+          if (first == kNoVoxel) return;
+          for (std::size_t i = 0; i < count; ++i) {
+            const SiteOffset& site = esdf.site[first + static_cast<VoxelId>(i)];
+            at[0][place + i] = site.x;
+            at[1][place + i] = site.y;
+            at[2][place + i] = site.z;
+          }
+        });
   }
 };
 
-/// For four voxels of a block whether rounding leaves no doubt that all six neighbours have sites,
-/// in directions less than theta away: true for almost all that are not on the GVD.
+/// For four voxels of a block whether rounding leaves no doubt that the sites of all six neighbours
+/// lie in directions less than theta away: true for almost all that are not on the GVD. Neighbours
+/// without a say may only raise a doubt.
 Cubes surely_off_ridge(const SiteGather& sites, std::size_t first, double cosine) {
   Floats v[3], vv{};
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -23,25 +23,23 @@ constexpr int bordered_step(int direction) {
   return o.x + 10 * o.y + 100 * o.z;
 }
 
-/// Calls body(place, id) for all voxels of a block and its border, kNoVoxel for those in blocks
-/// that are not allocated.
+/// Calls body(place, id, count) for all voxels of a block and its border, `count` (8 or 1) in a row
+/// at a time; kNoVoxel for those in blocks that are not allocated.
 template <typename Body>
-void for_each_bordered(const BlockLayout& layout, std::uint32_t slot, const Body& body) {
+void for_each_bordered_row(const BlockLayout& layout, std::uint32_t slot, const Body& body) {
   std::size_t place = 0;
   for (int z = -1; z <= kBlockSide; ++z)
     for (int y = -1; y <= kBlockSide; ++y) {
       const int beside = 13 + 3 * (y >> 3) + 9 * (z >> 3);
       const auto row = static_cast<VoxelId>((y & 7) << 3 | (z & 7) << 6);
-      const auto visit = [&](int dx, VoxelId first, VoxelId last) {
+      const auto visit = [&](int dx, VoxelId x, std::size_t count) {
         const std::uint32_t n = layout.neighbour_block(slot, beside + dx);
-        if (n == BlockLayout::kNoBlock)
-          for (VoxelId x = first; x <= last; ++x) body(place++, kNoVoxel);
-        else
-          for (VoxelId x = first; x <= last; ++x) body(place++, n * kBlockVoxels + row + x);
+        body(place, n == BlockLayout::kNoBlock ? kNoVoxel : n * kBlockVoxels + row + x, count);
+        place += count;
       };
-      visit(-1, 7, 7);
-      visit(0, 0, 7);
-      visit(1, 0, 0);
+      visit(-1, kBlockSide - 1, 1);
+      visit(0, 0, kBlockSide);
+      visit(1, 0, 1);
     }
 }
 

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <algorithm>
+
 #include "lanes.hpp"
 #include "ridgeway/esdf/esdf_map.hpp"
 
@@ -11,10 +13,19 @@ namespace ridgeway::detail {
 using Levels = Bordered<std::uint32_t>;
 
 inline Levels gather_levels(const EsdfMap& esdf, const VoxelMask& traversable, std::uint32_t slot) {
-  Levels levels;
-  for_each_bordered(esdf.layout, slot, [&](std::size_t place, VoxelId id) {
-    levels[place] = id != kNoVoxel && traversable.test(id) ? esdf.squared[id] : 0;
-  });
+  Levels levels{};
+  for_each_bordered_row(
+      esdf.layout, slot, [&](std::size_t place, VoxelId first, std::size_t count) {
+        if (first == kNoVoxel) return;
+        const std::uint64_t all = (std::uint64_t{1} << count) - 1;
+        const std::uint64_t layer =
+            traversable.block(first / kBlockVoxels)[first / 64 % kBlockSide];
+        const std::uint64_t members = layer >> (first % 64) & all;
+        if (members == 0) return;
+        std::copy_n(&esdf.squared[first], count, &levels[place]);
+        for (std::uint64_t others = ~members & all; others != 0; others &= others - 1)
+          levels[place + static_cast<std::size_t>(std::countr_zero(others))] = 0;
+      });
   return levels;
 }
 
