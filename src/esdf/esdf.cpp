@@ -194,23 +194,20 @@ VoxelField<SiteOffset> sweep_sites_through_unknown(const EsdfMap& map, double fa
 void finish_distances(EsdfMap& map, double farthest) {
   map.squared = VoxelField<std::uint32_t>(map.layout);
   const double reach = std::min(farthest, static_cast<double>(kFarthestSite));
-  const double limit = squared_threshold(reach, 1.0) * (1.0 + 4e-9);
+  const auto limit = static_cast<std::uint32_t>(squared_threshold(reach, 1.0) * (1.0 + 4e-9));
   parallel_for_each_index(
       map.layout.block_count(),
-      [&](std::size_t slot) {
-        std::uint32_t* squared = map.squared.block(static_cast<std::uint32_t>(slot));
-        SiteOffset* site = map.site.block(static_cast<std::uint32_t>(slot));
-        for (int v = 0; v < kBlockVoxels; ++v) {
-          if (map.obstacle.test(static_cast<VoxelId>(slot * kBlockVoxels) +
-                                static_cast<VoxelId>(v))) {
-            site[v] = {};
-          } else if (site[v] == kNoOffset || quarter_squared(site[v]) > limit) {
-            site[v] = {};
-            squared[v] = kNoSite;
-            continue;
+      [&](std::size_t index) {
+        const auto slot = static_cast<std::uint32_t>(index);
+        std::uint32_t* squared = map.squared.block(slot);
+        SiteOffset* site = map.site.block(slot);
+        for (const std::uint64_t layer : map.obstacle.block(slot))
+          for (int v = 0; v < 64; ++v, ++squared, ++site) {
+            const bool solid = layer >> v & 1;
+            const bool far = *site == kNoOffset || quarter_squared(*site) > limit;
+            if (solid || far) *site = {};
+            *squared = far && !solid ? kNoSite : quarter_squared(*site);
           }
-          squared[v] = quarter_squared(site[v]);
-        }
       },
       16);
 }
