@@ -40,7 +40,7 @@ BlockRow row_from(const BlockLayout& layout, std::uint32_t start, int axis) {
   return row;
 }
 
-/// The voxels of line `line` (0..63) of a row along an axis, in order.
+/// Line `line` (0..63) of voxels of a row along an axis.
 struct Line {
   const BlockRow& row;
   VoxelId base;    // place of the line's first voxel in a block
@@ -51,10 +51,15 @@ struct Line {
     const auto low = static_cast<VoxelId>(line & 7), high = static_cast<VoxelId>(line >> 3);
     base = axis == 0 ? low << 3 | high << 6 : axis == 1 ? low | high << 6 : low | high << 3;
   }
-  int size() const { return static_cast<int>(row.size()) * kBlockSide; }
-  VoxelId operator[](int i) const {
-    return row[static_cast<std::size_t>(i >> kBlockBits)] * kBlockVoxels + base +
-           static_cast<VoxelId>(i & 7) * stride;
+
+  /// Calls body(place on the line, voxel) from the first to the last.
+  template <typename Body>
+  void for_each_voxel(const Body& body) const {
+    std::size_t i = 0;
+    for (const std::uint32_t slot : row) {
+      VoxelId id = slot * kBlockVoxels + base;
+      for (int k = 0; k < kBlockSide; ++k, id += stride) body(i++, id);
+    }
   }
 };
 
@@ -68,57 +73,59 @@ class Sweeper {
     const std::vector<std::uint32_t> starts = row_starts(layout_, axis);
     parallel_for_each_index(starts.size(), [&](std::size_t i) {
       const BlockRow row = row_from(layout_, starts[i], axis);
-      Scratch scratch;
+      Scratch scratch(row.size() * kBlockSide);
       for (int line = 0; line < 64; ++line) sweep_line(Line(row, axis, line), axis, scratch);
     });
   }
 
  private:
+  /// A line before and after its sweep.
   struct Scratch {
+    std::vector<SiteOffset> before, after;
+    std::vector<char> is_obstacle;  // and one more at the end
     detail::LineEnvelope envelope;
-    std::vector<SiteOffset> site;  // of the line before this sweep
-    std::vector<bool> is_obstacle;
+    explicit Scratch(std::size_t size) : before(size), after(size), is_obstacle(size + 1, true) {}
+    int size() const { return static_cast<int>(before.size()); }
   };
 
   /// An obstacle hides all that lies behind it, so each run between obstacles is swept alone.
   void sweep_line(const Line& line, int axis, Scratch& scratch) const {
-    const int size = line.size();
-    scratch.site.resize(static_cast<std::size_t>(size));
-    scratch.is_obstacle.resize(static_cast<std::size_t>(size));
-    for (int i = 0; i < size; ++i) {
-      scratch.site[static_cast<std::size_t>(i)] = site_[line[i]];
-      scratch.is_obstacle[static_cast<std::size_t>(i)] = obstacle_.test(line[i]);
-    }
-    for (int first = 0; first < size;) {
-      if (scratch.is_obstacle[static_cast<std::size_t>(first)]) {
-        ++first;
-        continue;
-      }
-      int last = first;
-      while (last + 1 < size && !scratch.is_obstacle[static_cast<std::size_t>(last) + 1]) ++last;
-      sweep_run(line, axis, first, last, scratch);
+    line.for_each_voxel([&](std::size_t i, VoxelId id) {
+      scratch.before[i] = site_[id];
+      scratch.is_obstacle[i] = obstacle_.test(id);
+    });
+    scratch.after = scratch.before;
+    const auto end = scratch.is_obstacle.end();
+    for (auto first = scratch.is_obstacle.begin(); first != end;) {
+      const auto last = std::find(first, end, true);
+      const auto place = [&](auto it) {
+        return static_cast<int>(it - scratch.is_obstacle.begin());
+      };
+      if (last != first) sweep_run(axis, place(first), place(last) - 1, scratch);
       first = last + 1;
     }
+    line.for_each_voxel([&](std::size_t i, VoxelId id) { site_[id] = scratch.after[i]; });
   }
 
-  void sweep_run(const Line& line, int axis, int first, int last, Scratch& scratch) const {
+  void sweep_run(int axis, int first, int last, Scratch& scratch) const {
     detail::LineEnvelope& envelope = scratch.envelope;
     envelope.clear();
     if (first > 0 || solid_outside_) envelope.add({first - 1, 0});
     for (int i = first; i <= last; ++i) {
-      const SiteOffset& offset = scratch.site[static_cast<std::size_t>(i)];
+      const SiteOffset& offset = scratch.before[static_cast<std::size_t>(i)];
       if (offset != kNoOffset) envelope.add({i, quarter_squared(offset)});
     }
-    if (last + 1 < line.size() || solid_outside_) envelope.add({last + 1, 0});
-    if (envelope.empty()) return;
-    envelope.for_each_winner(first, last, [&](int position, int winner) {
+    if (last + 1 < scratch.size() || solid_outside_) envelope.add({last + 1, 0});
+    envelope.for_each_stretch(first, last, [&](int begin, int end, int winner) {
       SiteOffset offset{};
       if (winner >= first && winner <= last)
-        offset = scratch.site[static_cast<std::size_t>(winner)];
-      const auto along = static_cast<std::int16_t>(
-          std::clamp(winner - position, -kFarthestSite - 1, kFarthestSite + 1));
-      (axis == 0 ? offset.x : axis == 1 ? offset.y : offset.z) = along;
-      site_[line[position]] = offset;
+        offset = scratch.before[static_cast<std::size_t>(winner)];
+      for (int i = begin; i < end; ++i) {
+        const auto along = static_cast<std::int16_t>(
+            std::clamp(winner - i, -kFarthestSite - 1, kFarthestSite + 1));
+        (axis == 0 ? offset.x : axis == 1 ? offset.y : offset.z) = along;
+        scratch.after[static_cast<std::size_t>(i)] = offset;
+      }
     });
   }
 
@@ -187,23 +194,20 @@ VoxelField<SiteOffset> sweep_sites_through_unknown(const EsdfMap& map, double fa
 void finish_distances(EsdfMap& map, double farthest) {
   map.squared = VoxelField<std::uint32_t>(map.layout);
   const double reach = std::min(farthest, static_cast<double>(kFarthestSite));
-  const double limit = squared_threshold(reach, 1.0) * (1.0 + 4e-9);
+  const auto limit = static_cast<std::uint32_t>(squared_threshold(reach, 1.0) * (1.0 + 4e-9));
   parallel_for_each_index(
       map.layout.block_count(),
-      [&](std::size_t slot) {
-        std::uint32_t* squared = map.squared.block(static_cast<std::uint32_t>(slot));
-        SiteOffset* site = map.site.block(static_cast<std::uint32_t>(slot));
-        for (int v = 0; v < kBlockVoxels; ++v) {
-          if (map.obstacle.test(static_cast<VoxelId>(slot * kBlockVoxels) +
-                                static_cast<VoxelId>(v))) {
-            site[v] = {};
-          } else if (site[v] == kNoOffset || quarter_squared(site[v]) > limit) {
-            site[v] = {};
-            squared[v] = kNoSite;
-            continue;
+      [&](std::size_t index) {
+        const auto slot = static_cast<std::uint32_t>(index);
+        std::uint32_t* squared = map.squared.block(slot);
+        SiteOffset* site = map.site.block(slot);
+        for (const std::uint64_t layer : map.obstacle.block(slot))
+          for (int v = 0; v < 64; ++v, ++squared, ++site) {
+            const bool solid = layer >> v & 1;
+            const bool far = *site == kNoOffset || quarter_squared(*site) > limit;
+            if (solid || far) *site = {};
+            *squared = far && !solid ? kNoSite : quarter_squared(*site);
           }
-          squared[v] = quarter_squared(site[v]);
-        }
       },
       16);
 }

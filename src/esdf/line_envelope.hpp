@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -59,13 +60,16 @@ class LineEnvelope {
 
   bool empty() const { return pieces_.empty(); }
 
-  /// Calls assign(position, winner's position) for every position in [first, last].
+  /// Calls assign(begin, end, winner's position) for the stretches of [first, last], end excluded.
   template <typename Assign>
-  void for_each_winner(int first, int last, const Assign& assign) const {
-    std::size_t piece = 0;
-    for (int position = first; position <= last; ++position) {
-      while (piece + 1 < pieces_.size() && pieces_[piece + 1].from <= position) ++piece;
-      assign(position, pieces_[piece].candidate.position);
+  void for_each_stretch(int first, int last, const Assign& assign) const {
+    int begin = first;
+    for (std::size_t piece = 0; piece < pieces_.size() && begin <= last; ++piece) {
+      const std::int64_t next = piece + 1 < pieces_.size() ? pieces_[piece + 1].from : INT64_MAX;
+      const int end = static_cast<int>(std::min<std::int64_t>(next, last + 1));
+      if (end <= begin) continue;
+      assign(begin, end, pieces_[piece].candidate.position);
+      begin = end;
     }
   }
 

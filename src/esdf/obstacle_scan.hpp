@@ -94,18 +94,23 @@ class ObstacleScan {
         if (row == 0) continue;
         const double y0 = corner.y() + y;
         const double dy = std::max({y0 - high_.y(), low_.y() - y0 - 1.0, 0.0});
-        if (dy * dy + dz * dz < best_) scan_row(row, {corner.x(), y0, z0});
+        const double near = dy * dy + dz * dz;
+        if (near < best_) scan_row(row, {corner.x(), y0, z0}, near);
       }
     }
   }
 
-  void scan_row(unsigned row, const Eigen::Vector3d& corner) {
+  /// `near`: squared distance of the row from the segment's bounding box, across the row.
+  void scan_row(unsigned row, const Eigen::Vector3d& corner, double near) {
     while (row != 0) {
       const int first = std::countr_zero(row);
       const int length = std::countr_one(row >> first);
       row &= row + (1u << first);  // clears the lowest run
-      const Eigen::Vector3d min = corner + Eigen::Vector3d(first, 0, 0);
-      consider({min, min + Eigen::Vector3d(length, 1, 1)});
+      const double x0 = corner.x() + first, x1 = x0 + length;
+      const double dx = std::max({x0 - high_.x(), low_.x() - x1, 0.0});
+      constexpr double kSlack = 1.0 + 1e-12;  // for rounding
+      if (near + dx * dx > best_ * kSlack) continue;
+      consider({{x0, corner.y(), corner.z()}, {x1, corner.y() + 1.0, corner.z() + 1.0}});
     }
   }
 

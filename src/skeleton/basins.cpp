@@ -9,6 +9,7 @@
 #include <numeric>
 #include <queue>
 
+#include "level_gather.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/voxel/cube_gather.hpp"
@@ -16,6 +17,11 @@
 
 namespace ridgeway {
 namespace {
+
+using detail::Cubes;
+using detail::Floats;
+using detail::LevelCubes;
+using detail::load_lanes;
 
 /// Place of a voxel in the total order of heights; larger is higher. Zero: not traversable.
 std::uint64_t height(const EsdfMap& esdf, VoxelId id) {
@@ -31,66 +37,46 @@ constexpr std::array<float, 27> kInverseLength = [] {
   return inverse;
 }();
 
-/// Heights of a block's voxels and of the voxels around it.
-class HeightGather {
- public:
-  HeightGather(const EsdfMap& esdf, const VoxelMask& traversable, std::uint32_t slot) {
-    std::size_t place = 0;
-    for (int z = -1; z <= kBlockSide; ++z)
-      for (int y = -1; y <= kBlockSide; ++y)
-        for (int x = -1; x <= kBlockSide; ++x, ++place) {
-          const std::uint32_t n =
-              esdf.layout.neighbour_block(slot, 13 + (x >> 3) + 3 * (y >> 3) + 9 * (z >> 3));
-          heights_[place] = 0;
-          if (n == BlockLayout::kNoBlock) continue;
-          const VoxelId id =
-              n * kBlockVoxels + static_cast<VoxelId>((x & 7) | (y & 7) << 3 | (z & 7) << 6);
-          if (traversable.test(id)) heights_[place] = height(esdf, id);
-        }
-  }
-
-  const std::uint64_t* at(VoxelId id) const {
-    return &heights_[((id >> 6 & 7) + 1) * 100 + ((id >> 3 & 7) + 1) * 10 + (id & 7) + 1];
-  }
-  static constexpr int step(int direction) {
-    const VoxelIndex o = offset_of(direction);
-    return o.x + 10 * o.y + 100 * o.z;
-  }
-
- private:
-  std::array<std::uint64_t, 1000> heights_;
-};
-
-struct Surroundings {
-  Cube27 higher = 0;             // traversable neighbours above the voxel
-  Direction steepest = kCentre;  // among those reached without a dip
-};
-
-Surroundings look_around(const std::uint64_t* centre) {
-  Surroundings result;
-  const auto own = static_cast<float>(*centre >> 32);
-  float best = -1.0f;
-  for (int d = 0; d < 27; ++d) {
-    const std::uint64_t other = centre[HeightGather::step(d)];
-    if (other <= *centre) continue;
-    result.higher |= 1u << d;
-    const int squared = squared_length(d);
-    const float rise = static_cast<float>(other >> 32) - own;
-    if (squared > 1 && rise < 4.0f * static_cast<float>(squared)) continue;  // it might dip
-    const float slope = rise * kInverseLength[static_cast<std::size_t>(d)];
-    if (slope > best) {
-      best = slope;
-      result.steepest = static_cast<Direction>(d);
+/// By place in a block: the directions in which a neighbour's handle is smaller. Blocks are in
+/// (z, y, x) order, and so are the voxels of a block.
+constexpr std::array<Cube27, kBlockVoxels> kSmallerHandles = [] {
+  std::array<Cube27, kBlockVoxels> smaller{};
+  for (int local = 0; local < kBlockVoxels; ++local)
+    for (int d = 0; d < 27; ++d) {
+      const VoxelIndex v = voxel_of({}, local), n = v + offset_of(d);
+      if (block_of(n) != block_of(v) ? block_of(n) < block_of(v) : n < v)
+        smaller[static_cast<std::size_t>(local)] |= 1u << d;
     }
+  return smaller;
+}();
+
+/// For four voxels the directions of the steepest ways to higher neighbours, among those without a
+/// dip. `first`: their levels as floats, in a gather.
+Cubes steepest_ways(const float* first, const Cubes& higher) {
+  const auto own = load_lanes<Floats>(first);
+  Floats best = own - own - 1.0f;
+  Cubes steepest = (higher & 0u) + kCentre;
+#pragma GCC unroll 27
+  for (Cube27 d = 0; d < 27; ++d) {
+    const auto direction = static_cast<int>(d);
+    const Floats rise = load_lanes<Floats>(first + detail::bordered_step(direction)) - own;
+    const Floats slope = rise * kInverseLength[d];
+    const int squared = squared_length(direction);
+    // A diagonal move that rises less might dip.
+    const float least = squared == 1 ? 0.0f : static_cast<float>(4 * squared);
+    const auto is_better = ((higher >> d & 1u) != 0u) & (rise >= least) & (slope > best);
+    best = is_better ? slope : best;
+    steepest = is_better ? (steepest & 0u) + d : steepest;
   }
-  return result;
+  return steepest;
 }
 
-/// Whether adding the voxel, from the top down, neither starts a basin nor can join two: all its
-/// higher neighbours hang together by moves across faces, and one of them is across a face.
-bool is_regular(Cube27 higher) {
-  const Cube27 faces = higher & kCells6;
-  return faces != 0 && flood6(faces & (~faces + 1), higher) == higher;
+/// For four voxels whether adding one, from the top down, neither starts a basin nor can join two:
+/// all its higher neighbours hang together by moves across faces, and one of them is across a face.
+Cubes are_regular(const Cubes& higher) {
+  const Cubes faces = higher & kCells6;
+  return reinterpret_cast<Cubes>((faces != 0u) &
+                                 (detail::flood6(faces & -faces, higher) == higher));
 }
 
 struct Landscape {
@@ -107,11 +93,21 @@ Landscape climb(const EsdfMap& esdf, const VoxelMask& traversable) {
       [&](std::size_t block) {
         const auto slot = static_cast<std::uint32_t>(block);
         if (traversable.block(slot) == VoxelMask::Block{}) return;
-        const HeightGather gather(esdf, traversable, slot);
-        for_each_member(traversable, slot, [&](VoxelId id) {
-          const Surroundings around = look_around(gather.at(id));
-          land.basins.next[id] = around.steepest;
-          if (!is_regular(around.higher)) critical[slot].push_back(id);
+        const detail::Levels levels = detail::gather_levels(esdf, traversable, slot);
+        detail::Bordered<float> heights;
+        std::copy(levels.begin(), levels.end(), heights.begin());
+        detail::for_each_four(traversable, slot, [&](VoxelId first, unsigned members) {
+          const LevelCubes cubes(levels, detail::bordered_place(first));
+          const Cubes higher =
+              cubes.higher |
+              (cubes.level & load_lanes<Cubes>(&kSmallerHandles[first % kBlockVoxels]));
+          const Cubes steepest = steepest_ways(&heights[detail::bordered_place(first)], higher);
+          const Cubes regular = are_regular(higher);
+          for (; members != 0; members &= members - 1) {
+            const auto x = static_cast<VoxelId>(std::countr_zero(members));
+            land.basins.next[first + x] = static_cast<Direction>(steepest[x]);
+            if (!regular[x]) critical[slot].push_back(first + x);
+          }
         });
       },
       16);

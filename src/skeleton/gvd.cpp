@@ -6,11 +6,16 @@
 #include <array>
 #include <cmath>
 
+#include "lanes.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/voxel/cube_gather.hpp"
 
 namespace ridgeway {
 namespace {
+
+using detail::Cubes;
+using detail::Floats;
+using detail::load_lanes;
 
 constexpr std::size_t kGrain = 16;
 constexpr int kEdgeNeighbours = 18;
@@ -63,6 +68,52 @@ bool has_basis_points(const EsdfMap& esdf, VoxelId id, double cosine, std::size_
   });
 }
 
+/// Where the nearest sites of a block and its border lie, each seen from its own voxel; zero where
+/// there is none.
+struct SiteGather {
+  std::array<detail::Bordered<float>, 3> at{};
+
+  SiteGather(const EsdfMap& esdf, std::uint32_t slot) {
+    detail::for_each_bordered_row(
+        esdf.layout, slot, [&](std::size_t place, VoxelId first, std::size_t count) {
+          if (first == kNoVoxel) return;
+          for (std::size_t i = 0; i < count; ++i) {
+            const SiteOffset& site = esdf.site[first + static_cast<VoxelId>(i)];
+            at[0][place + i] = site.x;
+            at[1][place + i] = site.y;
+            at[2][place + i] = site.z;
+          }
+        });
+  }
+};
+
+/// For four voxels of a block whether rounding leaves no doubt that the sites of all six neighbours
+/// lie in directions less than theta away: true for almost all that are not on the GVD. Neighbours
+/// without a say may only raise a doubt.
+Cubes surely_off_ridge(const SiteGather& sites, std::size_t first, double cosine) {
+  Floats v[3], vv{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    v[axis] = load_lanes<Floats>(&sites.at[axis][first]);
+    vv += v[axis] * v[axis];
+  }
+  const auto least = static_cast<float>(std::max(cosine, 0.0) + 1e-5);  // far above float rounding
+  const Floats limit = vv * (least * least);
+  Cubes sure = ~Cubes{};
+  for (const Direction d : kFaceDirections) {
+    const VoxelIndex o = offset_of(d);
+    const std::array<int, 3> step{o.x, o.y, o.z};
+    Floats dot{}, ww{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Floats w = load_lanes<Floats>(&sites.at[axis][first] + detail::bordered_step(d)) +
+                       static_cast<float>(step[axis]);
+      dot += v[axis] * w;
+      ww += w * w;
+    }
+    sure &= reinterpret_cast<Cubes>((dot > 0.0f) & (dot * dot >= limit * ww));
+  }
+  return sure;
+}
+
 /// Those voxels of a mask for which keep(voxel) holds.
 template <typename Keep>
 VoxelMask filter(const BlockLayout& layout, const VoxelMask& mask, const Keep& keep) {
@@ -97,7 +148,23 @@ VoxelMask traversable_voxels(const EsdfMap& esdf, double radius) {
 
 VoxelMask compute_gvd(const EsdfMap& esdf, const VoxelMask& traversable, const GvdConfig& config) {
   const double cosine = std::cos(config.theta);
-  return filter(esdf.layout, traversable, [&](VoxelId id) { return is_on_gvd(esdf, id, cosine); });
+  VoxelMask gvd(esdf.layout);
+  parallel_for_each_index(
+      esdf.layout.block_count(),
+      [&](std::size_t index) {
+        const auto slot = static_cast<std::uint32_t>(index);
+        if (traversable.block(slot) == VoxelMask::Block{}) return;
+        const SiteGather sites(esdf, slot);
+        detail::for_each_four(traversable, slot, [&](VoxelId first, unsigned members) {
+          const Cubes sure = surely_off_ridge(sites, detail::bordered_place(first), cosine);
+          for (; members != 0; members &= members - 1) {
+            const auto x = static_cast<VoxelId>(std::countr_zero(members));
+            if (!sure[x] && is_on_gvd(esdf, first + x, cosine)) gvd.set(first + x);
+          }
+        });
+      },
+      kGrain);
+  return gvd;
 }
 
 VoxelMask extract_basis_point_edges(const EsdfMap& esdf, const VoxelMask& gvd,

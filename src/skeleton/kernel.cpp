@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "level_peeling.hpp"
 #include "parallel_deletion.hpp"
 #include "ridgeway/skeleton/simple_point.hpp"
 
@@ -35,15 +36,15 @@ class OrderedDeletion {
   template <typename MayGo>
   void process(std::vector<VoxelId> work, const MayGo& may_go) {
     for (const VoxelId id : work) due_.set(id);
-    while (!work.empty()) {
-      const std::vector<VoxelId> deleted = detail::delete_round(layout_, voxels_, work, may_go);
-      for (const VoxelId id : deleted) due_.reset(id);
-      work = detail::neighbours_of(layout_, due_, deleted);
-    }
+    left_.insert(left_.end(), work.begin(), work.end());
+    delete_all(std::move(work), may_go);
   }
 
   /// Left over from turns that have come.
-  const VoxelMask& due() const { return due_; }
+  const std::vector<VoxelId>& left() {
+    std::erase_if(left_, [&](VoxelId id) { return !due_.test(id); });
+    return left_;
+  }
 
   /// Deletes voxels that may go for another reason, and then what that sets free.
   template <typename MayGoFirst, typename MayGo>
@@ -52,13 +53,23 @@ class OrderedDeletion {
     const std::vector<VoxelId> deleted =
         detail::delete_round(layout_, voxels_, first, may_go_first);
     for (const VoxelId id : deleted) due_.reset(id);
-    process(detail::neighbours_of(layout_, due_, deleted), may_go);
+    delete_all(detail::neighbours_of(layout_, due_, deleted), may_go);
   }
 
  private:
+  template <typename MayGo>
+  void delete_all(std::vector<VoxelId> work, const MayGo& may_go) {
+    while (!work.empty()) {
+      const std::vector<VoxelId> deleted = detail::delete_round(layout_, voxels_, work, may_go);
+      for (const VoxelId id : deleted) due_.reset(id);
+      work = detail::neighbours_of(layout_, due_, deleted);
+    }
+  }
+
   const BlockLayout& layout_;
   VoxelMask& voxels_;
   VoxelMask due_;
+  std::vector<VoxelId> left_;  // those of due_, and some that are gone
 };
 
 /// Calls body(voxels of one level) for runs of equal level(value) in ascending order.
@@ -78,10 +89,10 @@ bool is_sheet(Cube27 cube) { return foreground_parts(cube) == 1 && background_pa
 
 /// From each connected group of sheet voxels that are due, the one nearest to an obstacle.
 std::vector<VoxelId> piercing_places(const EsdfMap& esdf, const VoxelMask& voxels,
-                                     const VoxelMask& due, const VoxelMask& keep) {
+                                     const std::vector<VoxelId>& due, const VoxelMask& keep) {
   VoxelMask sheet(esdf.layout);
   std::vector<VoxelId> candidates;
-  for (const VoxelId id : due.members())
+  for (const VoxelId id : due)
     if (!keep.test(id) && is_sheet(cube_around(esdf.layout, voxels, id))) {
       sheet.set(id);
       candidates.push_back(id);
@@ -116,17 +127,7 @@ VoxelMask significant_peaks(const EsdfMap& esdf, const Basins& basins) {
 }
 
 VoxelMask compute_kernel(const EsdfMap& esdf, const VoxelMask& traversable, const Basins& basins) {
-  VoxelMask kernel = traversable;
-  const VoxelMask keep = significant_peaks(esdf, basins);
-  OrderedDeletion deletion(esdf.layout, kernel);
-  for_each_level(
-      ascending_by_distance(esdf, traversable), [](std::uint64_t value) { return value; },
-      [&](std::vector<VoxelId> ids) {
-        deletion.process(std::move(ids), [&](VoxelId id, Cube27 cube) {
-          return is_simple(cube) && !keep.test(id);
-        });
-      });
-  return kernel;
+  return detail::peel_levels(esdf, traversable, significant_peaks(esdf, basins));
 }
 
 void open_shells(const EsdfMap& esdf, VoxelMask& voxels, const VoxelMask& keep) {
@@ -142,7 +143,7 @@ void open_shells(const EsdfMap& esdf, VoxelMask& voxels, const VoxelMask& keep) 
   for_each_level(ascending_by_distance(esdf, voxels), level, [&](std::vector<VoxelId> ids) {
     deletion.process(std::move(ids), may_go);
     for (;;) {
-      const std::vector<VoxelId> places = piercing_places(esdf, voxels, deletion.due(), keep);
+      const std::vector<VoxelId> places = piercing_places(esdf, voxels, deletion.left(), keep);
       if (places.empty()) break;
       deletion.process_after(places, may_be_pierced, may_go);
     }

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <limits>
 
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
@@ -46,9 +47,10 @@ TEST(Gvd, AndEdgesAreWhatTheirDefinitionsSay) {
   std::size_t ridges = 0, thick = 0, three = 0;
   for (unsigned seed = 0; seed < 40; ++seed) {
     const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
-    const EsdfMap esdf = compute_esdf(random_map(seed, 22), {.unknown = policy});
+    const double max_distance = seed % 4 == 1 ? 0.25 : std::numeric_limits<double>::infinity();
+    const EsdfMap esdf = compute_esdf(random_map(seed, 22), {policy, max_distance});
     const VoxelMask traversable = traversable_voxels(esdf, 0.1);
-    for (const double theta : {0.3, 0.785, 1.3}) {
+    for (const double theta : {0.3, 0.785, 1.3, 2.0}) {
       const VoxelMask gvd = compute_gvd(esdf, traversable, {theta});
       const VoxelMask edges = extract_edges(esdf, gvd);
       const VoxelMask basis_edges = extract_basis_point_edges(esdf, gvd, {theta});

@@ -4,9 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <set>
+#include <vector>
+
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
+#include "ridgeway/skeleton/simple_point.hpp"
 #include "support/betti.hpp"
 #include "support/random_maps.hpp"
 #include "support/shapes.hpp"
@@ -75,6 +80,48 @@ TEST(Kernel, OpensTheShellAroundAFloatingObstacleIntoCurves) {
     open_shells(stage.esdf, kernel, significant_peaks(stage.esdf, stage.basins));
     EXPECT_LT(kernel.count(), shell / 2);
     EXPECT_GT(kernel.count(), 0u);
+  }
+}
+
+/// The kernel by its definition: each level's voxels are asked in rounds, sub-field by sub-field,
+/// then those of this and of lower levels beside a voxel that went.
+VoxelMask peel_in_order(const Stage& stage) {
+  const BlockLayout& layout = stage.esdf.layout;
+  const VoxelMask keep = significant_peaks(stage.esdf, stage.basins);
+  std::map<std::uint32_t, std::vector<VoxelId>> levels;
+  for (const VoxelId id : stage.traversable.members()) levels[stage.esdf.squared[id]].push_back(id);
+  VoxelMask left = stage.traversable, due(layout);
+  for (auto& [level, work] : levels) {
+    for (const VoxelId id : work) due.set(id);
+    while (!work.empty()) {
+      std::set<VoxelId> beside;
+      for (std::uint32_t field = 0; field < 8; ++field)
+        for (const VoxelId id : work) {
+          const bool is_in_field = ((id & 1) | (id >> 3 & 1) << 1 | (id >> 6 & 1) << 2) == field;
+          if (!is_in_field || keep.test(id) || !is_simple(cube_around(layout, left, id))) continue;
+          left.reset(id);
+          due.reset(id);
+          for (int d = 0; d < 27; ++d) beside.insert(layout.neighbour(id, d));
+        }
+      work.clear();
+      for (const VoxelId id : beside)
+        if (id != kNoVoxel && due.test(id)) work.push_back(id);
+    }
+  }
+  return left;
+}
+
+TEST(Kernel, IsWhatPeelingEveryVoxelInOrderLeaves) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
+    const Stage stage = prepare(random_map(seed, 30), policy, seed % 2 == 0 ? 0.05 : 0.15);
+    ASSERT_EQ(compute_kernel(stage.esdf, stage.traversable, stage.basins), peel_in_order(stage))
+        << seed;
+  }
+  for (const testing::Shape& shape : testing::test_shapes()) {
+    const Stage stage = prepare(shape.map(), UnknownPolicy::kObstacle, shape.min_clearance);
+    ASSERT_EQ(compute_kernel(stage.esdf, stage.traversable, stage.basins), peel_in_order(stage))
+        << shape.name;
   }
 }
 

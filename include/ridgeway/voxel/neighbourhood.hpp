@@ -74,8 +74,10 @@ inline constexpr Cube27 kCells26 = detail::cells_up_to(3);
 
 inline constexpr std::array<Direction, 6> kFaceDirections = {4, 10, 12, 14, 16, 22};
 
-/// All cells 26-adjacent to (or in) a set of cells of the cube.
-constexpr Cube27 grow26(Cube27 cells) {
+/// All cells 26-adjacent to (or in) a set of cells of the cube. `Cells`: a cube, or a vector of
+/// cubes of the compiler's.
+template <typename Cells>
+constexpr Cells grow26(Cells cells) {
   constexpr Cube27 not_first_x = ~detail::cells_where(0, -1) & kAllCells;
   constexpr Cube27 not_last_x = ~detail::cells_where(0, 1) & kAllCells;
   constexpr Cube27 not_first_y = ~detail::cells_where(1, -1) & kAllCells;
@@ -86,7 +88,8 @@ constexpr Cube27 grow26(Cube27 cells) {
 }
 
 /// All cells 6-adjacent to (or in) a set of cells of the cube.
-constexpr Cube27 grow6(Cube27 cells) {
+template <typename Cells>
+constexpr Cells grow6(Cells cells) {
   constexpr Cube27 not_first_x = ~detail::cells_where(0, -1) & kAllCells;
   constexpr Cube27 not_last_x = ~detail::cells_where(0, 1) & kAllCells;
   constexpr Cube27 not_first_y = ~detail::cells_where(1, -1) & kAllCells;

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+
+#include "ridgeway/voxel/voxel_mask.hpp"
+
+namespace ridgeway::detail {
+
+/// Values of a block's voxels and of a border of one voxel around them, x fastest: 10 x 10 x 10.
+template <typename Value>
+using Bordered = std::array<Value, 1000>;
+
+/// Place of a block's voxel in a Bordered; its neighbour's is `bordered_step(direction)` further.
+constexpr std::size_t bordered_place(VoxelId id) {
+  return ((id >> 6 & 7) + 1) * 100 + ((id >> 3 & 7) + 1) * 10 + (id & 7) + 1;
+}
+constexpr int bordered_step(int direction) {
+  const VoxelIndex o = offset_of(direction);
+  return o.x + 10 * o.y + 100 * o.z;
+}
+
+/// Calls body(place, id, count) for all voxels of a block and its border, `count` (8 or 1) in a row
+/// at a time; kNoVoxel for those in blocks that are not allocated.
+template <typename Body>
+void for_each_bordered_row(const BlockLayout& layout, std::uint32_t slot, const Body& body) {
+  std::size_t place = 0;
+  for (int z = -1; z <= kBlockSide; ++z)
+    for (int y = -1; y <= kBlockSide; ++y) {
+      const int beside = 13 + 3 * (y >> 3) + 9 * (z >> 3);
+      const auto row = static_cast<VoxelId>((y & 7) << 3 | (z & 7) << 6);
+      const auto visit = [&](int dx, VoxelId x, std::size_t count) {
+        const std::uint32_t n = layout.neighbour_block(slot, beside + dx);
+        body(place, n == BlockLayout::kNoBlock ? kNoVoxel : n * kBlockVoxels + row + x, count);
+        place += count;
+      };
+      visit(-1, kBlockSide - 1, 1);
+      visit(0, 0, kBlockSide);
+      visit(1, 0, 1);
+    }
+}
+
+/// Numbers of four voxels in a row along x, the first at a multiple of four, for the compiler to
+/// compare at once: comparisons give all ones where they hold.
+inline constexpr int kLanes = 4;
+typedef Cube27 Cubes __attribute__((vector_size(16)));
+typedef float Floats __attribute__((vector_size(16)));
+
+template <typename Lanes>
+Lanes load_lanes(const void* first) {
+  Lanes lanes;
+  std::memcpy(&lanes, first, sizeof lanes);
+  return lanes;
+}
+
+/// Calls body(first of four voxels, those of a mask as four bits) for a block, where there are any.
+template <typename Body>
+void for_each_four(const VoxelMask& mask, std::uint32_t slot, const Body& body) {
+  for (std::uint32_t place = 0; place < kBlockVoxels; place += kLanes)
+    if (const unsigned members = mask.block(slot)[place / 64] >> (place % 64) & 0xf; members != 0)
+      body(slot * kBlockVoxels + place, members);
+}
+
+}  // namespace ridgeway::detail

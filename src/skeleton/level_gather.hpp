@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <algorithm>
+
+#include "lanes.hpp"
+#include "ridgeway/esdf/esdf_map.hpp"
+
+namespace ridgeway::detail {
+
+/// Levels (4 d^2 / s^2) around a block; zero where not traversable.
+using Levels = Bordered<std::uint32_t>;
+
+inline Levels gather_levels(const EsdfMap& esdf, const VoxelMask& traversable, std::uint32_t slot) {
+  Levels levels{};
+  for_each_bordered_row(
+      esdf.layout, slot, [&](std::size_t place, VoxelId first, std::size_t count) {
+        if (first == kNoVoxel) return;
+        const std::uint64_t all = (std::uint64_t{1} << count) - 1;
+        const std::uint64_t layer =
+            traversable.block(first / kBlockVoxels)[first / 64 % kBlockSide];
+        const std::uint64_t members = layer >> (first % 64) & all;
+        if (members == 0) return;
+        std::copy_n(&esdf.squared[first], count, &levels[place]);
+        for (std::uint64_t others = ~members & all; others != 0; others &= others - 1)
+          levels[place + static_cast<std::size_t>(std::countr_zero(others))] = 0;
+      });
+  return levels;
+}
+
+/// For four voxels, their neighbours above them and those as high as they are.
+struct LevelCubes {
+  Cubes higher{};
+  Cubes level{};
+
+  LevelCubes(const Levels& levels, std::size_t first) {
+    const auto own = load_lanes<Cubes>(&levels[first]);
+#pragma GCC unroll 27
+    for (int d = 0; d < 27; ++d) {
+      const auto beside = load_lanes<Cubes>(&levels[first] + bordered_step(d));
+      const Cube27 cell = 1u << d;
+      higher |= reinterpret_cast<Cubes>(beside > own) & cell;
+      level |= reinterpret_cast<Cubes>(beside == own) & cell;
+    }
+  }
+};
+
+inline bool any(const Cubes& cubes) {
+  std::array<std::uint64_t, 2> halves;
+  std::memcpy(halves.data(), &cubes, sizeof cubes);
+  return (halves[0] | halves[1]) != 0;
+}
+
+/// flood26 and flood6 for four cubes.
+inline Cubes flood26(Cubes cells, const Cubes& within) {
+  for (Cubes before = cells ^ 1u; any(before ^ cells);) {
+    before = cells;
+    cells = grow26(cells) & within;
+  }
+  return cells;
+}
+inline Cubes flood6(Cubes cells, const Cubes& within) {
+  for (Cubes before = cells ^ 1u; any(before ^ cells);) {
+    before = cells;
+    cells = grow6(cells) & within;
+  }
+  return cells;
+}
+
+/// is_simple for four cubes.
+inline Cubes are_simple(const Cubes& cubes) {
+  const Cubes foreground = cubes & kCells26, background = ~cubes & kCells18;
+  const Cubes faces = background & kCells6;
+  const Cubes part = flood26(foreground & -foreground, foreground);
+  const Cubes unreached = faces & ~flood6(faces & -faces, background);
+  return reinterpret_cast<Cubes>((foreground != 0u) & (faces != 0u) & (part == foreground) &
+                                 (unreached == 0u));
+}
+
+}  // namespace ridgeway::detail

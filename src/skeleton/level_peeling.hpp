@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include "ridgeway/esdf/esdf_map.hpp"
+#include "ridgeway/voxel/voxel_mask.hpp"
+
+namespace ridgeway::detail {
+
+/// Deletes simple voxels, those of `keep` apart, level of 4 d^2 / s^2 by level from the lowest up,
+/// until only what carries the topology is left. A level and what the ones below have left is
+/// peeled in rounds; in the first round the level's own voxels are asked, later the neighbours of
+/// deleted ones, each round sub-field by sub-field.
+VoxelMask peel_levels(const EsdfMap& esdf, const VoxelMask& traversable, const VoxelMask& keep);
+
+}  // namespace ridgeway::detail
