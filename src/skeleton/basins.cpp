@@ -54,7 +54,7 @@ constexpr std::array<Cube27, kBlockVoxels> kSmallerHandles = [] {
 /// dip. `first`: their levels as floats, in a gather.
 Cubes steepest_ways(const float* first, const Cubes& higher) {
   const auto own = load_lanes<Floats>(first);
-  Floats best = own - own - 1.0f;
+  Floats best = Floats{} - 1.0f;
   Cubes steepest = (higher & 0u) + kCentre;
 #pragma GCC unroll 27
   for (Cube27 d = 0; d < 27; ++d) {

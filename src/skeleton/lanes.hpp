@@ -46,8 +46,8 @@ void for_each_bordered_row(const BlockLayout& layout, std::uint32_t slot, const 
 /// Numbers of four voxels in a row along x, the first at a multiple of four, for the compiler to
 /// compare at once: comparisons give all ones where they hold.
 inline constexpr int kLanes = 4;
-typedef Cube27 Cubes __attribute__((vector_size(16)));
-typedef float Floats __attribute__((vector_size(16)));
+using Cubes [[gnu::vector_size(16)]] = Cube27;
+using Floats [[gnu::vector_size(16)]] = float;
 
 template <typename Lanes>
 Lanes load_lanes(const void* first) {
