@@ -8,24 +8,20 @@
 #include "bench_table.hpp"
 #include "console.hpp"
 #include "ridgeway/experiments/fusion_speed.hpp"
-#include "ridgeway/io/world_file.hpp"
-#include "ridgeway/sensing/world_generators.hpp"
 
 namespace ridgeway::cli {
 namespace {
 
 struct Options {
-  std::string world, volume = "1,1,1,14,10,5", output;
+  ScanOptions scan;
+  std::string output;
   FusionSpeedConfig config;
-  std::size_t scans = 200;
 };
 
 int run(const Options& options, const Globals& globals) {
   FusionSpeedConfig config = options.config;
-  const Box volume = parse_box(options.volume, "--volume");
-  config.poses = {
-      .low = volume.min, .high = volume.max, .count = options.scans, .seed = config.seed};
-  const World world = options.world.empty() ? make_house() : load_world(options.world);
+  config.poses = options.scan.poses(config.seed);
+  const World world = options.scan.load();
   if (!options.output.empty()) require_folder(options.output);
   ProgressBar bar(globals);
   const std::vector<FusionSpeed> ways = run_fusion_speed(world, config, bar.callback());
@@ -44,18 +40,11 @@ int run(const Options& options, const Globals& globals) {
           {{"mean", way.mean_error}, {"p95", way.error.p95}, {"p99", way.error.p99}}}});
   }
   const BenchTable::Json facts = {{"world", world.name},
-                                  {"scans", options.scans},
+                                  {"scans", options.scan.scans},
                                   {"voxel_size", config.voxel_size},
                                   {"sigma", config.sigma},
                                   {"threads", globals.threads}};
-  if (!options.output.empty()) table.write(options.output, "fusion", facts);
-  if (globals.json) {
-    BenchTable::Json json = facts;
-    json["rows"] = table.rows();
-    print_json(json);
-  } else {
-    table.print();
-  }
+  table.report(globals, options.output, "fusion", facts);
   return kExitDone;
 }
 
@@ -65,12 +54,7 @@ void add_bench_fusion(CLI::App& bench, const Globals& globals, Command& chosen) 
   const auto options = std::make_shared<Options>();
   CLI::App* command = bench.add_subcommand(
       "fusion", "Time and error of fusing depth images, against plain loops on one thread");
-  command->add_option("--world", options->world, "World, .yaml (default: the house)");
-  command->add_option("--volume", options->volume, "Where the camera may be, x0,y0,z0,x1,y1,z1")
-      ->capture_default_str();
-  command->add_option("--scans", options->scans, "Images to fuse")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
+  add_scan_options(*command, options->scan);
   command->add_option("--voxel-size", options->config.voxel_size, "Metres")->capture_default_str();
   command->add_option("--truncation", options->config.truncation, "Metres")->capture_default_str();
   command->add_option("--sigma", options->config.sigma, "Gaussian noise on every range, metres")

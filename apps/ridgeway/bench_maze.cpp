@@ -66,17 +66,8 @@ int run(const Options& options, const Globals& globals) {
                       {"radius", config.min_clearance},
                       {"vertices", result.roadmap.graph.vertices.size()},
                       {"edges", result.roadmap.graph.edges.size()}};
-  if (!options.output.empty()) {
-    table.write(options.output, "maze", facts);
-    draw_paths(result, options.output);
-  }
-  if (globals.json) {
-    Json json = facts;
-    json["rows"] = table.rows();
-    print_json(json);
-  } else {
-    table.print();
-  }
+  if (!options.output.empty()) draw_paths(result, options.output);
+  table.report(globals, options.output, "maze", facts);
   return kExitDone;
 }
 

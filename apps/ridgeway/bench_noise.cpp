@@ -11,8 +11,6 @@
 #include "ridgeway/experiments/noise.hpp"
 #include "ridgeway/io/chart.hpp"
 #include "ridgeway/io/picture.hpp"
-#include "ridgeway/io/world_file.hpp"
-#include "ridgeway/sensing/world_generators.hpp"
 
 namespace ridgeway::cli {
 namespace {
@@ -20,8 +18,8 @@ namespace {
 using Json = BenchTable::Json;
 
 struct Options {
-  std::string world, volume = "1,1,1,14,10,5", output;
-  std::size_t scans = 200;
+  ScanOptions scan;
+  std::string output;
   NoiseConfig config;
 };
 
@@ -93,36 +91,29 @@ void draw_maps(const NoiseResult& result, int columns, const std::filesystem::pa
 
 int run(const Options& options, const Globals& globals) {
   NoiseConfig config = options.config;
-  const Box volume = parse_box(options.volume, "--volume");
-  config.poses = {
-      .low = volume.min, .high = volume.max, .count = options.scans, .seed = config.seed};
-  const World world = options.world.empty() ? make_house() : load_world(options.world);
+  config.poses = options.scan.poses(config.seed);
+  const World world = options.scan.load();
   if (!options.output.empty()) require_folder(options.output);
   ProgressBar bar(globals);
   const NoiseResult result = run_noise(world, config, bar.callback());
   bar.clear();
   const BenchTable table = table_of(result);
   const Json facts = {{"world", world.name},
-                      {"scans", options.scans},
+                      {"scans", options.scan.scans},
                       {"seed", config.seed},
                       {"pairs", result.pairs},
                       {"checked_queries", config.queries},
                       {"size_ratio", result.size_ratio}};
   if (!options.output.empty()) {
     const std::filesystem::path folder = options.output;
-    table.write(folder, "noise", facts);
     const int columns = static_cast<int>(1 + config.sigmas.size());
     for (const char* extension : {".png", ".svg"}) {
       draw_elements(result, folder / (std::string("noise_elements") + extension));
       draw_maps(result, columns, folder / (std::string("noise_maps") + extension));
     }
   }
-  if (globals.json) {
-    Json json = facts;
-    json["rows"] = table.rows();
-    print_json(json);
-  } else {
-    table.print();
+  table.report(globals, options.output, "noise", facts);
+  if (!globals.json) {
     print_row("pairs", count_text(result.pairs));
     print_row("largest graph", text_of(result.size_ratio, 2) + " times the smallest");
   }
@@ -136,12 +127,7 @@ void add_bench_noise(CLI::App& bench, const Globals& globals, Command& chosen) {
   NoiseConfig& config = options->config;
   CLI::App* command = bench.add_subcommand(
       "noise", "Does the graph depend on voxel size and noise? One world, twelve maps");
-  command->add_option("--world", options->world, "World, .yaml (default: the house)");
-  command->add_option("--volume", options->volume, "Where the camera may be, x0,y0,z0,x1,y1,z1")
-      ->capture_default_str();
-  command->add_option("--scans", options->scans, "Images for each map")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
+  add_scan_options(*command, options->scan);
   command->add_option("--voxel-sizes", config.voxel_sizes, "Metres")
       ->delimiter(',')
       ->capture_default_str();

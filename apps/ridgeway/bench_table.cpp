@@ -4,13 +4,18 @@
 
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <system_error>
 
+#include "arguments.hpp"
 #include "console.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/io/atomic_file.hpp"
+#include "ridgeway/io/world_file.hpp"
+#include "ridgeway/sensing/world_generators.hpp"
 
 namespace ridgeway::cli {
 namespace {
@@ -63,7 +68,7 @@ void BenchTable::print() const {
   }
 }
 
-void BenchTable::write(const fs::path& folder, const std::string& name, Json facts) const {
+std::string BenchTable::csv() const {
   std::string csv;
   for (const Json& row : rows_) {
     const Json cells = flat(row);
@@ -78,9 +83,36 @@ void BenchTable::write(const fs::path& folder, const std::string& name, Json fac
       return value.is_string() ? value.get<std::string>() : value.is_null() ? "" : value.dump();
     });
   }
+  return csv;
+}
+
+void BenchTable::report(const Globals& globals, const std::string& folder, const std::string& name,
+                        Json facts) const {
   facts["rows"] = rows_;
-  write_text_file(folder / (name + ".csv"), csv);
-  write_text_file(folder / (name + ".json"), facts.dump(2) + "\n");
+  if (!folder.empty()) {
+    write_text_file(fs::path(folder) / (name + ".csv"), csv());
+    write_text_file(fs::path(folder) / (name + ".json"), facts.dump(2) + "\n");
+  }
+  if (globals.json)
+    print_json(facts);
+  else
+    print();
+}
+
+World ScanOptions::load() const { return world.empty() ? make_house() : load_world(world); }
+
+PoseSampling ScanOptions::poses(std::uint64_t seed) const {
+  const Box box = parse_box(volume, "--volume");
+  return {.low = box.min, .high = box.max, .count = scans, .seed = seed};
+}
+
+void add_scan_options(CLI::App& command, ScanOptions& options) {
+  command.add_option("--world", options.world, "World, .yaml (default: the house)");
+  command.add_option("--volume", options.volume, "Where the camera may be, x0,y0,z0,x1,y1,z1")
+      ->capture_default_str();
+  command.add_option("--scans", options.scans, "Depth images to fuse")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
 }
 
 void require_folder(const std::string& folder) {

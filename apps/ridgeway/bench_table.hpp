@@ -2,12 +2,13 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
-#include <filesystem>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "commands.hpp"
+#include "ridgeway/sensing/poses.hpp"
 
 namespace ridgeway::cli {
 
@@ -21,15 +22,27 @@ class BenchTable {
   void add(Json row) { rows_.push_back(std::move(row)); }
   const Json& rows() const { return rows_; }
 
-  /// Aligned columns on stdout; nested keys as "length_ratio.p95".
-  void print() const;
-  /// NAME.csv and NAME.json in a folder, which is made where it is missing. `facts`: what goes
-  /// with the rows in the JSON.
-  void write(const std::filesystem::path& folder, const std::string& name, Json facts) const;
+  /// Prints the rows as aligned columns, nested keys as "length_ratio.p95", or with --json one
+  /// object of `facts` and rows. With a folder, not empty, writes NAME.csv and NAME.json there.
+  void report(const Globals& globals, const std::string& folder, const std::string& name,
+              Json facts) const;
 
  private:
+  void print() const;
+  std::string csv() const;
+
   Json rows_ = Json::array();
 };
+
+/// What the experiments with a moving depth camera share: the world, and where the camera may be.
+struct ScanOptions {
+  std::string world, volume = "1,1,1,14,10,5";
+  std::size_t scans = 200;
+
+  World load() const;  ///< the house where no file is given
+  PoseSampling poses(std::uint64_t seed) const;
+};
+void add_scan_options(CLI::App& command, ScanOptions& options);
 
 /// Makes the folder that --output names, before the long work. Throws InputError where it cannot
 /// be made or written to.

@@ -12,10 +12,11 @@
 #include "flight_judge.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/io/load_map.hpp"
+#include "ridgeway/mapping/world_map.hpp"
 #include "ridgeway/planning/check.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "ridgeway/sensing/world_generators.hpp"
-#include "support/world_maps.hpp"
+#include "support/random_maps.hpp"
 
 namespace ridgeway {
 namespace {
@@ -68,7 +69,7 @@ void fly(const OccupancyMap& map, const BuildConfig& build, std::size_t queries,
 OccupancyMap maze(int cells) {
   const World world = make_maze({.cells = cells, .seed = 3});
   const double side = 3.0 * cells + 0.5;
-  return testing::map_of_world(world, 0.1, {-0.5, -0.5, -0.3}, {side, side, 2.8});
+  return occupancy_of(world, 0.1, {{-0.4, -0.4, -0.2}, {side, side, 2.7}});
 }
 
 TEST(TrajectoryOnMaps, HoldsInAMaze) {
