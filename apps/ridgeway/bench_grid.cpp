@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "bench.hpp"
 #include "bench_table.hpp"
@@ -27,6 +28,7 @@ namespace fs = std::filesystem;
 constexpr double kVoxelSize = 1.0;  // the stored lengths count cells
 constexpr std::size_t kSeriesPerChart = 8;
 constexpr int kPointsPerDecade = 12;  // of a chart's curve
+constexpr double kMostExcess = 50.0;  // per cent; the few beyond would squeeze all others
 
 struct Options {
   std::vector<std::string> maps;
@@ -104,7 +106,7 @@ Json json_of(const GridRow& row) {
 }
 
 /// What share of a map's scenarios is at least so much longer than the optimum: a few points of
-/// each power of ten, and the longest.
+/// each power of ten.
 ScatterSeries excess_series(const GridRow& row) {
   std::vector<double> excess;  // per cent, longest first
   for (const double ratio : row.shortened.ratios)
@@ -116,6 +118,7 @@ ScatterSeries excess_series(const GridRow& row) {
     const std::size_t place = std::min(static_cast<std::size_t>(std::round(at)), excess.size());
     if (place == last) continue;
     last = place;
+    if (excess[place - 1] > kMostExcess) continue;
     series.points.emplace_back(excess[place - 1],
                                static_cast<double>(place) / static_cast<double>(excess.size()));
   }
@@ -125,11 +128,12 @@ ScatterSeries excess_series(const GridRow& row) {
 void draw_excess(const std::vector<GridRow>& rows, const fs::path& folder) {
   std::vector<ScatterSeries> all;
   for (const GridRow& row : rows)
-    if (row.shortened.solved > 0) all.push_back(excess_series(row));
+    if (ScatterSeries series = excess_series(row); !series.points.empty())
+      all.push_back(std::move(series));
   for (std::size_t first = 0; first < all.size(); first += kSeriesPerChart) {
     ScatterChart chart;
     chart.title = "How much longer than the stored optimum?";
-    chart.x_label = "longer than the optimum over the voxels (%)";
+    chart.x_label = "longer than the optimum over the voxels (%), up to " + text_of(kMostExcess);
     chart.y_label = "share of the scenarios that is at least so much longer";
     const std::size_t last = std::min(first + kSeriesPerChart, all.size());
     for (std::size_t i = first; i < last; ++i) chart.series.push_back(all[i]);
