@@ -46,6 +46,7 @@ Roadmap load_roadmap(const std::filesystem::path& path) {
   if (!defect) defect = find_attach_defect(roadmap);
   if (defect) reader.damaged(defect->part, defect->what);
   index_links(roadmap.graph);
+  roadmap.landmarks = place_landmarks(roadmap.graph);
   return roadmap;
 }
 

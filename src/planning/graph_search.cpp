@@ -3,7 +3,6 @@
 #include "graph_search.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 #include <queue>
 
@@ -27,9 +26,10 @@ struct VertexState {
 /// A* that queues junctions alone: between them it walks, since most vertices have one way on.
 class GraphSearch {
  public:
-  GraphSearch(const SparseGraph& graph, VertexId start, VertexId goal, double radius,
-              const std::vector<float>* penalty)
+  GraphSearch(const SparseGraph& graph, const Landmarks& landmarks, VertexId start, VertexId goal,
+              double radius, const std::vector<float>* penalty)
       : graph_(graph),
+        landmarks_(landmarks),
         goal_(goal),
         target_(graph.vertices[number(goal)].position),
         narrowest_(radius * (1.0 - 1e-9)),
@@ -75,7 +75,8 @@ class GraphSearch {
   }
 
   void push(VertexId vertex) {
-    const double rest = (graph_.vertices[number(vertex)].position - target_).norm();
+    const double rest = std::max((graph_.vertices[number(vertex)].position - target_).norm(),
+                                 length_bound(landmarks_, vertex, goal_));
     open_.push({states_[number(vertex)].cost + rest, vertex});
   }
 
@@ -87,6 +88,7 @@ class GraphSearch {
   }
 
   const SparseGraph& graph_;
+  const Landmarks& landmarks_;
   const VertexId goal_;
   const Point target_;
   const double narrowest_;
@@ -97,27 +99,10 @@ class GraphSearch {
 
 }  // namespace
 
-std::vector<VertexId> search_graph(const SparseGraph& graph, VertexId start, VertexId goal,
-                                   double radius, const std::vector<float>* penalty) {
-  return GraphSearch(graph, start, goal, radius, penalty).run();
-}
-
-std::vector<double> lengths_from(const SparseGraph& graph, const Sources& sources, double radius) {
-  std::vector<double> lengths(graph.vertices.size(), std::numeric_limits<double>::infinity());
-  using Entry = std::pair<double, VertexId>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  for (const auto& [vertex, length] : sources) open.push({length, vertex});
-  while (!open.empty()) {
-    const auto [length, vertex] = open.top();
-    open.pop();
-    if (length >= lengths[number(vertex)]) continue;
-    lengths[number(vertex)] = length;
-    for (const Link& link : graph.links_of(vertex)) {
-      const Edge& edge = graph.edges[number(link.edge)];
-      if (edge.clearance >= radius * (1.0 - 1e-9)) open.push({length + edge.length, link.vertex});
-    }
-  }
-  return lengths;
+std::vector<VertexId> search_graph(const SparseGraph& graph, const Landmarks& landmarks,
+                                   VertexId start, VertexId goal, double radius,
+                                   const std::vector<float>* penalty) {
+  return GraphSearch(graph, landmarks, start, goal, radius, penalty).run();
 }
 
 EdgeId edge_between(const SparseGraph& graph, VertexId a, VertexId b) {

@@ -2,7 +2,6 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include "ridgeway/roadmap/roadmap.hpp"
@@ -10,14 +9,11 @@
 namespace ridgeway::detail {
 
 /// A* over the sparse graph's edges that are free at a radius; lengths as costs, times
-/// `penalty[edge]` where that is given. Vertices from start to goal; empty where there is no way.
-std::vector<VertexId> search_graph(const SparseGraph& graph, VertexId start, VertexId goal,
-                                   double radius, const std::vector<float>* penalty = nullptr);
-
-/// Length from the nearest of some vertices, each `first` with the length `second` before it, to
-/// every vertex, over edges that are free at a radius; infinite where there is no way. Dijkstra.
-using Sources = std::vector<std::pair<VertexId, double>>;
-std::vector<double> lengths_from(const SparseGraph& graph, const Sources& sources, double radius);
+/// `penalty[edge]` where that is given, none below 1. Vertices from start to goal; empty where
+/// there is no way.
+std::vector<VertexId> search_graph(const SparseGraph& graph, const Landmarks& landmarks,
+                                   VertexId start, VertexId goal, double radius,
+                                   const std::vector<float>* penalty = nullptr);
 
 /// The edge between two adjacent vertices.
 EdgeId edge_between(const SparseGraph& graph, VertexId a, VertexId b);

@@ -82,13 +82,18 @@ LatticePath search_lattice(const EsdfMap& esdf, VoxelId start, VoxelId goal, dou
   memory.block_of(start).cost[start % kBlockVoxels] = 0.0;
   open.push(least, {0.0, start});
   double& goal_cost = memory.block_of(goal).cost[goal % kBlockVoxels];
-  int expansions = 0;
+  int expansions = 0, in_vain = 0;
+  double nearest = std::numeric_limits<double>::infinity();  // to the goal, of those expanded
   while (const std::optional<OpenBuckets::Entry> best = open.pop(goal_cost)) {
     if (best->cost > memory.block_of(best->voxel).cost[best->voxel % kBlockVoxels]) continue;
     if (++expansions > options.most_expansions) break;
     if (expansions % kExpansionsBetweenLooksAtTheClock == 0 && deadline.has_passed())
       return {SearchStatus::kTimeout, {}};
     const VoxelIndex here = esdf.layout.index_of(best->voxel);
+    const double to_goal = lattice_distance(here, target);
+    in_vain = to_goal < nearest ? 0 : in_vain + 1;
+    nearest = std::min(nearest, to_goal);
+    if (in_vain > options.most_in_vain) break;
     for (int d = 0; d < 27; ++d) {
       const VoxelIndex& o = offset_of(d);
       const VoxelId next = esdf.layout.step(best->voxel, stride * o.x, stride * o.y, stride * o.z);

@@ -26,6 +26,8 @@ struct LatticeOptions {
   double weight = 1.0;                ///< of the heuristic; above 1 faster, not the shortest
   double longest = std::numeric_limits<double>::infinity();  ///< paths of interest, voxels
   int most_expansions = std::numeric_limits<int>::max();
+  /// Gives up after so many of them, one after the other, of which none came nearer to the goal.
+  int most_in_vain = std::numeric_limits<int>::max();
 };
 
 /// A* over legal 26-moves between voxels that are free at a radius, Euclidean costs, with the

@@ -48,8 +48,7 @@ std::vector<double> distances_to_goals(const Roadmap& roadmap, const Point& star
   const Entry from = find_entry(roadmap, start, r);
   if (from.voxel == kNoVoxel) return distances;
   std::vector<double> along;  // the graph, to each vertex
-  if (from.way.reached())
-    along = detail::lengths_from(roadmap.graph, {{from.way.vertex, from.length}}, r);
+  if (from.way.reached()) along = lengths_from(roadmap.graph, {{from.way.vertex, from.length}}, r);
   for (std::size_t i = 0; i < goals.size(); ++i) {
     const Entry to = find_entry(roadmap, goals[i], r);
     if (to.voxel == kNoVoxel) continue;

@@ -52,7 +52,7 @@ class GraphRoutes {
   std::optional<Route> next() {
     while (searches_++ < kSearches) {
       std::vector<VertexId> vertices =
-          search_graph(roadmap_.graph, from_.vertex, to_.vertex, query_.radius,
+          search_graph(roadmap_.graph, roadmap_.landmarks, from_.vertex, to_.vertex, query_.radius,
                        penalty_.empty() ? nullptr : &penalty_);
       if (vertices.empty()) return std::nullopt;
       penalty_.resize(roadmap_.graph.edges.size(), 1.0f);

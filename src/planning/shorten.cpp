@@ -13,7 +13,7 @@ namespace {
 constexpr int kRounds = 8;
 constexpr int kBisections = 4;
 constexpr double kWorthwhile = 1e-3;   // relative gain that makes a move or a detour worth it
-constexpr double kStep = 0.25;         // metres between the places that skipping may choose from
+constexpr double kStep = 2.0;          // metres between the places that skipping may choose from
 constexpr double kExcess = 0.02;       // of a stretch's length: worth a detour search
 constexpr double kExcessOfAll = 0.01;  // of the path's length
 constexpr int kDetourCorners = 2;
@@ -129,33 +129,33 @@ class Tightening {
         path_(std::move(path)),
         moved_(path_.size(), true) {}
 
-  /// Slides corners in even rounds, draws them in in odd ones. Whether that was worth it.
+  /// Tries every corner that moved, or has a neighbour that did: whether it can go, or else one of
+  /// three moves, by the round. Whether that was worth it.
   bool run_round(int round) {
     bool was_worth_it = false;
     for (std::size_t i = 1; i + 1 < path_.size();) {
       if (!moved_[i - 1] && !moved_[i] && !moved_[i + 1]) {
-        ++i;  // as it was when it was last tried
+        ++i;
         continue;
       }
-      Corner corner{path_[i - 1], path_[i], path_[i + 1]};
-      const double length = corner.length();
-      if (can_go(corner)) {
+      if (can_go(i)) {
         erase(i);
         was_worth_it = true;
         continue;
       }
-      const auto may_become =
-          [&, old = std::array{corner.before, corner.at, corner.after}](const Point& p) {
-            return !may_replace_ || may_replace_(old, std::array{corner.before, p, corner.after});
-          };
-      if (round % 2 == 0) {
-        slide(space_, corner, radius_, may_become);
-      } else {
-        draw_in(space_, corner, radius_, may_become);
-      }
-      moved_[i] = round == 0 || corner.length() < length * (1.0 - kWorthwhile);
+      Corner corner{path_[i - 1], path_[i], path_[i + 1]};
+      const double length = corner.length();
+      const auto may_become = [&, old = std::array{corner.before, corner.at, corner.after}](
+                                  const auto&... p) {
+        return !may_replace_ || may_replace_(old, std::array{corner.before, p..., corner.after});
+      };
+      const int move = round % kMoves;
+      const bool was_cut = move == 2 && cut(i, may_become);
+      if (move == 0) slide(space_, corner, radius_, may_become);
+      if (move == 1) draw_in(space_, corner, radius_, may_become);
+      moved_[i] = was_cut || round + 1 < kMoves || corner.length() < length * (1.0 - kWorthwhile);
       was_worth_it |= moved_[i];
-      ++i;
+      i += was_cut ? 2 : 1;
     }
     return was_worth_it;
   }
@@ -163,10 +163,12 @@ class Tightening {
   const std::vector<Point>& path() const { return path_; }
 
  private:
-  bool can_go(const Corner& corner) const {
-    return space_.is_free(corner.before, corner.after, radius_) &&
-           (!may_replace_ || may_replace_(std::array{corner.before, corner.at, corner.after},
-                                          std::array{corner.before, corner.after}));
+  static constexpr int kMoves = 3;
+
+  bool can_go(std::size_t i) const {
+    const auto around = std::span(path_).subspan(i - 1, 3);
+    return space_.is_free(around.front(), around.back(), radius_) &&
+           (!may_replace_ || may_replace_(around, std::array{around.front(), around.back()}));
   }
 
   void erase(std::size_t i) {
@@ -175,11 +177,28 @@ class Tightening {
     moved_[i - 1] = moved_[i] = true;
   }
 
+  /// Takes a corner off, between the places farthest from it, by equal shares of its two segments,
+  /// that see each other: a way round a box needs a corner more. Whether that was worth it.
+  template <typename MayBecome>
+  bool cut(std::size_t i, const MayBecome& may_become) {
+    const Point at = path_[i], back = path_[i - 1] - at, on = path_[i + 1] - at;
+    const double share = largest_free_share([&](double s) {
+      const Point p = at + s * back, q = at + s * on;
+      return space_.is_clearly_free(p, q, radius_) && may_become(p, q);
+    });
+    const double whole = back.norm() + on.norm();
+    if (share * (whole - (on - back).norm()) < kWorthwhile * whole) return false;
+    path_[i] = at + share * back;
+    path_.insert(path_.begin() + static_cast<std::ptrdiff_t>(i + 1), at + share * on);
+    moved_.insert(moved_.begin() + static_cast<std::ptrdiff_t>(i + 1), true);
+    return true;
+  }
+
   const FreeSpace& space_;
   const double radius_;
   const MayReplace& may_replace_;
   std::vector<Point> path_;
-  std::vector<bool> moved_;  // since it, or a neighbour of it, was last tried
+  std::vector<bool> moved_;  // since it was last tried
 };
 
 }  // namespace

@@ -16,13 +16,13 @@ namespace ridgeway::detail {
 namespace {
 
 constexpr double kNearlyStraight = 1.01;  // over the straight line: not worth another route
-constexpr double kMostlyShrinksTo = 0.7;  // of its length a route seldom becomes shorter
+constexpr double kMostlyShrinksTo = 0.3;  // of its length a route seldom becomes shorter
 constexpr double kMostlyDrawnInTo = 0.9;  // nor, once waypoints are skipped, of that length
 constexpr double kSuspicious = 1.15;      // over the straight line: worth a second opinion
 constexpr double kVerySuspicious = 1.25;  // worth a finer one
 constexpr double kQuickWeight = 1.2;      // of those searches' heuristic
-constexpr int kQuickExpansions = 1500;    // less than a millisecond
-constexpr double kQuickReach = 125.0;     // steps of a path that they seldom find the end of
+constexpr int kQuickExpansions = 3000;    // less than two milliseconds
+constexpr int kQuickInVain = 400;         // they give up sooner where they fill a pocket
 constexpr double kLatticeExcess = 1.05;   // by which a lattice path shrinks when it is shortened
 
 /// The nearest voxel with even coordinates that a point can move to.
@@ -53,10 +53,34 @@ Route search_quickly(const EsdfMap& esdf, const FreeSpace& space, const Point& s
   const LatticeOptions options{.stride = stride,
                                .weight = kQuickWeight,
                                .longest = longest * kLatticeExcess / esdf.voxel_size,
-                               .most_expansions = kQuickExpansions};
+                               .most_expansions = kQuickExpansions,
+                               .most_in_vain = kQuickInVain};
   const LatticePath path = search_lattice(esdf, from, to, radius, options, deadline);
   if (path.status != SearchStatus::kFound) return {};
   return route_over_voxels(esdf, {from, to, start, goal, radius}, path.voxels);
+}
+
+/// A tight path past what blocks the straight line, and pulled tight again.
+Route redirect_tight(const EsdfMap& esdf, const FreeSpace& space, Route path, double radius,
+                     const Deadline& deadline) {
+  Route redirected = redirect(esdf, space, path, radius, deadline);
+  return redirected == path ? path : shorten(space, std::move(redirected), radius, deadline);
+}
+
+/// A tight path, or where that is long a shorter one that quick searches find.
+Route ask_again(const EsdfMap& esdf, const FreeSpace& space, Route best, double radius,
+                const Deadline& deadline) {
+  const double straight = (best.back() - best.front()).norm();
+  for (const int stride : {2, 1}) {  // the coarse one is quick, the fine one fits narrow places
+    const double shortest = length_of(best);
+    const double suspicious = stride == 2 ? kSuspicious : kVerySuspicious;
+    if (shortest <= suspicious * straight || deadline.has_passed()) break;
+    Route other =
+        search_quickly(esdf, space, best.front(), best.back(), radius, stride, shortest, deadline);
+    if (!other.empty()) other = shorten(space, std::move(other), radius, deadline);
+    if (!other.empty() && length_of(other) < shortest) best = std::move(other);
+  }
+  return best;
 }
 
 /// As tightest(), by cost; short paths count among what it chooses from.
@@ -66,7 +90,7 @@ Route cheapest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found,
   const auto is_kept = [&](std::span<const Point> before, std::span<const Point> after) {
     return cost.is_kept(before, after);
   };
-  Route best;
+  Route best, shortest;
   double least = std::numeric_limits<double>::infinity();
   const auto offer = [&](Route route) {
     const double own = cost.of(route);
@@ -77,18 +101,16 @@ Route cheapest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found,
   if (space.is_free(query.start, query.goal, query.radius)) offer({query.start, query.goal});
   for (std::optional<Route> route = found.route; route;) {
     Route tight = shorten(space, *route, query.radius, deadline);
-    offer(redirect(esdf, space, tight, query.radius, deadline));
-    offer(std::move(tight));
+    tight = redirect_tight(esdf, space, std::move(tight), query.radius, deadline);
+    offer(tight);
     offer(shorten(space, std::move(*route), query.radius, deadline, is_kept));
+    if (shortest.empty() || length_of(tight) < length_of(shortest)) shortest = std::move(tight);
     if (!found.next_alternative || deadline.has_passed()) break;
     route = found.next_alternative();
   }
+  offer(ask_again(esdf, space, std::move(shortest), query.radius, deadline));
   return best;
 }
-
-}  // namespace
-
-namespace {
 
 /// The shortest of the route found and its alternatives, each pulled tight.
 Route best_of_alternatives(const FreeSpace& space, RouteResult& found, double radius, double enough,
@@ -115,25 +137,11 @@ Route best_of_alternatives(const FreeSpace& space, RouteResult& found, double ra
 Route tightest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found,
                const RouteQuery& query, const Deadline& deadline) {
   if (query.prefer_clearance > 0.0) return cheapest(esdf, space, found, query, deadline);
-  const double radius = query.radius;
-  const double straight = (query.goal - query.start).norm();
-  const double enough = kNearlyStraight * straight;
-  Route best = best_of_alternatives(space, found, radius, enough, deadline);
-  if (length_of(best) > enough && best.size() > 2) {
-    Route redirected = redirect(esdf, space, best, radius, deadline);
-    if (redirected != best) best = shorten(space, std::move(redirected), radius, deadline);
-  }
-  for (const int stride : {2, 1}) {  // the coarse one is quick, the fine one fits narrow places
-    const double shortest = length_of(best);
-    const double suspicious = stride == 2 ? kSuspicious : kVerySuspicious;
-    if (shortest <= suspicious * straight || deadline.has_passed()) break;
-    if (shortest > kQuickReach * stride * esdf.voxel_size) continue;
-    Route other =
-        search_quickly(esdf, space, best.front(), best.back(), radius, stride, shortest, deadline);
-    if (!other.empty()) other = shorten(space, std::move(other), radius, deadline);
-    if (!other.empty() && length_of(other) < shortest) best = std::move(other);
-  }
-  return best;
+  const double enough = kNearlyStraight * (query.goal - query.start).norm();
+  Route best = best_of_alternatives(space, found, query.radius, enough, deadline);
+  if (length_of(best) > enough)
+    best = redirect_tight(esdf, space, std::move(best), query.radius, deadline);
+  return ask_again(esdf, space, std::move(best), query.radius, deadline);
 }
 
 }  // namespace ridgeway::detail

@@ -132,6 +132,7 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
   if (config.simplify)
     roadmap.graph = simplify_graph(esdf, roadmap.graph, {.significance = config.significance});
   roadmap.tree = build_clearance_tree(esdf, roadmap.graph, basins);
+  roadmap.landmarks = place_landmarks(roadmap.graph);
   report.graph_components = connected_components(roadmap.graph).count;
   clock.end(report.seconds.graph);
 

@@ -77,7 +77,8 @@ TEST(AStar, ThroughEsdfDiagramAndGraphEqualsDijkstra) {
       const VertexId start{static_cast<std::uint32_t>(seed % graph.vertices.size())};
       const auto costs = testing::dijkstra_graph(graph, start, radius);
       for (std::uint32_t v = 0; v < graph.vertices.size(); ++v) {
-        const auto route = detail::search_graph(graph, start, VertexId{v}, radius);
+        const auto route = detail::search_graph(graph, v % 2 ? roadmap->landmarks : Landmarks{},
+                                                start, VertexId{v}, radius);
         ASSERT_EQ(!route.empty(), costs.contains(VertexId{v}));
         double length = 0.0;
         for (std::size_t i = 1; i < route.size(); ++i)
@@ -93,6 +94,25 @@ TEST(AStar, ThroughEsdfDiagramAndGraphEqualsDijkstra) {
   EXPECT_GT(esdf_routes, 500);
   EXPECT_GT(diagram_routes, 500);
   EXPECT_GT(graph_routes, 200);
+}
+
+TEST(Landmarks, BoundTheLengthBetweenVerticesFromBelow) {
+  int bounds = 0, close_bounds = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto roadmap = random_roadmap(seed, 0.1, UnknownPolicy::kObstacle);
+    if (!roadmap) continue;
+    const SparseGraph& graph = roadmap->graph;
+    for (std::uint32_t u = 0; u < graph.vertices.size(); ++u)
+      for (const auto& [v, length] : testing::dijkstra_graph(graph, VertexId{u}, 0.1)) {
+        const double bound = length_bound(roadmap->landmarks, VertexId{u}, v);
+        ASSERT_LE(bound, length + 1e-9);
+        bounds += length > 0.0;
+        close_bounds += length > 0.0 && bound > 0.9 * length;
+      }
+  }
+  EXPECT_GT(bounds, 200);
+  EXPECT_GT(close_bounds, bounds / 2);
 }
 
 TEST(AStar, WithPenaltiesEqualsDijkstraOnLongerEdges) {
@@ -111,7 +131,8 @@ TEST(AStar, WithPenaltiesEqualsDijkstraOnLongerEdges) {
     const VertexId start{static_cast<std::uint32_t>(seed % graph.vertices.size())};
     const auto costs = testing::dijkstra_graph(longer, start, 0.1);
     for (std::uint32_t v = 0; v < graph.vertices.size(); ++v) {
-      const auto route = detail::search_graph(graph, start, VertexId{v}, 0.1, &penalty);
+      const auto route =
+          detail::search_graph(graph, roadmap->landmarks, start, VertexId{v}, 0.1, &penalty);
       ASSERT_EQ(!route.empty(), costs.contains(VertexId{v}));
       double cost = 0.0;
       for (std::size_t i = 1; i < route.size(); ++i)

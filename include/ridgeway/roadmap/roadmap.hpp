@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ridgeway/esdf/esdf_map.hpp"
+#include "ridgeway/roadmap/graph_lengths.hpp"
 #include "ridgeway/roadmap/sparse_graph.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
 
@@ -43,8 +44,9 @@ struct Roadmap {
   SparseGraph graph;
   AttachField attach;
   ClearanceTree tree;
-  std::string source;  ///< the map it was built from, for people
-  std::string config;  ///< the configuration it was built with, as JSON text, for people
+  Landmarks landmarks;  ///< of the graph; not in the file, placed when it is loaded
+  std::string source;   ///< the map it was built from, for people
+  std::string config;   ///< the configuration it was built with, as JSON text, for people
 };
 
 }  // namespace ridgeway
