@@ -61,7 +61,7 @@ Route search_quickly(const EsdfMap& esdf, const FreeSpace& space, const Point& s
 }
 
 /// A tight path past what blocks the straight line, and pulled tight again.
-Route redirect_tight(const EsdfMap& esdf, const FreeSpace& space, Route path, double radius,
+Route redirect_tight(const EsdfMap& esdf, const FreeSpace& space, const Route& path, double radius,
                      const Deadline& deadline) {
   Route redirected = redirect(esdf, space, path, radius, deadline);
   return redirected == path ? path : shorten(space, std::move(redirected), radius, deadline);
@@ -101,7 +101,7 @@ Route cheapest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found,
   if (space.is_free(query.start, query.goal, query.radius)) offer({query.start, query.goal});
   for (std::optional<Route> route = found.route; route;) {
     Route tight = shorten(space, *route, query.radius, deadline);
-    tight = redirect_tight(esdf, space, std::move(tight), query.radius, deadline);
+    tight = redirect_tight(esdf, space, tight, query.radius, deadline);
     offer(tight);
     offer(shorten(space, std::move(*route), query.radius, deadline, is_kept));
     if (shortest.empty() || length_of(tight) < length_of(shortest)) shortest = std::move(tight);
@@ -139,8 +139,7 @@ Route tightest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found,
   if (query.prefer_clearance > 0.0) return cheapest(esdf, space, found, query, deadline);
   const double enough = kNearlyStraight * (query.goal - query.start).norm();
   Route best = best_of_alternatives(space, found, query.radius, enough, deadline);
-  if (length_of(best) > enough)
-    best = redirect_tight(esdf, space, std::move(best), query.radius, deadline);
+  if (length_of(best) > enough) best = redirect_tight(esdf, space, best, query.radius, deadline);
   return ask_again(esdf, space, std::move(best), query.radius, deadline);
 }
 
