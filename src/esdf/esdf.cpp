@@ -109,14 +109,14 @@ class Sweeper {
 
   void sweep_run(int axis, int first, int last, Scratch& scratch) const {
     detail::LineEnvelope& envelope = scratch.envelope;
-    envelope.clear();
+    envelope.begin(first, last);
     if (first > 0 || solid_outside_) envelope.add({first - 1, 0});
     for (int i = first; i <= last; ++i) {
       const SiteOffset& offset = scratch.before[static_cast<std::size_t>(i)];
       if (offset != kNoOffset) envelope.add({i, quarter_squared(offset)});
     }
     if (last + 1 < scratch.size() || solid_outside_) envelope.add({last + 1, 0});
-    envelope.for_each_stretch(first, last, [&](int begin, int end, int winner) {
+    envelope.for_each_stretch([&](int begin, int end, int winner) {
       SiteOffset offset{};
       if (winner >= first && winner <= last)
         offset = scratch.before[static_cast<std::size_t>(winner)];

@@ -22,6 +22,16 @@ constexpr std::int64_t floor_divide(std::int64_t a, std::int64_t b) {
   return quotient - (a % b < 0 ? 1 : 0);
 }
 
+/// Whether candidate `b` is strictly nearer than `a` to a position.
+constexpr bool is_nearer(const LineCandidate& b, const LineCandidate& a, std::int64_t position) {
+  const auto cost = [position](const LineCandidate& c) {
+    const std::int64_t k = position - c.position;
+    const std::int64_t twice = 2 * (k < 0 ? -k : k) - 1;
+    return c.cost + (twice > 0 ? twice * twice : 0);
+  };
+  return cost(b) < cost(a);
+}
+
 /// First position at which candidate `b` is strictly nearer than `a` (a.position < b.position).
 /// Along the line a cube at distance k costs q(k) = max(2 |k| - 1, 0)^2, which is convex, so the
 /// difference of two of them is monotone and crosses once; it has one closed form on either side
@@ -31,13 +41,15 @@ constexpr std::int64_t crossing(const LineCandidate& a, const LineCandidate& b) 
   const std::int64_t m = std::int64_t{b.position} - a.position;
   const std::int64_t t = a.cost - b.cost;
   const std::int64_t at_ends = (2 * m - 1) * (2 * m - 1);
-  if (t > at_ends) return floor_divide(4 * m * (sum - 1) - t, 8 * m) + 1;
+  // Neighbours are the most frequent, and need no division.
+  const auto divide = [m](std::int64_t n) { return m == 1 ? n >> 3 : floor_divide(n, 8 * m); };
+  if (t > at_ends) return divide(4 * m * (sum - 1) - t) + 1;
   if (m > 1 && t > (2 * m - 2) * (4 - 2 * m)) {
     const std::int64_t between = floor_divide(4 * (m - 1) * sum - t, 8 * (m - 1)) + 1;
     return between > a.position ? between : a.position + 1;
   }
   if (t > -at_ends) return b.position;
-  const std::int64_t beyond = floor_divide(4 * m * (sum + 1) - t, 8 * m) + 1;
+  const std::int64_t beyond = divide(4 * m * (sum + 1) - t) + 1;
   return beyond > b.position ? beyond : b.position + 1;
 }
 
@@ -45,40 +57,41 @@ constexpr std::int64_t crossing(const LineCandidate& a, const LineCandidate& b) 
 /// to the candidate on the left, which holds the (z, y, x) tie rule through all three sweeps.
 class LineEnvelope {
  public:
-  void clear() { pieces_.clear(); }
-
-  void add(const LineCandidate& candidate) {
-    std::int64_t from = INT64_MIN;
-    while (!pieces_.empty()) {
-      from = crossing(pieces_.back().candidate, candidate);
-      if (from > pieces_.back().from) break;
-      pieces_.pop_back();
-      from = INT64_MIN;
-    }
-    pieces_.push_back({candidate, from});
+  /// Begins a run over the positions first to last.
+  void begin(int first, int last) {
+    pieces_.clear();
+    first_ = first;
+    last_ = last;
   }
 
-  bool empty() const { return pieces_.empty(); }
+  void add(const LineCandidate& candidate) {
+    while (!pieces_.empty() && is_nearer(candidate, pieces_.back().candidate, pieces_.back().from))
+      pieces_.pop_back();
+    if (pieces_.empty()) {
+      pieces_.push_back({candidate, first_});
+    } else if (is_nearer(candidate, pieces_.back().candidate, last_)) {
+      pieces_.push_back({candidate, crossing(pieces_.back().candidate, candidate)});
+    }
+  }
 
-  /// Calls assign(begin, end, winner's position) for the stretches of [first, last], end excluded.
+  /// Calls assign(begin, end, winner's position) for the stretches of the run, end excluded.
   template <typename Assign>
-  void for_each_stretch(int first, int last, const Assign& assign) const {
-    int begin = first;
-    for (std::size_t piece = 0; piece < pieces_.size() && begin <= last; ++piece) {
-      const std::int64_t next = piece + 1 < pieces_.size() ? pieces_[piece + 1].from : INT64_MAX;
-      const int end = static_cast<int>(std::min<std::int64_t>(next, last + 1));
-      if (end <= begin) continue;
-      assign(begin, end, pieces_[piece].candidate.position);
-      begin = end;
+  void for_each_stretch(const Assign& assign) const {
+    for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
+      const bool is_last = piece + 1 == pieces_.size();
+      assign(static_cast<int>(pieces_[piece].from),
+             is_last ? last_ + 1 : static_cast<int>(pieces_[piece + 1].from),
+             pieces_[piece].candidate.position);
     }
   }
 
  private:
   struct Piece {
     LineCandidate candidate;
-    std::int64_t from;  // first position at which this candidate wins
+    std::int64_t from;  // first position of the run at which this candidate wins
   };
   std::vector<Piece> pieces_;
+  int first_ = 0, last_ = 0;
 };
 
 }  // namespace ridgeway::detail
