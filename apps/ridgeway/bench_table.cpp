@@ -43,10 +43,21 @@ std::string cell_text(const Json& value) {
   return value.is_number_float() ? text_of(value.get<double>()) : value.dump();
 }
 
+using Lines = std::vector<std::vector<std::string>>;
+
+/// A line for each column.
+Lines transposed(const Lines& lines) {
+  Lines result(lines.front().size());
+  for (const auto& line : lines)
+    for (std::size_t i = 0; i < line.size(); ++i) result[i].push_back(line[i]);
+  return result;
+}
+
 }  // namespace
 
 void BenchTable::print() const {
-  std::vector<std::vector<std::string>> lines;
+  constexpr std::size_t kMostColumns = 24;  // more fit no terminal
+  Lines lines;
   for (const Json& row : rows_) {
     const Json cells = flat(row);
     if (lines.empty()) {
@@ -57,6 +68,7 @@ void BenchTable::print() const {
     for (const auto& [key, value] : cells.items()) lines.back().push_back(cell_text(value));
   }
   if (lines.empty()) return;
+  if (lines.front().size() > kMostColumns) lines = transposed(lines);
   std::vector<std::size_t> widths(lines.front().size(), 0);
   for (const auto& line : lines)
     for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
