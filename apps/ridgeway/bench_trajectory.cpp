@@ -91,9 +91,9 @@ Json row_of(const std::string& name, const FlightsResult& result) {
           {"seconds_to_30_m", json_of(result.near_seconds)},
           {"fallbacks", result.fallbacks()},
           {"steps", steps},
-          {"unoptimised",
-           {{"success", share(result.spline_holds)},
-            {"duration_over_flight", result.spline_over_flight.median}}}};
+          {"plain_spline",
+           {{"success", share(result.plain_holds)},
+            {"duration_over_flight", result.plain_over_flight.median}}}};
 }
 
 /// The longest of those that took no stop, or of all.

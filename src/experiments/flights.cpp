@@ -77,9 +77,9 @@ void judge(const FlightJudge& judge, const FlightsConfig& config, Flight& flight
   const Point &start = flight.path.front(), &goal = flight.path.back();
   if (flight.flown.ok()) flight.verdict = judge.judge(flight.flown, start, goal, rules);
   TrajectoryResult spline;
-  spline.trajectory = spline_before_optimisation(flight.path, rules);
-  flight.spline_duration = spline.trajectory.duration();
-  flight.spline_holds = judge.judge(spline, start, goal, rules).holds();
+  spline.trajectory = plain_spline(flight.path, rules);
+  flight.plain_duration = spline.trajectory.duration();
+  flight.plain_holds = judge.judge(spline, start, goal, rules).holds();
 }
 
 /// Over the flights that are ok, and for which there is a value.
@@ -96,7 +96,7 @@ Spread spread_over(const std::vector<Flight>& flights, const Value& value) {
 void count(FlightsResult& result) {
   constexpr double kRounding = 1.0 + 1e-9;
   for (const Flight& flight : result.flights) {
-    result.spline_holds += flight.spline_holds;
+    result.plain_holds += flight.plain_holds;
     if (!flight.flown.ok()) continue;
     ++result.solved;
     ++result.steps[static_cast<std::size_t>(flight.flown.step)];
@@ -130,8 +130,8 @@ void summarise(const MotionLimits& limits, FlightsResult& result) {
   });
   result.over_stop_and_go = over([](const Flight& f) { return f.flown.stop_and_go_duration; });
   result.over_trapezoid = over([](const Flight& f) { return f.trapezoid_duration; });
-  result.spline_over_flight =
-      spread([](const Flight& f) { return f.spline_duration / f.flown.duration; });
+  result.plain_over_flight =
+      spread([](const Flight& f) { return f.plain_duration / f.flown.duration; });
 }
 
 }  // namespace

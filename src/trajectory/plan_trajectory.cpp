@@ -157,12 +157,12 @@ TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> pat
   return finish(TrajectoryStatus::kOk);
 }
 
-Trajectory spline_before_optimisation(std::span<const Point> path, const TrajectoryConfig& config) {
+Trajectory plain_spline(std::span<const Point> path, const TrajectoryConfig& config) {
   config.validate();
   const std::vector<Point> points = distinct_points(path);
   if (points.size() == 1) return {{standing_at(points.front())}};
   SpaceSpline spline =
-      detail::initial_spline(points, {}, detail::knot_spacing(config),
+      detail::initial_spline(detail::place_knots(points, detail::knot_spacing(config)), {},
                              {.smoothness = config.smoothness, .limits = config.limits});
   MinimumSpline(config.smoothness, spline.durations, spline.fixed).solve(spline.derivatives);
   Trajectory trajectory = spline.trajectory(config.smoothness);

@@ -146,7 +146,11 @@ SmoothPath::Attempt SmoothPath::smooth(std::span<const Point> path, const StartS
   for (const Try& t : kTries) {
     SplineCostConfig cost = cost_;
     cost.collision_weight *= t.push;
-    if (t.anew) spline = initial_spline(path, start, t.spacing * spacing, cost);
+    if (t.anew) {
+      std::vector<Point> knots = place_knots(path, t.spacing * spacing);
+      add_knots_near_rest(start.is_rest(), t.spacing * spacing, knots);
+      spline = initial_spline(knots, start, cost);
+    }
     attempt = optimise(spline, cost);
     if (!attempt.holds()) continue;
     note(t.step);

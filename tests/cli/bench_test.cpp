@@ -97,7 +97,7 @@ TEST_F(CliBench, TrajectoryHasARowForEveryMapAndNoViolation) {
     EXPECT_LE(row["duration_over_stop_and_go"]["median"], 1.0);
     EXPECT_GT(row["seconds"]["p95"], 0.0);
     EXPECT_EQ(row["fallbacks"].get<int>() + row["steps"]["smooth"].get<int>(), 5);
-    EXPECT_TRUE(row["unoptimised"].contains("success"));
+    EXPECT_TRUE(row["plain_spline"].contains("success"));
   }
   for (const char* file : {"trajectory.json", "trajectory.csv", "trajectory_durations.png",
                            "trajectory_hall.svg", "trajectory_fr_079.png"})

@@ -106,7 +106,7 @@ TEST(FlightJudge, ComplainsOfWhatIsInTheWay) {
   EXPECT_EQ(complaint(flown, room(VoxelState::kUnknown)).substr(0, 8), "collides");
   EXPECT_EQ(complaint(flown, room(VoxelState::kUnknown), UnknownPolicy::kIgnore), "");
   TrajectoryResult through;
-  through.trajectory = spline_before_optimisation(std::vector<Point>{kStart, kGoal}, {});
+  through.trajectory = plain_spline(std::vector<Point>{kStart, kGoal}, {});
   EXPECT_EQ(complaint(through), "");
   EXPECT_EQ(complaint(through, room(VoxelState::kUnknown), UnknownPolicy::kIgnore),
             "leaves the known");

@@ -31,12 +31,12 @@ TEST(Flights, EveryPairThatAPathConnectsIsFlownWithoutAComplaint) {
   EXPECT_EQ(std::accumulate(result.steps.begin(), result.steps.end(), std::size_t{0}), 30u);
   EXPECT_LE(result.over_bound.median, 1.35);
   EXPECT_GE(result.over_bound.median, 0.99);
-  EXPECT_GT(result.spline_holds, 0u);
+  EXPECT_GT(result.plain_holds, 0u);
   for (const Flight& flight : result.flights) {
     EXPECT_GT(flight.path.size(), 1u);
     EXPECT_LE(flight.trapezoid_duration, flight.flown.stop_and_go_duration);
     EXPECT_GE(flight.verdict.clearance, config.min_clearance * (1 - 1e-6));
-    EXPECT_GT(flight.spline_duration, 0.0);
+    EXPECT_GT(flight.plain_duration, 0.0);
   }
 }
 

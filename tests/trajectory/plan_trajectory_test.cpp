@@ -111,10 +111,10 @@ TEST(PlanTrajectory, RoundsAPillarWithoutStopping) {
   EXPECT_GT(result.evaluations, 5);
 }
 
-TEST(PlanTrajectory, TheSplineBeforeOptimisationPassesTheCornersWithinTheLimits) {
+TEST(PlanTrajectory, ThePlainSplinePassesTheCornersWithinTheLimits) {
   const std::vector<Point> path{{5, 10, 2}, {8.7, 8.6, 2}, {11.3, 8.6, 2}, {15, 10, 2}};
   const TrajectoryConfig config;
-  const Trajectory spline = spline_before_optimisation(path, config);
+  const Trajectory spline = plain_spline(path, config);
   EXPECT_TRUE(config.limits.hold(find_peaks(spline)));
   std::vector<double> nearest(path.size(), 1e9);
   for (const TrajectoryState& state : spline.sample(1e-3))
@@ -122,8 +122,8 @@ TEST(PlanTrajectory, TheSplineBeforeOptimisationPassesTheCornersWithinTheLimits)
       nearest[i] = std::min(nearest[i], (state.position - path[i]).norm());
   for (const double distance : nearest) EXPECT_LE(distance, 2e-3);
   EXPECT_GT(spline.duration(), plan_trajectory(esdf(), path, config).duration);
-  EXPECT_EQ(spline_before_optimisation(std::vector<Point>{path[0]}, config).duration(), 0.0);
-  EXPECT_THROW(spline_before_optimisation({}, config), InputError);
+  EXPECT_EQ(plain_spline(std::vector<Point>{path[0]}, config).duration(), 0.0);
+  EXPECT_THROW(plain_spline({}, config), InputError);
 }
 
 TEST(PlanTrajectory, StopAndGoFollowsThePathExactly) {

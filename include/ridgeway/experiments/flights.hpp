@@ -34,8 +34,8 @@ struct Flight {
   /// Seconds of ideal stop and go on the same path: a trapezoidal speed profile each leg, with
   /// jumps of acceleration, which no motion with limited jerk attains.
   double trapezoid_duration = 0.0;
-  double spline_duration = 0.0;  ///< of the spline before it is optimised in the distance field
-  bool spline_holds = false;     ///< says the judge
+  double plain_duration = 0.0;  ///< of the spline that is not optimised in the distance field
+  bool plain_holds = false;     ///< says the judge
 };
 
 /// All flights on one map and what they have in common. Spreads are over the flights that are ok;
@@ -50,14 +50,14 @@ struct FlightsResult {
   std::size_t straight = 0;  ///< paths of a single leg, on which the trapezoid is out of reach
   std::size_t longer_than_stop_and_go = 0;
   std::size_t longer_than_trapezoid = 0;  ///< of the paths with corners
-  std::size_t spline_holds = 0;
+  std::size_t plain_holds = 0;
   Spread seconds, optimise_seconds, verify_seconds;  ///< to compute, given the path
   Spread near_seconds;                               ///< the same, of paths up to 30 m
   Spread duration, path_length;
   Spread length_over_path;  ///< of the curve, over the path
   Spread over_bound;        ///< duration over L / v + v / a, of paths of L >= v^2 / a
   Spread over_stop_and_go, over_trapezoid;
-  Spread spline_over_flight;  ///< duration of the spline before it is optimised, over the flight's
+  Spread plain_over_flight;  ///< duration of the plain spline, over that of the flight
 
   std::size_t fallbacks() const { return solved - steps[0]; }
 };

@@ -87,7 +87,7 @@ struct TrajectoryResult {
 /// stop always holds, so every free path from rest yields a trajectory. None lasts longer than stop
 /// and go at the same limits, whose profile is as smooth: a leg of length L takes L / v + 1.1 v /
 /// a, where the trapezoidal profile, with its jumps of acceleration, would take L / v + v / a.
-/// Without a limit on jerk straight legs reach a jerk of 18.75 a^2 / v; a limit makes them softer.
+/// Without a limit on jerk straight legs reach a jerk of 18.75 a^2 / v, short ones more.
 ///
 /// From a motion that cannot go on along the path the robot brakes first, wherever it comes to
 /// rest, and goes on from there.
@@ -97,9 +97,9 @@ struct TrajectoryResult {
 TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> path,
                                  const TrajectoryConfig& config);
 
-/// What the optimisation begins with, from rest to rest: the smoothest spline through knots on the
-/// path, flown as fast as its limits allow. For comparison: nothing says that it is free. Throws
-/// InputError for the same paths and configurations.
-Trajectory spline_before_optimisation(std::span<const Point> path, const TrajectoryConfig& config);
+/// For comparison, what plan_trajectory does without the distance field: the smoothest spline from
+/// rest to rest through knots on the path, as fast as its limits allow. Nothing says that it is
+/// free. Throws InputError for the same paths and configurations.
+Trajectory plain_spline(std::span<const Point> path, const TrajectoryConfig& config);
 
 }  // namespace ridgeway
