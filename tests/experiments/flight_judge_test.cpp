@@ -26,7 +26,7 @@ OccupancyMap room(VoxelState middle = VoxelState::kFree) {
 TrajectoryResult good_flight() {
   TrajectoryConfig config;
   config.stop_and_go = true;
-  const TrajectoryResult result = plan_trajectory(
+  TrajectoryResult result = plan_trajectory(
       compute_esdf(room()), std::vector<Point>{kStart, Point(3.05, 1.3, 1.05), kGoal}, config);
   EXPECT_TRUE(result.ok());
   return result;

@@ -44,8 +44,8 @@ struct TrajectoryConfig {
   std::optional<double> start_yaw = std::nullopt;
   /// Yaw follows the direction of travel, as fast as its limit lets it; otherwise it stays.
   bool follow_yaw = true;
-  bool stop_and_go = false;   ///< no smoothing: the last resort at once
-  int most_evaluations = 80;  ///< of the cost, each time that a stretch is optimised
+  bool stop_and_go = false;    ///< no smoothing: the last resort at once
+  int most_evaluations = 120;  ///< of the cost, each time that a stretch is optimised
 
   /// Throws InputError naming the bad field.
   void validate() const;
