@@ -41,16 +41,14 @@ BenchTable table_of(const MazeResult& result) {
   return table;
 }
 
-/// A picture for each planner's way from corner to corner.
+/// All planners' ways from corner to corner over the maze.
 void draw_paths(const MazeResult& result, const std::filesystem::path& folder) {
-  for (const MazeRow& row : result.rows) {
-    PictureConfig picture;
-    picture.title = row.planner;
-    picture.diagram = false;
-    for (const char* extension : {".png", ".svg"})
-      draw_floor_plan(result.roadmap, row.single_path, folder / ("maze_" + row.planner + extension),
-                      picture);
-  }
+  PictureConfig picture;
+  picture.title = "From corner to corner, by every planner";
+  picture.diagram = picture.graph = false;
+  for (const MazeRow& row : result.rows) picture.paths.push_back({row.planner, row.single_path});
+  for (const char* extension : {".png", ".svg"})
+    draw_floor_plan(result.roadmap, {}, folder / (std::string("maze") + extension), picture);
 }
 
 int run(const Options& options, const Globals& globals) {
@@ -95,7 +93,7 @@ void add_bench_maze(CLI::App& bench, const Globals& globals, Command& chosen) {
   command->add_option("--range", config.range, "Longest motion of a tree, metres")
       ->capture_default_str();
   command->add_option("-o,--output", options->output,
-                      "Folder for maze.json, maze.csv and the paths (PNG, SVG)");
+                      "Folder for maze.json, maze.csv and a picture of the paths (PNG, SVG)");
   add_seed_option(*command, config.seed, "Of maze, starts, goals and samples");
   command->footer("Example:\n  ridgeway bench maze -o results");
   run_when_given(*command, options, globals, chosen, run);

@@ -24,6 +24,10 @@ namespace {
 using Json = BenchTable::Json;
 namespace fs = std::filesystem;
 
+using Lines = std::vector<std::vector<std::string>>;
+
+constexpr std::size_t kWidest = 200;  // characters of a line that a screen still holds
+
 /// Nested keys joined by dots.
 Json flat(const Json& row) {
   Json result = Json::object();
@@ -32,9 +36,30 @@ Json flat(const Json& row) {
       result[key] = value;
       continue;
     }
-    for (const auto& [inner, number] : value.items())
+    const Json nested = flat(value);
+    for (const auto& [inner, number] : nested.items())
       result[std::string(key).append(".").append(inner)] = number;
   }
+  return result;
+}
+
+std::vector<std::size_t> widths_of(const Lines& lines) {
+  std::vector<std::size_t> widths(lines.front().size(), 0);
+  for (const auto& line : lines)
+    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+  return widths;
+}
+
+std::size_t width_of(const Lines& lines) {
+  std::size_t width = 0;
+  for (const std::size_t column : widths_of(lines)) width += column + 2;
+  return width;
+}
+
+Lines turned(const Lines& lines) {
+  Lines result(lines.front().size());
+  for (const auto& line : lines)
+    for (std::size_t i = 0; i < line.size(); ++i) result[i].push_back(line[i]);
   return result;
 }
 
@@ -46,20 +71,9 @@ std::string cell_text(const Json& value) {
   return text_of(number, std::abs(number) < 0.1 ? 5 : 3);
 }
 
-using Lines = std::vector<std::vector<std::string>>;
-
-/// A line for each column.
-Lines transposed(const Lines& lines) {
-  Lines result(lines.front().size());
-  for (const auto& line : lines)
-    for (std::size_t i = 0; i < line.size(); ++i) result[i].push_back(line[i]);
-  return result;
-}
-
 }  // namespace
 
 void BenchTable::print() const {
-  constexpr std::size_t kMostColumns = 24;  // more fit no terminal
   Lines lines;
   for (const Json& row : rows_) {
     const Json cells = flat(row);
@@ -71,10 +85,8 @@ void BenchTable::print() const {
     for (const auto& [key, value] : cells.items()) lines.back().push_back(cell_text(value));
   }
   if (lines.empty()) return;
-  if (lines.front().size() > kMostColumns) lines = transposed(lines);
-  std::vector<std::size_t> widths(lines.front().size(), 0);
-  for (const auto& line : lines)
-    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+  if (width_of(lines) > kWidest && width_of(turned(lines)) < width_of(lines)) lines = turned(lines);
+  const std::vector<std::size_t> widths = widths_of(lines);
   for (const auto& line : lines) {
     std::string text;
     for (std::size_t i = 0; i < line.size(); ++i)

@@ -22,9 +22,9 @@ class BenchTable {
   void add(Json row) { rows_.push_back(std::move(row)); }
   const Json& rows() const { return rows_; }
 
-  /// Prints the rows as aligned columns, nested keys as "length_ratio.p95" (rows of more than 24
-  /// keys side by side), or with --json one object of `facts` and rows. With a folder, not empty,
-  /// writes NAME.csv and NAME.json there.
+  /// Prints the rows as aligned columns, nested keys as "length_ratio.p95" (a column a row, where
+  /// the lines would get too long), or with --json one object of `facts` and rows. With a folder,
+  /// not empty, writes NAME.csv and NAME.json there.
   void report(const Globals& globals, const std::string& folder, const std::string& name,
               Json facts) const;
 

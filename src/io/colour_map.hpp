@@ -14,6 +14,16 @@ struct Colour {
   double r = 0.0, g = 0.0, b = 0.0;  ///< 0 to 1
 };
 
+/// Of series and paths that are drawn together: told apart by colour-blind readers too.
+inline constexpr std::array<Colour, 8> kSeriesColours = {{{0.16, 0.36, 0.58},
+                                                          {0.84, 0.37, 0.00},
+                                                          {0.00, 0.55, 0.45},
+                                                          {0.65, 0.30, 0.60},
+                                                          {0.90, 0.62, 0.00},
+                                                          {0.34, 0.70, 0.91},
+                                                          {0.45, 0.32, 0.20},
+                                                          {0.25, 0.25, 0.28}}};
+
 /// Violet, blue, teal, green, amber for shares 0 to 1 (values that are no number count as 1): even
 /// in lightness steps, told apart by colour-blind readers, none of it as red as a path.
 inline Colour ramp_colour(double share) {

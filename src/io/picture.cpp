@@ -19,29 +19,63 @@ void trace(Canvas& canvas, std::span<const Point> path, const MapFrame& frame) {
   for (const Point& p : path) cairo_line_to(canvas.cairo(), frame.x(p), frame.y(p));
 }
 
-void draw_paths(Canvas& canvas, std::span<const Point> path, std::span<const Point> raw,
-                const MapFrame& frame) {
-  const double u = frame.unit;
-  trace(canvas, raw, frame);
-  canvas.set_line(2.5 * u, {7.0 * u, 5.0 * u});
-  canvas.set_colour(ink::kRawPath);
-  cairo_stroke(canvas.cairo());
-  trace(canvas, path, frame);
-  canvas.set_line(9.0 * u);
-  canvas.set_colour(ink::kHalo, 0.85);
-  cairo_stroke_preserve(canvas.cairo());
-  canvas.set_line(5.0 * u);
-  canvas.set_colour(ink::kPath);
-  cairo_stroke(canvas.cairo());
-  if (path.empty()) return;
-  draw_start(canvas, frame.x(path.front()), frame.y(path.front()), u);
-  draw_goal(canvas, frame.x(path.back()), frame.y(path.back()), u);
-}
-
 double length_of(std::span<const Point> path) {
   double length = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
   return length;
+}
+
+/// A path as it is drawn.
+struct PathLayer {
+  std::span<const Point> waypoints;
+  std::string label;
+  PathStroke stroke;
+  bool halo = false;  ///< stands out from what is below
+};
+
+/// Those that there are, the uppermost last.
+std::vector<PathLayer> path_layers(std::span<const Point> path, const PictureConfig& config) {
+  std::vector<PathLayer> layers;
+  const auto add = [&](PathLayer layer) {
+    if (!layer.waypoints.empty()) layers.push_back(std::move(layer));
+  };
+  add({config.raw_path, config.raw_path_label, {ink::kRawPath, 2.5, {7.0, 5.0}}});
+  for (std::size_t i = 0; i < config.paths.size(); ++i) {
+    const NamedPath& other = config.paths[i];
+    PathStroke stroke{kSeriesColours[i], 4.0, {}};
+    if (i % 2 == 1) stroke.dashes = {10.0, 9.0};  // neighbours differ by more than their colour
+    add({other.waypoints, other.name + ", " + short_number(length_of(other.waypoints), 1) + " m",
+         std::move(stroke)});
+  }
+  add({path, config.path_label, {ink::kPath, 5.0, {}}, true});
+  return layers;
+}
+
+void draw_paths(Canvas& canvas, const std::vector<PathLayer>& layers, const MapFrame& frame) {
+  const double u = frame.unit;
+  for (const PathLayer& layer : layers) {
+    trace(canvas, layer.waypoints, frame);
+    if (layer.halo) {
+      canvas.set_line((layer.stroke.width + 4.0) * u);
+      canvas.set_colour(ink::kHalo, 0.85);
+      cairo_stroke_preserve(canvas.cairo());
+    }
+    set_stroke(canvas, layer.stroke, u);
+    cairo_stroke(canvas.cairo());
+  }
+}
+
+/// The path whose ends are marked.
+std::span<const Point> marked_path(std::span<const Point> path, const PictureConfig& config) {
+  for (const NamedPath& other : config.paths)
+    if (path.empty()) path = other.waypoints;
+  return path;
+}
+
+void draw_ends(Canvas& canvas, std::span<const Point> path, const MapFrame& frame) {
+  if (path.empty()) return;
+  draw_start(canvas, frame.x(path.front()), frame.y(path.front()), frame.unit);
+  draw_goal(canvas, frame.x(path.back()), frame.y(path.back()), frame.unit);
 }
 
 std::string title_of(const Roadmap& roadmap, const PictureConfig& config) {
@@ -61,7 +95,8 @@ std::string subtitle_of(const Roadmap& roadmap, std::span<const Point> path,
          short_number(raster.band.high, 2) + " m";
 }
 
-std::vector<LegendItem> legend_items(bool diagram, const Range& range, std::span<const Point> path,
+std::vector<LegendItem> legend_items(bool diagram, const Range& range,
+                                     const std::vector<PathLayer>& layers, bool ends,
                                      const PictureConfig& config) {
   using Mark = LegendItem::Mark;
   std::vector<LegendItem> items = {
@@ -73,9 +108,9 @@ std::vector<LegendItem> legend_items(bool diagram, const Range& range, std::span
                      std::string("diagram, ") + (height ? "height " : "clearance ") +
                          short_number(range.low, 1) + " to " + short_number(range.high, 1) + " m"});
   }
-  if (!path.empty()) items.push_back({Mark::kPath, config.path_label});
-  if (!config.raw_path.empty()) items.push_back({Mark::kRawPath, config.raw_path_label});
-  if (!path.empty()) {
+  for (auto layer = layers.rbegin(); layer != layers.rend(); ++layer)
+    items.push_back({Mark::kPath, layer->label, layer->stroke});
+  if (ends) {
     items.push_back({Mark::kStart, "start"});
     items.push_back({Mark::kGoal, "goal"});
   }
@@ -140,6 +175,10 @@ void PictureConfig::validate() const {
   if (band && !(band->low <= band->high)) {
     throw InputError("band", "is empty", "give the lower height first");
   }
+  if (paths.size() > kSeriesColours.size()) {
+    throw InputError("paths", "are " + std::to_string(paths.size()),
+                     "draw at most eight into one picture");
+  }
   validate_charts(charts);
 }
 
@@ -152,7 +191,10 @@ void draw_floor_plan(const Roadmap& roadmap, std::span<const Point> path,
   std::vector<DiagramDot> dots;
   if (config.diagram) dots = diagram_dots(roadmap, config.diagram_colour);
   const Range range = middle_range(dots);
-  const std::vector<LegendItem> items = legend_items(!dots.empty(), range, path, config);
+  const std::vector<PathLayer> layers = path_layers(path, config);
+  const std::span<const Point> marked = marked_path(path, config);
+  const std::vector<LegendItem> items =
+      legend_items(!dots.empty(), range, layers, !marked.empty(), config);
   const Page page = lay_out_page(raster, voxel_size, items, config);
   const MapFrame& frame = page.frame;
 
@@ -161,7 +203,8 @@ void draw_floor_plan(const Roadmap& roadmap, std::span<const Point> path,
   draw_diagram(canvas, dots, range, voxel_size, frame);
   if (config.graph) draw_graph(canvas, roadmap.graph, frame);
   draw_border(canvas, frame);
-  draw_paths(canvas, path, config.raw_path, frame);
+  draw_paths(canvas, layers, frame);
+  draw_ends(canvas, marked, frame);
   draw_title(canvas, title_of(roadmap, config), subtitle_of(roadmap, path, raster), config,
              frame.unit);
   draw_scale_bar(canvas, frame, kLeft * frame.unit, page.legend_top,

@@ -43,10 +43,10 @@ void draw_ramp(Canvas& canvas, double x, double y, double width, double unit) {
   }
 }
 
-void draw_mark(Canvas& canvas, LegendItem::Mark mark, double x, double y, double unit) {
+void draw_mark(Canvas& canvas, const LegendItem& item, double x, double y, double unit) {
   using Mark = LegendItem::Mark;
-  const double width = mark_width(mark, unit), middle = x + 0.5 * width;
-  switch (mark) {
+  const double width = mark_width(item.mark, unit), middle = x + 0.5 * width;
+  switch (item.mark) {
     case Mark::kFree:
       return draw_swatch(canvas, x, y, unit, ink::kFree);
     case Mark::kWall:
@@ -63,12 +63,7 @@ void draw_mark(Canvas& canvas, LegendItem::Mark mark, double x, double y, double
       draw_line(canvas, x + 0.25 * width, y, x + 0.25 * width, y);
       return draw_line(canvas, x + 0.75 * width, y, x + 0.75 * width, y);
     case Mark::kPath:
-      canvas.set_colour(ink::kPath);
-      canvas.set_line(5.0 * unit);
-      return draw_line(canvas, x, y, x + width, y);
-    case Mark::kRawPath:
-      canvas.set_colour(ink::kRawPath);
-      canvas.set_line(2.5 * unit, {7.0 * unit, 5.0 * unit});
+      set_stroke(canvas, item.stroke, unit);
       draw_line(canvas, x, y, x + width, y);
       return canvas.set_line(unit);
     case Mark::kStart:
@@ -104,6 +99,13 @@ std::string short_number(double value, int decimals) {
     if (number.back() == '.') number.pop_back();
   }
   return number == "-0" ? "0" : number;
+}
+
+void set_stroke(Canvas& canvas, const PathStroke& stroke, double unit) {
+  std::vector<double> dashes = stroke.dashes;
+  for (double& length : dashes) length *= unit;
+  canvas.set_colour(stroke.colour);
+  canvas.set_line(stroke.width * unit, dashes);
 }
 
 void draw_start(Canvas& canvas, double x, double y, double unit) {
@@ -156,7 +158,7 @@ void draw_legend(Canvas& canvas, std::span<const LegendItem> items, const Legend
   for (const std::vector<std::size_t>& row : layout.rows) {
     for (const std::size_t i : row) {
       const double x = left + layout.offsets[i];
-      draw_mark(canvas, items[i].mark, x, y, unit);
+      draw_mark(canvas, items[i], x, y, unit);
       canvas.set_font(kLegendFont * unit);
       canvas.set_colour(ink::kText);
       canvas.draw_text(x + mark_width(items[i].mark, unit) + kMarkGap * unit, y + 5.5 * unit,

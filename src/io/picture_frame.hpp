@@ -41,11 +41,20 @@ struct MapFrame {
 void draw_start(Canvas& canvas, double x, double y, double unit);
 void draw_goal(Canvas& canvas, double x, double y, double unit);
 
+/// How a path is drawn; lengths in units.
+struct PathStroke {
+  Colour colour;
+  double width = 0.0;
+  std::vector<double> dashes;  ///< lengths drawn and left out; empty: solid
+};
+void set_stroke(Canvas& canvas, const PathStroke& stroke, double unit);
+
 /// An entry of the legend: what is drawn and what it means.
 struct LegendItem {
-  enum class Mark { kFree, kWall, kUnknown, kDiagram, kGraph, kPath, kRawPath, kStart, kGoal };
+  enum class Mark { kFree, kWall, kUnknown, kDiagram, kGraph, kPath, kStart, kGoal };
   Mark mark;
   std::string text;
+  PathStroke stroke = {};  ///< of a path
 };
 
 /// Rows that the legend takes beside the scale bar.

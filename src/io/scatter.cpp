@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -13,17 +12,7 @@
 namespace ridgeway {
 namespace {
 
-constexpr std::size_t kMostSeries = 8;
-
-/// Told apart by colour-blind readers too.
-constexpr std::array<Colour, kMostSeries> kColours = {{{0.16, 0.36, 0.58},
-                                                       {0.84, 0.37, 0.00},
-                                                       {0.00, 0.55, 0.45},
-                                                       {0.65, 0.30, 0.60},
-                                                       {0.90, 0.62, 0.00},
-                                                       {0.34, 0.70, 0.91},
-                                                       {0.45, 0.32, 0.20},
-                                                       {0.25, 0.25, 0.28}}};
+constexpr double kOnAPower = 1e-6;  // of ten; an axis ends at a value so near to it
 
 struct Axis {
   bool log = false;
@@ -45,7 +34,8 @@ void require_drawable(const ScatterChart& chart) {
         fail("has a value not above 0 on an axis of powers", "drop it");
     }
   if (count == 0) fail("has no points", "give at least one");
-  if (chart.series.size() > kMostSeries) fail("has more than eight series", "draw two charts");
+  if (chart.series.size() > kSeriesColours.size())
+    fail("has more than eight series", "draw two charts");
   if (chart.width < 300 || chart.width > 8000) fail("is too small or large", "300 to 8000 pixels");
 }
 
@@ -58,8 +48,8 @@ Axis axis_of(const ScatterChart& chart, bool log, const Value& value) {
       axis.high = std::max(axis.high, axis.at(value(point)));
     }
   if (log) {
-    axis.low = std::floor(axis.low - 0.05);
-    axis.high = std::ceil(axis.high + 0.05);
+    axis.low = std::floor(axis.low + kOnAPower);
+    axis.high = std::max(std::ceil(axis.high - kOnAPower), axis.low + 1.0);
   } else {
     axis.low = std::min(axis.low, 0.0);
     axis.high += axis.high > axis.low ? 0.08 * (axis.high - axis.low) : 1.0;
@@ -123,7 +113,7 @@ void draw_axes(Canvas& canvas, const ScatterChart& chart, const Plot& plot) {
 
 void draw_series(Canvas& canvas, const ScatterChart& chart, const Plot& plot, std::size_t index) {
   const ScatterSeries& series = chart.series[index];
-  canvas.set_colour(kColours[index], 0.85);
+  canvas.set_colour(kSeriesColours[index], 0.85);
   if (chart.lines) {
     for (const auto& [x, y] : series.points) cairo_line_to(canvas.cairo(), plot.x(x), plot.y(y));
     canvas.set_line(2.0 * plot.unit);

@@ -3,6 +3,7 @@
 #include "attach_way.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "ridgeway/esdf/free_space.hpp"
 
@@ -23,17 +24,29 @@ AttachWay follow_attach(const Roadmap& roadmap, VoxelId from, double radius) {
   const double threshold = squared_threshold(radius, esdf.voxel_size);
   const FreeSpace space(esdf);
   AttachWay way;
+  double narrowest = std::numeric_limits<double>::infinity();
+  const auto stop = [&] {
+    way.clearance = 0.5 * esdf.voxel_size * std::sqrt(narrowest);
+    return way;
+  };
   for (VoxelId id = from;;) {
     way.voxels.push_back(id);
     way.met_diagram |= roadmap.diagram.voxels.test(id);
     const Direction next = roadmap.attach.next[id];
     if (next == AttachField::kHere) {
       way.vertex = vertex_at(roadmap.graph, esdf.layout.index_of(id));
-      return way;
+      return stop();
     }
-    if (next == AttachField::kNotTraversable) return way;
+    if (next == AttachField::kNotTraversable) return stop();
     const VoxelId to = esdf.layout.neighbour(id, next);
-    if (to == kNoVoxel || !space.move_is_free(id, to, next, threshold)) return way;
+    if (to == kNoVoxel) return stop();
+    // Ways lead away from obstacles: mostly the first moves are the narrowest.
+    if (FreeSpace::move_bound(esdf.squared[id], esdf.squared[to], squared_length(next)) <
+        narrowest) {
+      const double clearance = space.move_clearance(id, to, next);
+      if (clearance < threshold) return stop();
+      narrowest = std::min(narrowest, clearance);
+    }
     id = to;
   }
 }

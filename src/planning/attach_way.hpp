@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "ridgeway/roadmap/roadmap.hpp"
@@ -13,6 +14,7 @@ struct AttachWay {
   std::vector<VoxelId> voxels;  ///< from the voxel on; the last is where the way stops
   VertexId vertex = kNoVertex;  ///< the vertex it reaches, if it does
   bool met_diagram = false;     ///< whether one of the voxels is on the diagram
+  double clearance = std::numeric_limits<double>::infinity();  ///< of its moves, metres
   bool reached() const { return vertex != kNoVertex; }
 };
 AttachWay follow_attach(const Roadmap& roadmap, VoxelId from, double radius);

@@ -10,7 +10,7 @@
 namespace ridgeway::detail {
 namespace {
 
-constexpr int kRays = 8;
+constexpr int kRays = 6;
 constexpr int kTriesPerRay = 3;
 constexpr double kWiden = 1.35;  // from one try on a ray to the next
 

@@ -34,6 +34,12 @@ Endpoint find_endpoint(const EsdfMap& esdf, const Point& point, double radius) {
   const FreeSpace space(esdf);
   if (!space.is_free(point, radius)) return {EndpointStatus::kInCollision, kNoVoxel};
 
+  const double threshold = squared_threshold(radius, esdf.voxel_size);
+  const auto joins = [&](VoxelId id) {
+    return id != kNoVoxel && esdf.state[id] == VoxelState::kFree && esdf.squared[id] >= threshold &&
+           space.is_free(point, centre_of(esdf.layout.index_of(id), esdf.voxel_size), radius);
+  };
+  if (joins(home)) return {EndpointStatus::kOk, home};  // no centre is nearer
   struct Candidate {
     double distance;
     int direction;
@@ -47,13 +53,9 @@ Endpoint find_endpoint(const EsdfMap& esdf, const Point& point, double radius) {
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.direction < b.direction;
   });
-  const double threshold = squared_threshold(radius, esdf.voxel_size);
   for (const Candidate& candidate : candidates) {
     const VoxelId id = esdf.layout.neighbour(home, candidate.direction);
-    if (id == kNoVoxel || esdf.state[id] != VoxelState::kFree || esdf.squared[id] < threshold)
-      continue;
-    if (space.is_free(point, centre_of(esdf.layout.index_of(id), esdf.voxel_size), radius))
-      return {EndpointStatus::kOk, id};
+    if (joins(id)) return {EndpointStatus::kOk, id};
   }
   return {EndpointStatus::kInCollision, kNoVoxel};
 }

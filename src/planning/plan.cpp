@@ -16,11 +16,12 @@
 #include "ridgeway/esdf/free_space.hpp"
 #include "route.hpp"
 #include "shorten.hpp"
+#include "tightest.hpp"
 
 namespace ridgeway {
 
 using detail::Deadline;
-using detail::EdgeStretch;
+using detail::KnownStretch;
 using detail::seconds_now;
 
 std::string_view name_of(PlanStatus status) {
@@ -112,12 +113,12 @@ PlanResult plan_between(const Roadmap& roadmap, const Point& start, const Point&
         config.shorten ? detail::tightest(esdf, space, found, query, deadline) : found.route;
   }
   result.seconds.shorten = seconds_now() - shortening;
-  detail::describe(esdf, space, config.shorten ? EdgeStretch{} : found.edges, result);
+  detail::describe(esdf, space, config.shorten ? KnownStretch{} : found.known, result);
   if (detail::is_verified(esdf, space, result, radius)) return finish(PlanStatus::kOk);
   // What the search found holds move by move, whatever became of it since.
   result.waypoints = std::move(found.route);
   if (!result.waypoints.empty()) {
-    detail::describe(esdf, space, found.edges, result);
+    detail::describe(esdf, space, found.known, result);
     if (detail::is_verified(esdf, space, result, radius)) return finish(PlanStatus::kOk);
   }
   result.waypoints.clear();

@@ -33,11 +33,40 @@ void require_finite(const Point& p, const char* name) {
     throw InputError(name, "is not a finite point", "give three finite coordinates in metres");
 }
 
-/// Exact; of the graph's edges the clearance is known.
+/// Exact.
 double clearance_of(const FreeSpace& space, std::span<const Point> route,
-                    const EdgeStretch& edges) {
-  const double before = space.clearance(route.first(edges.first + 1), edges.clearance);
-  return space.clearance(route.subspan(edges.last), before);
+                    const KnownStretch& known) {
+  const double before = space.clearance(route.first(known.first + 1), known.clearance);
+  return space.clearance(route.subspan(known.last), before);
+}
+
+bool borders_unknown(const EsdfMap& esdf, VoxelFinder& finder, const Point& p) {
+  const VoxelIndex v = voxel_at(p, esdf.voxel_size);
+  const VoxelId id = finder.find(v);
+  if (id == kNoVoxel || esdf.squared[id] == kNoSite) return false;
+  const SiteOffset o = esdf.site[id];
+  const VoxelId site = finder.find(v + VoxelIndex{o.x, o.y, o.z});
+  return site == kNoVoxel || esdf.state[site] == VoxelState::kUnknown;
+}
+
+/// The share of a path on which the nearest obstacle is unknown space, from looks at the middles
+/// of equal pieces of it.
+double unknown_share(const EsdfMap& esdf, std::span<const Point> path, double length) {
+  if (length <= 0.0) return 0.0;
+  const int pieces = 1 + static_cast<int>(length / (kUnknownStep * esdf.voxel_size));
+  const double piece = length / pieces;
+  VoxelFinder finder(esdf.layout);
+  int looks = 0, unknown = 0;
+  double before = 0.0;  // length up to the segment
+  for (std::size_t i = 1; i < path.size() && looks < pieces; ++i) {
+    const Point along = path[i] - path[i - 1];
+    const double own = along.norm();
+    for (; looks < pieces && (looks + 0.5) * piece <= before + own; ++looks)
+      unknown += borders_unknown(esdf, finder,
+                                 path[i - 1] + along * (((looks + 0.5) * piece - before) / own));
+    before += own;
+  }
+  return static_cast<double>(unknown) / pieces;
 }
 
 }  // namespace
@@ -57,29 +86,11 @@ QueryEnds find_ends(const EsdfMap& esdf, const Point& start, const Point& goal, 
   return {status_of(to.status, false), from.voxel, to.voxel};
 }
 
-void describe(const EsdfMap& esdf, const FreeSpace& space, const EdgeStretch& edges,
+void describe(const EsdfMap& esdf, const FreeSpace& space, const KnownStretch& known,
               PlanResult& result) {
   result.length = length_of(result.waypoints);
-  result.clearance = clearance_of(space, result.waypoints, edges);
-  VoxelFinder finder(esdf.layout);
-  double bordering = 0.0;
-  for (std::size_t i = 1; i < result.waypoints.size(); ++i) {
-    const Point& a = result.waypoints[i - 1];
-    const Point& b = result.waypoints[i];
-    const double length = (b - a).norm();
-    const int pieces = 1 + static_cast<int>(length / (kUnknownStep * esdf.voxel_size));
-    int unknown = 0;
-    for (int k = 0; k < pieces; ++k) {
-      const VoxelIndex v = voxel_at(a + (b - a) * ((k + 0.5) / pieces), esdf.voxel_size);
-      const VoxelId id = finder.find(v);
-      if (id == kNoVoxel || esdf.squared[id] == kNoSite) continue;
-      const SiteOffset o = esdf.site[id];
-      const VoxelId site = finder.find(v + VoxelIndex{o.x, o.y, o.z});
-      unknown += site == kNoVoxel || esdf.state[site] == VoxelState::kUnknown;
-    }
-    bordering += length * unknown / pieces;
-  }
-  result.unknown_share = result.length > 0.0 ? bordering / result.length : 0.0;
+  result.clearance = clearance_of(space, result.waypoints, known);
+  result.unknown_share = unknown_share(esdf, result.waypoints, result.length);
 }
 
 bool is_verified(const EsdfMap& esdf, const FreeSpace& space, const PlanResult& result,

@@ -22,14 +22,15 @@ struct QueryEnds {
 };
 QueryEnds find_ends(const EsdfMap& esdf, const Point& start, const Point& goal, double radius);
 
-/// Waypoints of a route between which every segment is an edge of the graph; none if first == last.
-struct EdgeStretch {
+/// Waypoints of a route between which the clearance is known, by moves between voxels and the
+/// graph's edges; none if first == last.
+struct KnownStretch {
   std::size_t first = 0, last = 0;
-  double clearance = std::numeric_limits<double>::infinity();  ///< of the narrowest edge, metres
+  double clearance = std::numeric_limits<double>::infinity();  ///< smallest, metres
 };
 
 /// Length, clearance and the share that borders the unknown, of the result's waypoints.
-void describe(const EsdfMap& esdf, const FreeSpace& space, const EdgeStretch& edges,
+void describe(const EsdfMap& esdf, const FreeSpace& space, const KnownStretch& known,
               PlanResult& result);
 
 /// No path leaves unverified: its clearance, measured along every segment (along the graph's edges

@@ -26,8 +26,8 @@ struct RouteQuery {
 struct RouteResult {
   SearchStatus status = SearchStatus::kNoRoute;
   Planner answered_by = Planner::kGraph;
-  Route route;  ///< as searched: the shortest in the structure that answered
-  EdgeStretch edges;
+  Route route;         ///< as searched: the shortest in the structure that answered
+  KnownStretch known;  ///< of that route
   /// Another route each time, longer and over other edges; nothing when there are no more. Refers
   /// to the roadmap. Null where the graph did not answer.
   std::function<std::optional<Route>()> next_alternative;
@@ -39,11 +39,5 @@ struct RouteResult {
 /// the next finer one: graph, diagram, ESDF. Exact: no route means that there is none.
 RouteResult find_route(const Roadmap& roadmap, const RouteQuery& query, Planner planner,
                        const Deadline& deadline);
-
-/// The route pulled tight; where that stays longer than the straight line, alternatives are tried
-/// as well, and ways past what blocks the line. Returns the shortest. Where clearance is preferred
-/// it is pulled only as far as it gets no costlier, and the cheapest of the alternatives returned.
-Route tightest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found,
-               const RouteQuery& query, const Deadline& deadline);
 
 }  // namespace ridgeway::detail

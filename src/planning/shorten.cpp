@@ -12,15 +12,17 @@ namespace {
 
 constexpr int kRounds = 8;
 constexpr int kBisections = 4;
-constexpr double kWorthwhile = 1e-3;  // relative gain that makes another round worth it
-constexpr double kStep = 0.25;        // metres between the places that skipping may choose from
-constexpr double kSuspicious = 1.02;  // over the straight line: a stretch worth a detour search
+constexpr double kWorthwhile = 1e-3;   // relative gain that makes a move or a detour worth it
+constexpr double kStep = 0.25;         // metres between the places that skipping may choose from
+constexpr double kExcess = 0.02;       // of a stretch's length: worth a detour search
+constexpr double kExcessOfAll = 0.01;  // of the path's length
 constexpr int kDetourCorners = 2;
+constexpr std::size_t kLongestStretch = 3;  // segments that a detour may replace
 
 /// Skips waypoints: from each one goes on to the farthest that can be seen, found by doubling
 /// the stride and then halving it.
-std::vector<Point> skip_waypoints(const FreeSpace& space, const std::vector<Point>& path,
-                                  double radius, const MayReplace& may_replace) {
+std::vector<Point> skip_forwards(const FreeSpace& space, const std::vector<Point>& path,
+                                 double radius, const MayReplace& may_replace) {
   const auto can_skip = [&](std::size_t from, std::size_t to) {
     if (!space.is_free(path[from], path[to], radius)) return false;
     return !may_replace || may_replace(std::span(path).subspan(from, to - from + 1),
@@ -72,40 +74,113 @@ double largest_free_share(const IsFree& is_free) {
   return good;
 }
 
-/// Moves a corner where that shortens the way over it: along one of its two segments, or towards
-/// the line between its neighbours, as far as it stays free. True: it can go altogether.
-bool draw_in(const FreeSpace& space, const Point& before, Point& corner, const Point& after,
-             double radius, const MayReplace& may_replace) {
-  const auto may_become = [&, old = std::array{before, corner, after}](const auto& stretch) {
-    return !may_replace || may_replace(old, stretch);
-  };
-  if (space.is_free(before, after, radius) && may_become(std::array{before, after})) return true;
-  // Along its own segments first: one of the two new segments is part of an old one.
+/// A corner of a path that is made shorter, between its neighbours.
+struct Corner {
+  const Point& before;
+  Point& at;
+  const Point& after;
+
+  double length() const { return length_over(at); }
+  double length_over(const Point& p) const { return (p - before).norm() + (after - p).norm(); }
+};
+
+/// Moves a corner along one of its two segments, as far as it stays free: one of the two new
+/// segments is part of an old one.
+template <typename MayBecome>
+void slide(const FreeSpace& space, Corner& corner, double radius, const MayBecome& may_become) {
+  const Point old = corner.at;
   const double back = largest_free_share([&](double share) {
-    const Point p = corner + share * (before - corner);
-    return space.is_clearly_free(p, after, radius) && may_become(std::array{before, p, after});
+    const Point p = old + share * (corner.before - old);
+    return space.is_clearly_free(p, corner.after, radius) && may_become(p);
   });
   const double on = largest_free_share([&](double share) {
-    const Point p = corner + share * (after - corner);
-    return space.is_clearly_free(before, p, radius) && may_become(std::array{before, p, after});
+    const Point p = old + share * (corner.after - old);
+    return space.is_clearly_free(corner.before, p, radius) && may_become(p);
   });
-  const Point backward = corner + back * (before - corner);
-  const Point onward = corner + on * (after - corner);
-  const auto length_over = [&](const Point& p) { return (p - before).norm() + (after - p).norm(); };
-  corner = length_over(backward) < length_over(onward) ? backward : onward;
-  const Point along = after - before;
+  const Point backward = old + back * (corner.before - old);
+  const Point onward = old + on * (corner.after - old);
+  corner.at = corner.length_over(backward) < corner.length_over(onward) ? backward : onward;
+}
+
+/// Moves a corner towards the line between its neighbours, as far as it stays free.
+template <typename MayBecome>
+void draw_in(const FreeSpace& space, Corner& corner, double radius, const MayBecome& may_become) {
+  const Point old = corner.at, along = corner.after - corner.before;
   const double squared = along.squaredNorm();
   const double t =
-      squared > 0.0 ? std::clamp((corner - before).dot(along) / squared, 0.0, 1.0) : 0.0;
-  const Point target = before + t * along;
+      squared > 0.0 ? std::clamp((old - corner.before).dot(along) / squared, 0.0, 1.0) : 0.0;
+  const Point target = corner.before + t * along;
   const double in = largest_free_share([&](double share) {
-    const Point p = corner + share * (target - corner);
-    return space.is_clearly_free(before, p, radius) && space.is_clearly_free(p, after, radius) &&
-           may_become(std::array{before, p, after});
+    const Point p = old + share * (target - old);
+    return space.is_clearly_free(corner.before, p, radius) &&
+           space.is_clearly_free(p, corner.after, radius) && may_become(p);
   });
-  corner += in * (target - corner);
-  return false;
+  corner.at = old + in * (target - old);
 }
+
+/// The corners of a path pulled taut, round by round.
+class Tightening {
+ public:
+  Tightening(const FreeSpace& space, std::vector<Point> path, double radius,
+             const MayReplace& may_replace)
+      : space_(space),
+        radius_(radius),
+        may_replace_(may_replace),
+        path_(std::move(path)),
+        moved_(path_.size(), true) {}
+
+  /// Slides corners in even rounds, draws them in in odd ones. Whether that was worth it.
+  bool run_round(int round) {
+    bool was_worth_it = false;
+    for (std::size_t i = 1; i + 1 < path_.size();) {
+      if (!moved_[i - 1] && !moved_[i] && !moved_[i + 1]) {
+        ++i;  // as it was when it was last tried
+        continue;
+      }
+      Corner corner{path_[i - 1], path_[i], path_[i + 1]};
+      const double length = corner.length();
+      if (can_go(corner)) {
+        erase(i);
+        was_worth_it = true;
+        continue;
+      }
+      const auto may_become =
+          [&, old = std::array{corner.before, corner.at, corner.after}](const Point& p) {
+            return !may_replace_ || may_replace_(old, std::array{corner.before, p, corner.after});
+          };
+      if (round % 2 == 0) {
+        slide(space_, corner, radius_, may_become);
+      } else {
+        draw_in(space_, corner, radius_, may_become);
+      }
+      moved_[i] = round == 0 || corner.length() < length * (1.0 - kWorthwhile);
+      was_worth_it |= moved_[i];
+      ++i;
+    }
+    return was_worth_it;
+  }
+
+  const std::vector<Point>& path() const { return path_; }
+
+ private:
+  bool can_go(const Corner& corner) const {
+    return space_.is_free(corner.before, corner.after, radius_) &&
+           (!may_replace_ || may_replace_(std::array{corner.before, corner.at, corner.after},
+                                          std::array{corner.before, corner.after}));
+  }
+
+  void erase(std::size_t i) {
+    path_.erase(path_.begin() + static_cast<std::ptrdiff_t>(i));
+    moved_.erase(moved_.begin() + static_cast<std::ptrdiff_t>(i));
+    moved_[i - 1] = moved_[i] = true;
+  }
+
+  const FreeSpace& space_;
+  const double radius_;
+  const MayReplace& may_replace_;
+  std::vector<Point> path_;
+  std::vector<bool> moved_;  // since it, or a neighbour of it, was last tried
+};
 
 }  // namespace
 
@@ -115,39 +190,42 @@ double length_of(const std::vector<Point>& path) {
   return length;
 }
 
-std::vector<Point> shorten(const FreeSpace& space, std::vector<Point> path, double radius,
-                           const Deadline& deadline, const MayReplace& may_replace) {
+std::vector<Point> skip_waypoints(const FreeSpace& space, std::vector<Point> path, double radius,
+                                  const MayReplace& may_replace) {
   if (path.size() < 3) return path;
   for (int direction = 0; direction < 2; ++direction) {  // what one end cannot see, the other may
-    path = skip_waypoints(space, subdivide(path, kStep), radius, may_replace);
+    path = skip_forwards(space, subdivide(path, kStep), radius, may_replace);
     std::reverse(path.begin(), path.end());
-  }
-  double length = length_of(path);
-  for (int round = 0; round < kRounds && path.size() > 2 && !deadline.has_passed(); ++round) {
-    for (std::size_t i = 1; i + 1 < path.size();) {
-      if (draw_in(space, path[i - 1], path[i], path[i + 1], radius, may_replace)) {
-        path.erase(path.begin() + static_cast<std::ptrdiff_t>(i));
-      } else {
-        ++i;
-      }
-    }
-    const double before = length;
-    length = length_of(path);
-    if (length > before * (1.0 - kWorthwhile)) break;
   }
   return path;
 }
 
+std::vector<Point> draw_corners_in(const FreeSpace& space, std::vector<Point> path, double radius,
+                                   const Deadline& deadline, const MayReplace& may_replace) {
+  Tightening tightening(space, std::move(path), radius, may_replace);
+  for (int round = 0; round < kRounds && !deadline.has_passed(); ++round)
+    if (!tightening.run_round(round)) break;
+  return tightening.path();
+}
+
+std::vector<Point> shorten(const FreeSpace& space, std::vector<Point> path, double radius,
+                           const Deadline& deadline, const MayReplace& may_replace) {
+  path = skip_waypoints(space, std::move(path), radius, may_replace);
+  return draw_corners_in(space, std::move(path), radius, deadline, may_replace);
+}
+
 std::vector<Point> redirect(const EsdfMap& esdf, const FreeSpace& space, std::vector<Point> path,
                             double radius, const Deadline& deadline) {
+  const double total = length_of(path);
   // The longest stretches first: what they find makes the shorter ones needless.
-  for (std::size_t stretch = path.size() - 1; stretch >= 2; --stretch) {
+  for (std::size_t stretch = std::min(kLongestStretch, path.size() - 1); stretch >= 2; --stretch) {
     for (std::size_t i = 0; i + stretch < path.size() && !deadline.has_passed(); ++i) {
       const auto first = path.begin() + static_cast<std::ptrdiff_t>(i);
       const auto last = first + static_cast<std::ptrdiff_t>(stretch);
       double length = 0.0;
       for (auto p = first; p != last; ++p) length += (*(p + 1) - *p).norm();
-      if (length < kSuspicious * (*last - *first).norm()) continue;
+      if (length - (*last - *first).norm() < std::max(kExcess * length, kExcessOfAll * total))
+        continue;
       const Detour detour = find_detour(esdf, space, *first, *last, radius,
                                         length * (1.0 - kWorthwhile), kDetourCorners);
       if (!detour.found()) continue;

@@ -13,13 +13,23 @@ namespace ridgeway::detail {
 
 double length_of(const std::vector<Point>& path);
 
-/// Pulls a free path tight: greedily skips waypoints while the straight segment is free, then
-/// draws each remaining corner towards the line between its neighbours as far as it stays free,
-/// until that gains less than a thousandth. Every segment of the result is free at the radius.
-/// `may_replace`: whether a stretch of the path may become another with the same ends; null: any.
+/// Whether a stretch of a path may become another with the same ends; null: any may.
 using MayReplace = std::function<bool(std::span<const Point>, std::span<const Point>)>;
+
+/// Pulls a free path tight: skips waypoints, then draws the remaining corners in. Every segment of
+/// the result is free at the radius.
 std::vector<Point> shorten(const FreeSpace& space, std::vector<Point> path, double radius,
                            const Deadline& deadline, const MayReplace& may_replace = {});
+
+/// Its first half: goes from place to place on the path, which may lie between waypoints, straight
+/// on while that is free.
+std::vector<Point> skip_waypoints(const FreeSpace& space, std::vector<Point> path, double radius,
+                                  const MayReplace& may_replace = {});
+
+/// Its second half: moves each corner along its segments and towards the line between its
+/// neighbours as far as they stay free, until that gains next to nothing.
+std::vector<Point> draw_corners_in(const FreeSpace& space, std::vector<Point> path, double radius,
+                                   const Deadline& deadline, const MayReplace& may_replace = {});
 
 /// Looks past the corners of a shortened path: where a stretch of it is much longer than the
 /// straight line, tries ways on other sides of what blocks the line, and keeps those that are

@@ -7,6 +7,8 @@
 namespace ridgeway {
 namespace {
 
+const std::string kBenchmark = std::string(RIDGEWAY_DATA_DIR) + "/warframe/Simple.3dmap";
+
 class CliBench : public Program {
  protected:
   /// A room of 4 x 4 x 2 m.
@@ -77,7 +79,73 @@ TEST_F(CliBench, MazeHasARowForEveryPlanner) {
   EXPECT_EQ(rows[3]["length_over_esdf"]["median"], 1.0);
   EXPECT_EQ(rows[6]["planner"], "graph");
   EXPECT_LE(rows[6]["length"]["median"], rows[5]["length"]["median"]);
-  EXPECT_GT(read_whole(folder_ / "out/maze_graph.png").size(), 1000u);
+  for (const char* file : {"maze.json", "maze.csv", "maze.png", "maze.svg"})
+    EXPECT_GT(read_whole(folder_ / "out" / file).size(), 100u) << file;
+  EXPECT_EQ(file_count(), 5u);  // one picture of all paths; and the folder
+}
+
+TEST_F(CliBench, GridReproducesStoredOptimaAndReportsEveryRatio) {
+  const Outcome outcome =
+      run({"bench", "grid", kBenchmark, "--exact", "20", "-o", path("out"), "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  const auto json = outcome.json();
+  EXPECT_EQ(json["radius"], 0.5);
+  ASSERT_EQ(json["rows"].size(), 1u);
+  const auto row = json["rows"][0];
+  EXPECT_EQ(row["map"], "Simple");
+  for (const char* key : {"scenarios", "solvable", "solved"}) EXPECT_EQ(row[key], 250) << key;
+  EXPECT_EQ(row["success"], 1.0);
+  EXPECT_EQ(row["optimum_checked"], 20);
+  EXPECT_EQ(row["optimum_reproduced"], 20);
+  EXPECT_GT(row["build_seconds"], 0.0);
+  EXPECT_GT(row["vertices"], 0);
+  EXPECT_GT(row["edges"], 0);
+  for (const auto& answers : {row, row["raw"]}) {
+    const auto length = answers["length_over_optimum"];
+    EXPECT_LE(length["median"], length["p95"]);
+    EXPECT_LE(length["p95"], length["p99"]);
+    EXPECT_LE(length["p99"], length["max"]);
+    EXPECT_GT(answers["microseconds"]["median"], 0.0);
+    EXPECT_LE(answers["microseconds"]["median"], answers["microseconds"]["p95"]);
+  }
+  EXPECT_LT(row["length_over_optimum"]["median"], row["raw"]["length_over_optimum"]["median"]);
+  for (const char* file : {"grid.json", "grid.csv", "grid.png", "grid.svg"})
+    EXPECT_GT(read_whole(folder_ / "out" / file).size(), 100u) << file;
+  EXPECT_NE(read_whole(folder_ / "out/grid.csv").find("raw.length_over_optimum.p99"),
+            std::string::npos);
+  const std::string lines = read_whole(folder_ / "out/grid_scenarios.csv");
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 251);
+}
+
+TEST_F(CliBench, GridSpreadsASubsetAndTakesEitherNameOfTheScenarios) {
+  std::filesystem::copy_file(kBenchmark, path("Simple.3dmap"));
+  expect_refused({"bench", "grid", path("Simple.3dmap")},
+                 {"Simple.3dmap", "no scenarios", "Simple.3dmap.3dscen", "Simple.3dscen"});
+  std::filesystem::copy_file(kBenchmark + ".3dscen", path("Simple.3dscen"));
+  const Outcome outcome =
+      run({"bench", "grid", path("Simple.3dmap"), "--scenarios", "7", "--exact", "0", "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto row = outcome.json()["rows"][0];
+  EXPECT_EQ(row["scenarios"], 7);
+  EXPECT_EQ(row["solved"], 7);
+  EXPECT_EQ(row["optimum_checked"], 0);
+}
+
+TEST_F(CliBench, GridRefusesWhatIsNoBenchmark) {
+  write_whole(folder_ / "short.3dmap", "vox");
+  expect_refused({"bench", "grid", path("short.3dmap")}, {"short.3dmap", "MovingAI"});
+  expect_refused({"bench", "grid", path("none.3dmap")}, {"none.3dmap"});
+  write_whole(folder_ / "a.3dmap", "voxel 3 3 3\n");
+  write_whole(folder_ / "a.3dscen", "version 1\na.3dmap\n");
+  expect_refused({"bench", "grid", path("a.3dmap")}, {"a.3dscen", "no scenarios"});
+  write_whole(folder_ / "a.3dscen", "version 1\na.3dmap\n0 0 0 0 0 0 0 1\n");
+  expect_refused({"bench", "grid", path("a.3dmap")}, {"'a'", "optimum 0"});
+  write_whole(folder_ / "a.3dscen", "version 1\nb.3dmap\n0 0 0 0 0 2 2 1\n");
+  const Outcome other = run({"bench", "grid", path("a.3dmap")});
+  EXPECT_EQ(other.code, 0);
+  EXPECT_NE(other.err.find("b.3dmap"), std::string::npos) << other.err;
+  expect_refused({"bench", "grid"}, {"maps"});
 }
 
 TEST_F(CliBench, TrajectoryHasARowForEveryMapAndNoViolation) {

@@ -91,6 +91,29 @@ TEST(Picture, WithoutPathNothingIsRed) {
   EXPECT_EQ(count_pixels(open_png(folder / "plan.png").get(), 0xd62628), 0u);
 }
 
+TEST(Picture, EveryPathToCompareHasItsColourAndALineInTheLegend) {
+  const TemporaryFolder folder;
+  const Roadmap roadmap = synthetic_roadmap();
+  PictureConfig config;
+  config.diagram = config.graph = false;
+  const auto height = [&] {
+    draw_floor_plan(roadmap, {}, folder / "plan.png", config);
+    return cairo_image_surface_get_height(open_png(folder / "plan.png").get());
+  };
+  const int without = height();
+  const std::vector<Point> ends = diagonal(roadmap);
+  for (int i = 0; i < 8; ++i)  // side by side
+    config.paths.push_back({"planner " + std::to_string(i),
+                            {ends[0] + Point(0.1 * i, 0, 0), ends[1] + Point(0.1 * i, 0, 0)}});
+  EXPECT_GT(height(), without);  // more rows of the legend, below the map
+  const Surface image = open_png(folder / "plan.png");
+  for (const std::uint32_t colour :
+       {0x295c94u, 0xd65e00u, 0x008c73u, 0xa64d99u, 0xe69e00u, 0x57b3e8u, 0x735233u, 0x404047u})
+    EXPECT_GT(count_pixels(image.get(), colour), 1000u) << std::hex << colour;  // legend: 200
+  config.paths.push_back({"one too many", ends});
+  EXPECT_THROW(height(), InputError);
+}
+
 TEST(Picture, SvgIsOneDocument) {
   const TemporaryFolder folder;
   const Roadmap roadmap = synthetic_roadmap();

@@ -31,6 +31,12 @@ struct Chart {
   std::string limit_label;
 };
 
+/// One of several paths of a picture.
+struct NamedPath {
+  std::string name;  ///< in the legend, before the path's length
+  std::vector<Point> waypoints;
+};
+
 struct PictureConfig {
   int width = 1600;  ///< pixels, 400 to 16000; the height follows the map, up to 1.5 widths
   /// Not given: between the 20th and the 80th percentile of the free voxels' heights, so that
@@ -43,6 +49,7 @@ struct PictureConfig {
   std::vector<Point> raw_path;  ///< the path before it was shortened, dashed; may be empty
   std::string path_label = "path";
   std::string raw_path_label = "before shortening";
+  std::vector<NamedPath> paths;  ///< to compare, at most eight, each in its colour; none red
   std::vector<Chart> charts;
 
   /// Throws InputError naming the bad field.
@@ -51,11 +58,12 @@ struct PictureConfig {
 
 /// Draws the map from above, x to the right and y up, as a PNG or SVG picture by the extension of
 /// `out`: known free space white, obstacles dark by the occupied share of each column within the
-/// height band, unknown pale; over it the skeleton diagram, the graph, and the path (may be empty)
-/// with its start and goal. With title, coordinates, scale bar, legend and charts. A map of any
-/// extent: the picture's cells cover several voxels where there are more voxels than pixels. Throws
-/// InputError for a map without known voxels, another extension, a file that cannot be written. The
-/// file is replaced whole or not at all.
+/// height band, unknown pale; over it the skeleton diagram, the graph, the paths to compare, and
+/// the path (may be empty); start and goal of the path, without one of the first of the others.
+/// With title, coordinates, scale bar, legend and charts. A map of any extent: the picture's cells
+/// cover several voxels where there are more voxels than pixels. Throws InputError for a map
+/// without known voxels, another extension, a file that cannot be written. The file is replaced
+/// whole or not at all.
 void draw_floor_plan(const Roadmap& roadmap, std::span<const Point> path,
                      const std::filesystem::path& out, const PictureConfig& config = {});
 

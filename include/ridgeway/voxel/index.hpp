@@ -82,11 +82,17 @@ inline Point centre_of(const VoxelIndex& v, double voxel_size) {
   return Point(v.x + 0.5, v.y + 0.5, v.z + 0.5) * voxel_size;
 }
 
+/// The largest whole number not above x, within int. (A plain x86-64 has no instruction for it, and
+/// std::floor is a call.)
+inline int floor_to_int(double x) {
+  const int truncated = static_cast<int>(x);
+  return truncated - (static_cast<double>(truncated) > x ? 1 : 0);
+}
+
 /// The voxel that holds a point; the point must lie within +-1e9 voxels.
 inline VoxelIndex voxel_at(const Point& p, double voxel_size) {
-  return {static_cast<int>(std::floor(p.x() / voxel_size)),
-          static_cast<int>(std::floor(p.y() / voxel_size)),
-          static_cast<int>(std::floor(p.z() / voxel_size))};
+  return {floor_to_int(p.x() / voxel_size), floor_to_int(p.y() / voxel_size),
+          floor_to_int(p.z() / voxel_size)};
 }
 
 }  // namespace ridgeway

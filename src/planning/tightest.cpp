@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "tightest.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+#include "endpoint.hpp"
+#include "path_cost.hpp"
+#include "ridgeway/esdf/free_space.hpp"
+#include "shorten.hpp"
+#include "voxel_route.hpp"
+
+namespace ridgeway::detail {
+namespace {
+
+constexpr double kNearlyStraight = 1.01;  // over the straight line: not worth another route
+constexpr double kMostlyShrinksTo = 0.7;  // of its length a route seldom becomes shorter
+constexpr double kMostlyDrawnInTo = 0.9;  // nor, once waypoints are skipped, of that length
+constexpr double kSuspicious = 1.15;      // over the straight line: worth a second opinion
+constexpr double kVerySuspicious = 1.25;  // worth a finer one
+constexpr double kQuickWeight = 1.2;      // of those searches' heuristic
+constexpr int kQuickExpansions = 1500;    // less than a millisecond
+constexpr double kQuickReach = 125.0;     // steps of a path that they seldom find the end of
+constexpr double kLatticeExcess = 1.05;   // by which a lattice path shrinks when it is shortened
+
+/// The nearest voxel with even coordinates that a point can move to.
+VoxelId even_voxel(const EsdfMap& esdf, const FreeSpace& space, const Point& p, double radius) {
+  const VoxelIndex v = voxel_at(p, esdf.voxel_size);
+  const double threshold = squared_threshold(radius, esdf.voxel_size);
+  for (int i = 0; i < 8; ++i) {
+    const auto even = [&](int at, int bit) { return (at & ~1) + 2 * (at & 1 & (i >> bit)); };
+    const VoxelIndex near{even(v.x, 0), even(v.y, 1), even(v.z, 2)};
+    const VoxelId id = esdf.layout.find(near);
+    if (id != kNoVoxel && esdf.state[id] == VoxelState::kFree && esdf.squared[id] >= threshold &&
+        space.is_free(p, centre_of(near, esdf.voxel_size), radius))
+      return id;
+  }
+  return kNoVoxel;
+}
+
+/// A second opinion on a path that stays long: a quick search over every voxel, or every second
+/// one, for one that is shorter. Empty where it finds none in its small budget.
+Route search_quickly(const EsdfMap& esdf, const FreeSpace& space, const Point& start,
+                     const Point& goal, double radius, int stride, double longest,
+                     const Deadline& deadline) {
+  const auto voxel_of = [&](const Point& p) {
+    return stride == 1 ? find_endpoint(esdf, p, radius).voxel : even_voxel(esdf, space, p, radius);
+  };
+  const VoxelId from = voxel_of(start), to = voxel_of(goal);
+  if (from == kNoVoxel || to == kNoVoxel) return {};
+  const LatticeOptions options{.stride = stride,
+                               .weight = kQuickWeight,
+                               .longest = longest * kLatticeExcess / esdf.voxel_size,
+                               .most_expansions = kQuickExpansions};
+  const LatticePath path = search_lattice(esdf, from, to, radius, options, deadline);
+  if (path.status != SearchStatus::kFound) return {};
+  return route_over_voxels(esdf, {from, to, start, goal, radius}, path.voxels);
+}
+
+/// As tightest(), by cost; short paths count among what it chooses from.
+Route cheapest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found,
+               const RouteQuery& query, const Deadline& deadline) {
+  const PathCost cost(space, query.radius, query.prefer_clearance);
+  const auto is_kept = [&](std::span<const Point> before, std::span<const Point> after) {
+    return cost.is_kept(before, after);
+  };
+  Route best;
+  double least = std::numeric_limits<double>::infinity();
+  const auto offer = [&](Route route) {
+    const double own = cost.of(route);
+    if (own >= least) return;
+    least = own;
+    best = std::move(route);
+  };
+  if (space.is_free(query.start, query.goal, query.radius)) offer({query.start, query.goal});
+  for (std::optional<Route> route = found.route; route;) {
+    Route tight = shorten(space, *route, query.radius, deadline);
+    offer(redirect(esdf, space, tight, query.radius, deadline));
+    offer(std::move(tight));
+    offer(shorten(space, std::move(*route), query.radius, deadline, is_kept));
+    if (!found.next_alternative || deadline.has_passed()) break;
+    route = found.next_alternative();
+  }
+  return best;
+}
+
+}  // namespace
+
+namespace {
+
+/// The shortest of the route found and its alternatives, each pulled tight.
+Route best_of_alternatives(const FreeSpace& space, RouteResult& found, double radius, double enough,
+                           const Deadline& deadline) {
+  Route best = shorten(space, found.route, radius, deadline);
+  double shortest = length_of(best);
+  while (found.next_alternative && shortest > enough && !deadline.has_passed()) {
+    std::optional<Route> route = found.next_alternative();
+    if (!route) break;
+    if (length_of(*route) * kMostlyShrinksTo > shortest) continue;
+    Route candidate = skip_waypoints(space, std::move(*route), radius);
+    if (length_of(candidate) * kMostlyDrawnInTo > shortest) continue;
+    candidate = draw_corners_in(space, std::move(candidate), radius, deadline);
+    const double length = length_of(candidate);
+    if (length >= shortest) continue;
+    shortest = length;
+    best = std::move(candidate);
+  }
+  return best;
+}
+
+}  // namespace
+
+Route tightest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found,
+               const RouteQuery& query, const Deadline& deadline) {
+  if (query.prefer_clearance > 0.0) return cheapest(esdf, space, found, query, deadline);
+  const double radius = query.radius;
+  const double straight = (query.goal - query.start).norm();
+  const double enough = kNearlyStraight * straight;
+  Route best = best_of_alternatives(space, found, radius, enough, deadline);
+  if (length_of(best) > enough && best.size() > 2) {
+    Route redirected = redirect(esdf, space, best, radius, deadline);
+    if (redirected != best) best = shorten(space, std::move(redirected), radius, deadline);
+  }
+  for (const int stride : {2, 1}) {  // the coarse one is quick, the fine one fits narrow places
+    const double shortest = length_of(best);
+    const double suspicious = stride == 2 ? kSuspicious : kVerySuspicious;
+    if (shortest <= suspicious * straight || deadline.has_passed()) break;
+    if (shortest > kQuickReach * stride * esdf.voxel_size) continue;
+    Route other =
+        search_quickly(esdf, space, best.front(), best.back(), radius, stride, shortest, deadline);
+    if (!other.empty()) other = shorten(space, std::move(other), radius, deadline);
+    if (!other.empty() && length_of(other) < shortest) best = std::move(other);
+  }
+  return best;
+}
+
+}  // namespace ridgeway::detail

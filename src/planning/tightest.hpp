@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include "route.hpp"
+
+namespace ridgeway::detail {
+
+/// The route pulled tight; where that stays longer than the straight line, alternatives are tried
+/// as well, and ways past what blocks the line. Returns the shortest. Where clearance is preferred
+/// it is pulled only as far as it gets no costlier, and the cheapest of the alternatives returned.
+Route tightest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found,
+               const RouteQuery& query, const Deadline& deadline);
+
+}  // namespace ridgeway::detail
