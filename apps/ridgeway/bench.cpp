@@ -17,6 +17,7 @@ void add_bench_command(CLI::App& app, const Globals& globals, Command& chosen) {
   add_bench_grid(*bench, globals, chosen);
   add_bench_maze(*bench, globals, chosen);
   add_bench_noise(*bench, globals, chosen);
+  add_bench_trajectory(*bench, globals, chosen);
   bench->footer("Example:\n  ridgeway bench noise -o results");
 }
 

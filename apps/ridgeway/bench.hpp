@@ -11,5 +11,6 @@ void add_bench_fusion(CLI::App& bench, const Globals& globals, Command& chosen);
 void add_bench_grid(CLI::App& bench, const Globals& globals, Command& chosen);
 void add_bench_maze(CLI::App& bench, const Globals& globals, Command& chosen);
 void add_bench_noise(CLI::App& bench, const Globals& globals, Command& chosen);
+void add_bench_trajectory(CLI::App& bench, const Globals& globals, Command& chosen);
 
 }  // namespace ridgeway::cli

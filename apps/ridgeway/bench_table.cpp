@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
@@ -65,7 +66,9 @@ Lines turned(const Lines& lines) {
 std::string cell_text(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_null()) return "-";
-  return value.is_number_float() ? text_of(value.get<double>()) : value.dump();
+  if (!value.is_number_float()) return value.dump();
+  const double number = value.get<double>();
+  return text_of(number, std::abs(number) < 0.1 ? 5 : 3);
 }
 
 }  // namespace

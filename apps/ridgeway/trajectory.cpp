@@ -13,10 +13,9 @@
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "flight_picture.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/io/path_io.hpp"
-#include "ridgeway/io/picture.hpp"
 #include "ridgeway/io/ridge_file.hpp"
 #include "ridgeway/io/trajectory_io.hpp"
 #include "ridgeway/planning/plan.hpp"
@@ -58,37 +57,6 @@ std::string explain_no_trajectory(const TrajectoryResult& result) {
     return "the robot can neither follow the path from its motion nor brake in free space: give a "
            "lower --from-velocity or a higher --max-acceleration";
   return "the path is not free at the radius";
-}
-
-/// Speed, acceleration and clearance over time.
-std::vector<Chart> charts_of(const FreeSpace& space, const std::vector<TrajectoryState>& states,
-                             const TrajectoryConfig& config) {
-  Chart speed{"speed (m/s)", {}, {}, config.limits.max_speed, "limit"};
-  Chart acceleration{"acceleration (m/s\u00b2)", {}, {}, config.limits.max_acceleration, "limit"};
-  Chart clearance{"clearance (m)", {}, {}, config.radius, "robot's radius"};
-  for (const TrajectoryState& state : states) {
-    for (Chart* chart : {&speed, &acceleration, &clearance}) chart->times.push_back(state.time);
-    speed.values.push_back(state.velocity.norm());
-    acceleration.values.push_back(state.acceleration.norm());
-    clearance.values.push_back(space.distance(state.position));
-  }
-  return {speed, acceleration, clearance};
-}
-
-void draw(const Roadmap& roadmap, const PlanResult& path, const TrajectoryResult& flown,
-          const TrajectoryConfig& config, const std::string& file) {
-  constexpr double kPoints = 1500.0;
-  const auto states = flown.trajectory.sample(std::max(flown.duration / kPoints, 1e-3));
-  std::vector<Point> curve;
-  curve.reserve(states.size());
-  for (const TrajectoryState& state : states) curve.push_back(state.position);
-  PictureConfig picture;
-  picture.diagram = picture.graph = false;
-  picture.raw_path = path.waypoints;
-  picture.path_label = "trajectory";
-  picture.raw_path_label = "path";
-  picture.charts = charts_of(FreeSpace(roadmap.esdf), states, config);
-  draw_floor_plan(roadmap, curve, file, picture);
 }
 
 void print_result(const PlanResult& path, const TrajectoryResult& flown, double radius) {
@@ -150,7 +118,8 @@ int run(const Options& options, const Globals& globals) {
                      "gives more than a million samples of " + text_of(flown.duration) + " s",
                      "give a larger one");
   if (!options.output.empty()) write_trajectory(path, flown, options.output, options.step);
-  if (!options.picture.empty()) draw(roadmap, path, flown, config, options.picture);
+  if (!options.picture.empty())
+    draw_flight(roadmap, path.waypoints, flown, config, options.picture);
   if (globals.json)
     print_json(Json::parse(trajectory_json(path, flown, options.step)));
   else

@@ -9,21 +9,8 @@
 namespace ridgeway::detail {
 namespace {
 
-std::vector<Point> place_knots(std::span<const Point> path, double spacing) {
-  std::vector<Point> knots{path.front()};
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const bool is_goal = i + 1 == path.size();
-    const Point from = knots.back(), along = path[i] - from;
-    const double length = along.norm();
-    if (length < 0.25 * spacing && !is_goal) continue;
-    const int pieces = std::max(1, static_cast<int>(std::ceil(length / spacing)));
-    for (int k = 1; k < pieces; ++k) knots.emplace_back(from + along * k / pieces);
-    knots.push_back(path[i]);
-  }
-  if (knots.size() > 2 && (knots.back() - knots[knots.size() - 2]).norm() < 0.25 * spacing)
-    knots.erase(knots.end() - 2);
-  return knots;
-}
+constexpr double kLeastPiece = 0.25;  // of the spacing: no knots closer, but for ends
+constexpr double kRestPiece = 0.15;   // of the piece next to a rest, cut off
 
 /// Speed at which a corner can be rounded within half of the shorter leg: the circle that touches
 /// both legs there has radius leg / 2 / tan(turn / 2).
@@ -65,9 +52,32 @@ double profile_duration(double length, double from, double to, const MotionLimit
 
 }  // namespace
 
-SpaceSpline initial_spline(std::span<const Point> path, const StartState& start, double spacing,
+std::vector<Point> place_knots(std::span<const Point> path, double spacing) {
+  std::vector<Point> knots{path.front()};
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const bool is_goal = i + 1 == path.size();
+    const Point from = knots.back(), along = path[i] - from;
+    const double length = along.norm();
+    if (length < kLeastPiece * spacing && !is_goal) continue;
+    const int pieces = std::max(1, static_cast<int>(std::ceil(length / spacing)));
+    for (int k = 1; k < pieces; ++k) knots.emplace_back(from + along * k / pieces);
+    knots.push_back(path[i]);
+  }
+  if (knots.size() > 2 && (knots.back() - knots[knots.size() - 2]).norm() < kLeastPiece * spacing)
+    knots.erase(knots.end() - 2);
+  return knots;
+}
+
+void add_knots_near_rest(bool starts_at_rest, double spacing, std::vector<Point>& knots) {
+  const Point first = knots[1] - knots[0], last = knots[knots.size() - 2] - knots.back();
+  const double shortest = kLeastPiece * spacing;
+  if (last.norm() > shortest) knots.insert(knots.end() - 1, knots.back() + kRestPiece * last);
+  if (starts_at_rest && first.norm() > shortest)
+    knots.insert(knots.begin() + 1, knots[0] + kRestPiece * first);
+}
+
+SpaceSpline initial_spline(const std::vector<Point>& knots, const StartState& start,
                            const SplineCostConfig& config) {
-  const std::vector<Point> knots = place_knots(path, spacing);
   const std::vector<double> speeds =
       knot_speeds(knots, std::min(start.velocity.norm(), config.limits.max_speed), config.limits);
   const int rows = knot_size(config.smoothness);

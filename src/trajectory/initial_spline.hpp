@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "ridgeway/trajectory/spline_objective.hpp"
 
@@ -15,11 +16,18 @@ struct StartState {
   bool is_rest() const { return velocity.isZero(0.0) && acceleration.isZero(0.0); }
 };
 
-/// A spline along a path of straight segments (at least two points, no two after one another the
-/// same), at rest at its goal: knots at the corners and in between, no farther apart than
-/// `spacing`; corners closer than a quarter of that to a knot are passed over. Durations are those
-/// of a trapezoidal speed profile that slows down at corners.
-SpaceSpline initial_spline(std::span<const Point> path, const StartState& start, double spacing,
+/// Knots along a path of straight segments (at least two points, no two after one another the
+/// same): at its ends, its corners and in between, no farther apart than `spacing`. Corners closer
+/// than a quarter of that to a knot are passed over.
+std::vector<Point> place_knots(std::span<const Point> path, double spacing);
+
+/// One more close to the goal, and to a start at rest. There all derivatives are 0, so that on a
+/// long piece the robot can but creep; on a short one its acceleration rises at once.
+void add_knots_near_rest(bool starts_at_rest, double spacing, std::vector<Point>& knots);
+
+/// A spline through knots (at least two, no two after one another the same), at rest at the last.
+/// Durations are those of a trapezoidal speed profile that slows down at corners.
+SpaceSpline initial_spline(const std::vector<Point>& knots, const StartState& start,
                            const SplineCostConfig& config);
 
 }  // namespace ridgeway::detail

@@ -14,6 +14,7 @@
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/trajectory/verify_trajectory.hpp"
 #include "smooth_path.hpp"
+#include "speed_scaling.hpp"
 #include "straight_motion.hpp"
 #include "voxel_reach.hpp"
 #include "yaw.hpp"
@@ -154,6 +155,21 @@ TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> pat
   }
   describe(esdf, points, config, result);
   return finish(TrajectoryStatus::kOk);
+}
+
+Trajectory plain_spline(std::span<const Point> path, const TrajectoryConfig& config) {
+  config.validate();
+  const std::vector<Point> points = distinct_points(path);
+  if (points.size() == 1) return {{standing_at(points.front())}};
+  SpaceSpline spline =
+      detail::initial_spline(detail::place_knots(points, detail::knot_spacing(config)), {},
+                             {.smoothness = config.smoothness, .limits = config.limits});
+  MinimumSpline(config.smoothness, spline.durations, spline.fixed).solve(spline.derivatives);
+  Trajectory trajectory = spline.trajectory(config.smoothness);
+  detail::scale_to_limits(trajectory, config.limits);
+  detail::assign_yaw(trajectory, knot_size(config.smoothness), config.limits.max_yaw_rate,
+                     config.start_yaw, config.follow_yaw);
+  return trajectory;
 }
 
 }  // namespace ridgeway

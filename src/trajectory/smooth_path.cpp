@@ -66,6 +66,12 @@ std::vector<std::size_t> nearest_corners(std::span<const Point> path,
 
 }  // namespace
 
+double knot_spacing(const TrajectoryConfig& config) {
+  const MotionLimits& limits = config.limits;
+  return std::max(kSpacing * limits.max_speed * limits.max_speed / limits.max_acceleration,
+                  kLeastSpacing * config.radius);
+}
+
 SmoothPath::SmoothPath(const EsdfMap& esdf, const TrajectoryConfig& config,
                        TrajectoryResult& result)
     : esdf_(esdf), space_(esdf), config_(config), result_(result) {
@@ -134,16 +140,17 @@ std::optional<Trajectory> SmoothPath::smooth_or_stop(std::span<const Point> path
 
 /// Tries at a trajectory without stops; the last of them where none holds.
 SmoothPath::Attempt SmoothPath::smooth(std::span<const Point> path, const StartState& start) {
-  const MotionLimits& limits = config_.limits;
-  const double spacing =
-      std::max(kSpacing * limits.max_speed * limits.max_speed / limits.max_acceleration,
-               kLeastSpacing * config_.radius);
+  const double spacing = knot_spacing(config_);
   SpaceSpline spline;
   Attempt attempt;
   for (const Try& t : kTries) {
     SplineCostConfig cost = cost_;
     cost.collision_weight *= t.push;
-    if (t.anew) spline = initial_spline(path, start, t.spacing * spacing, cost);
+    if (t.anew) {
+      std::vector<Point> knots = place_knots(path, t.spacing * spacing);
+      add_knots_near_rest(start.is_rest(), t.spacing * spacing, knots);
+      spline = initial_spline(knots, start, cost);
+    }
     attempt = optimise(spline, cost);
     if (!attempt.holds()) continue;
     note(t.step);

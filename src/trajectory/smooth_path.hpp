@@ -12,6 +12,9 @@
 
 namespace ridgeway::detail {
 
+/// Metres between the knots of the first try, at most.
+double knot_spacing(const TrajectoryConfig& config);
+
 /// The steps from a free path to a trajectory (without yaw) that holds; reports what it took into
 /// the result as it goes.
 class SmoothPath {

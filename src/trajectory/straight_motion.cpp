@@ -10,7 +10,7 @@ namespace ridgeway::detail {
 namespace {
 
 constexpr double kSteepest = 1.875;     // largest slope of the rise 10 x^3 - 15 x^4 + 6 x^5
-constexpr double kRiseOfStage = 0.25;   // rise over (rise + hold)
+constexpr double kRiseOfStage = 0.1;    // rise over (rise + hold)
 constexpr double kWithin = 1.0 - 1e-5;  // of a limit, so that certified peaks hold it
 
 struct Profile {

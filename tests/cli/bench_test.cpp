@@ -148,7 +148,37 @@ TEST_F(CliBench, GridRefusesWhatIsNoBenchmark) {
   expect_refused({"bench", "grid"}, {"maps"});
 }
 
+TEST_F(CliBench, TrajectoryHasARowForEveryMapAndNoViolation) {
+  const std::string map = std::string(RIDGEWAY_DATA_DIR) + "/fr_079.bt";
+  const Outcome outcome = run({"bench", "trajectory", map, "--worlds", "hall", "--voxel-size",
+                               "0.2", "--queries", "5", "-o", path("out"), "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto rows = outcome.json()["rows"];
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0]["map"], "hall");
+  EXPECT_EQ(rows[1]["map"], "fr_079");
+  for (const auto& row : rows) {
+    EXPECT_EQ(row["queries"], 5);
+    EXPECT_EQ(row["solved"], 5);
+    EXPECT_EQ(row["violations"], 0);
+    EXPECT_EQ(row["longer_than_stop_and_go"], 0);
+    EXPECT_LE(row["duration_over_stop_and_go"]["median"], 1.0);
+    EXPECT_GT(row["seconds"]["p95"], 0.0);
+    EXPECT_EQ(row["fallbacks"].get<int>() + row["steps"]["smooth"].get<int>(), 5);
+    EXPECT_TRUE(row["plain_spline"].contains("success"));
+  }
+  for (const char* file : {"trajectory.json", "trajectory.csv", "trajectory_durations.png",
+                           "trajectory_hall.svg", "trajectory_fr_079.png"})
+    EXPECT_GT(read_whole(folder_ / "out" / file).size(), 100u) << file;
+}
+
 TEST_F(CliBench, BadArgumentsAreRefused) {
+  EXPECT_EQ(run({"bench", "trajectory", "--worlds", "none"}).code, 1);
+  EXPECT_EQ(run({"bench", "trajectory", "--worlds", "moon"}).code, 1);
+  EXPECT_EQ(run({"bench", "trajectory", "--worlds", "none", path("none.bt")}).code, 1);
+  EXPECT_EQ(run({"bench", "trajectory", "--min-clearance", "-1"}).code, 1);
+  EXPECT_EQ(run({"bench", "trajectory", "--max-speed", "0"}).code, 1);
+  EXPECT_EQ(run({"bench", "trajectory", "--worlds", "hall,hall"}).code, 1);
   EXPECT_EQ(run({"bench", "maze", "--min-clearance", "2"}).code, 1);
   EXPECT_EQ(run({"bench"}).code, 1);
   EXPECT_EQ(run({"bench", "noise", "--world", path("none.yaml")}).code, 1);

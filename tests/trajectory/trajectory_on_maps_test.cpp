@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <random>
 
-#include "flight_judge.hpp"
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/experiments/flight_judge.hpp"
 #include "ridgeway/io/load_map.hpp"
 #include "ridgeway/mapping/world_map.hpp"
 #include "ridgeway/planning/check.hpp"
@@ -42,7 +42,7 @@ double length_of(const std::vector<Point>& path) {
 void fly(const OccupancyMap& map, const BuildConfig& build, std::size_t queries, Tally& tally,
          Smoothness smoothness = Smoothness::kSnap) {
   const Roadmap roadmap = build_roadmap(map, build).roadmap;
-  const testing::FlightJudge judge(map, build.unknown);
+  const FlightJudge judge(map, build.unknown);
   const CheckReport report = check_roadmap(roadmap, {.queries = queries, .seed = 5});
   for (const CheckedPath& path : report.paths) {
     SCOPED_TRACE(tally.flown);
@@ -51,9 +51,9 @@ void fly(const OccupancyMap& map, const BuildConfig& build, std::size_t queries,
     config.smoothness = smoothness;
     const TrajectoryResult result = plan_trajectory(roadmap.esdf, path.waypoints, config);
     ASSERT_TRUE(result.ok()) << name_of(result.status);
-    const auto complaint =
-        judge.complaint(result, path.waypoints.front(), path.waypoints.back(), config);
-    ASSERT_FALSE(complaint) << *complaint << ", " << name_of(result.step);
+    const FlightVerdict verdict =
+        judge.judge(result, path.waypoints.front(), path.waypoints.back(), config);
+    ASSERT_EQ(verdict.complaint, "") << name_of(result.step);
     ASSERT_TRUE(config.limits.hold(result.peaks));
     ASSERT_GE(result.clearance, config.radius * (1.0 - 1e-9));
     ASSERT_LE(result.duration, result.stop_and_go_duration * (1.0 + 1e-12));

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "arguments.hpp"
+#include "bench.hpp"
+#include "bench_table.hpp"
+#include "console.hpp"
+#include "flight_picture.hpp"
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/experiments/flights.hpp"
+#include "ridgeway/io/chart.hpp"
+#include "ridgeway/io/load_map.hpp"
+#include "ridgeway/mapping/world_map.hpp"
+#include "ridgeway/sensing/poses.hpp"
+#include "ridgeway/sensing/world_generators.hpp"
+
+namespace ridgeway::cli {
+namespace {
+
+using Json = BenchTable::Json;
+namespace fs = std::filesystem;
+
+struct Options {
+  std::vector<std::string> files, worlds = {"maze", "hall"};
+  double voxel_size = 0.1;
+  std::string output;
+  FlightsConfig config;
+};
+
+struct NamedMap {
+  std::string name;
+  OccupancyMap map;
+};
+
+OccupancyMap map_of(const std::string& world_name, const Options& options) {
+  const std::uint64_t seed = options.config.seed;
+  const World world = world_name == "maze" ? make_maze({.seed = seed}) : make_hall({.seed = seed});
+  const PoseSampling inside = sampling_inside(world);
+  return occupancy_of(world, options.voxel_size, {inside.low, inside.high});
+}
+
+/// The worlds, then the files, as they are named. Throws InputError for no map at all, or two of
+/// one name.
+std::vector<NamedMap> load_maps(const Options& options) {
+  std::vector<NamedMap> maps;
+  for (const std::string& world : options.worlds)
+    if (world != "none") maps.push_back({world, map_of(world, options)});
+  for (const fs::path file : options.files) maps.push_back({file.stem().string(), load_map(file)});
+  if (maps.empty()) throw InputError("--worlds none", "leaves no map", "name a map's file too");
+  for (std::size_t i = 0; i < maps.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (maps[i].name == maps[k].name)
+        throw InputError("'" + maps[i].name + "'", "is there twice", "name each map once");
+  return maps;
+}
+
+Json json_of(const Spread& spread) { return {{"median", spread.median}, {"p95", spread.p95}}; }
+
+Json row_of(const std::string& name, const FlightsResult& result) {
+  Json steps;
+  for (std::size_t i = 0; i < result.steps.size(); ++i)
+    steps[std::string(name_of(static_cast<TrajectoryStep>(i)))] = result.steps[i];
+  const auto share = [&](std::size_t count) {
+    return static_cast<double>(count) /
+           static_cast<double>(std::max<std::size_t>(1, result.flights.size()));
+  };
+  return {{"map", name},
+          {"queries", result.flights.size()},
+          {"solved", result.solved},
+          {"violations", result.violations},
+          {"path_length", json_of(result.path_length)},
+          {"length_over_path", json_of(result.length_over_path)},
+          {"duration", json_of(result.duration)},
+          {"duration_over_bound", json_of(result.over_bound)},
+          {"duration_over_stop_and_go", json_of(result.over_stop_and_go)},
+          {"duration_over_trapezoid", json_of(result.over_trapezoid)},
+          {"longer_than_stop_and_go", result.longer_than_stop_and_go},
+          {"straight", result.straight},
+          {"longer_than_trapezoid", result.longer_than_trapezoid},
+          {"seconds",
+           {{"median", result.seconds.median},
+            {"p95", result.seconds.p95},
+            {"optimise", result.optimise_seconds.median},
+            {"verify", result.verify_seconds.median}}},
+          {"seconds_to_30_m", json_of(result.near_seconds)},
+          {"fallbacks", result.fallbacks()},
+          {"steps", steps},
+          {"plain_spline",
+           {{"success", share(result.plain_holds)},
+            {"duration_over_flight", result.plain_over_flight.median}}}};
+}
+
+/// The longest of those that took no stop, or of all.
+const Flight& flight_to_draw(const std::vector<Flight>& flights) {
+  return *std::max_element(flights.begin(), flights.end(), [](const Flight& a, const Flight& b) {
+    const auto rank = [](const Flight& f) {
+      return std::pair(f.flown.ok() && f.flown.stops == 0, f.path_length);
+    };
+    return rank(a) < rank(b);
+  });
+}
+
+void draw(const NamedMap& map, const FlightsResult& result, const Options& options) {
+  if (result.solved == 0) return;
+  const Flight& flight = flight_to_draw(result.flights);
+  TrajectoryConfig config;
+  config.radius = options.config.min_clearance;
+  config.limits = options.config.limits;
+  for (const char* extension : {".png", ".svg"})
+    draw_flight(result.roadmap, flight.path, flight.flown, config,
+                fs::path(options.output) / ("trajectory_" + map.name + extension), map.name);
+}
+
+/// Duration over the bound against the length of the path.
+ScatterSeries series_of(const std::string& name, const FlightsResult& result,
+                        const MotionLimits& limits) {
+  ScatterSeries series{name, {}};
+  const double v = limits.max_speed, a = limits.max_acceleration;
+  for (const Flight& flight : result.flights)
+    if (flight.flown.ok() && flight.path_length >= v * v / a)
+      series.points.emplace_back(flight.path_length,
+                                 flight.flown.duration / (flight.path_length / v + v / a));
+  return series;
+}
+
+void draw_durations(std::vector<ScatterSeries> series, const fs::path& folder) {
+  constexpr std::size_t kMostSeries = 8;
+  std::erase_if(series, [](const ScatterSeries& s) { return s.points.empty(); });
+  if (series.size() > kMostSeries) series.resize(kMostSeries);
+  if (series.empty()) return;
+  ScatterChart chart;
+  chart.title = "Flights against one trapezoidal profile over all of the path";
+  chart.x_label = "length of the path L (m)";
+  chart.y_label = "duration / (L / v + v / a)";
+  chart.series = std::move(series);
+  for (const char* name : {"trajectory_durations.png", "trajectory_durations.svg"})
+    draw_scatter(chart, folder / name);
+}
+
+int run(const Options& options, const Globals& globals) {
+  options.config.validate();
+  if (!options.output.empty()) require_folder(options.output);
+  BenchTable table;
+  std::vector<ScatterSeries> series;
+  ProgressBar bar(globals);
+  for (const NamedMap& map : load_maps(options)) {
+    const FlightsResult result = run_flights(map.map, options.config, bar.callback());
+    table.add(row_of(map.name, result));
+    series.push_back(series_of(map.name, result, options.config.limits));
+    if (!options.output.empty()) draw(map, result, options);
+  }
+  bar.clear();
+  if (!options.output.empty()) draw_durations(std::move(series), options.output);
+  table.report(globals, options.output, "trajectory",
+               {{"seed", options.config.seed},
+                {"radius", options.config.min_clearance},
+                {"max_speed", options.config.limits.max_speed},
+                {"max_acceleration", options.config.limits.max_acceleration}});
+  return kExitDone;
+}
+
+}  // namespace
+
+void add_bench_trajectory(CLI::App& bench, const Globals& globals, Command& chosen) {
+  const auto options = std::make_shared<Options>();
+  FlightsConfig& config = options->config;
+  CLI::App* command = bench.add_subcommand(
+      "trajectory", "Flights along planned paths: success, duration, time, before a judge");
+  command->add_option("maps", options->files, "Maps to fly on too, as `ridgeway build` reads them");
+  command->add_option("--worlds", options->worlds, "Simulated worlds to fly in: maze, hall, none")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"maze", "hall", "none"}))
+      ->capture_default_str();
+  command->add_option("--voxel-size", options->voxel_size, "Of the worlds, metres")
+      ->capture_default_str();
+  command->add_option("--min-clearance", config.min_clearance, "And radius of the robot, metres")
+      ->capture_default_str();
+  command->add_option("--queries", config.queries, "On each map, of starts and goals with a path")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_option("--max-speed", config.limits.max_speed, "Metres a second")
+      ->capture_default_str();
+  command->add_option("--max-acceleration", config.limits.max_acceleration, "Metres a second^2")
+      ->capture_default_str();
+  command->add_option("-o,--output", options->output,
+                      "Folder for trajectory.json, trajectory.csv and the pictures (PNG, SVG)");
+  add_seed_option(*command, config.seed, "Of worlds, starts and goals");
+  command->footer("Example:\n  ridgeway bench trajectory data/fr_079.bt -o results");
+  run_when_given(*command, options, globals, chosen, run);
+}
+
+}  // namespace ridgeway::cli
