@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <vector>
 
@@ -43,25 +44,60 @@ BlockRow row_from(const BlockLayout& layout, std::uint32_t start, int axis) {
 /// Line `line` (0..63) of voxels of a row along an axis.
 struct Line {
   const BlockRow& row;
+  const int axis;
   VoxelId base;    // place of the line's first voxel in a block
   VoxelId stride;  // from voxel to voxel
 
-  Line(const BlockRow& blocks, int axis, int line)
-      : row(blocks), stride(static_cast<VoxelId>(1 << (axis * kBlockBits))) {
+  Line(const BlockRow& blocks, int along, int line)
+      : row(blocks), axis(along), stride(static_cast<VoxelId>(1 << (along * kBlockBits))) {
     const auto low = static_cast<VoxelId>(line & 7), high = static_cast<VoxelId>(line >> 3);
     base = axis == 0 ? low << 3 | high << 6 : axis == 1 ? low | high << 6 : low | high << 3;
   }
 
-  /// Calls body(place on the line, voxel) from the first to the last.
+  /// Calls body(place, voxel) for the places first to last of the line.
   template <typename Body>
-  void for_each_voxel(const Body& body) const {
-    std::size_t i = 0;
-    for (const std::uint32_t slot : row) {
-      VoxelId id = slot * kBlockVoxels + base;
-      for (int k = 0; k < kBlockSide; ++k, id += stride) body(i++, id);
+  void for_each_voxel(int first, int last, const Body& body) const {
+    for (int i = first; i <= last;) {
+      VoxelId id = row[static_cast<std::size_t>(i / kBlockSide)] * kBlockVoxels + base +
+                   static_cast<VoxelId>(i % kBlockSide) * stride;
+      const int end = std::min(last + 1, (i / kBlockSide + 1) * kBlockSide);
+      for (; i < end; ++i, id += stride) body(i, id);
     }
   }
+
+  /// The bits of a mask along the line in one of its blocks.
+  std::uint64_t bits(const VoxelMask::Block& mask) const {
+    const VoxelId low = base & 7, middle = base >> 3 & 7, high = base >> 6;
+    if (axis == 0) return mask[high] >> (8 * middle) & 0xff;
+    if (axis == 1)  // every eighth bit, gathered by a product
+      return ((mask[high] >> low & 0x0101010101010101u) * 0x0102040810204080u) >> 56;
+    std::uint64_t bits = 0;
+    for (std::size_t z = 0; z < mask.size(); ++z) bits |= (mask[z] >> base & 1) << z;
+    return bits;
+  }
 };
+
+/// Calls run(first, last) for each run of ones in a row of bits.
+template <typename Run>
+void for_each_run(const std::vector<std::uint64_t>& words, const Run& run) {
+  constexpr int kBits = 64;
+  int first = -1;  // of the run that the words before end with
+  for (std::size_t w = 0; w < words.size(); ++w) {
+    const int begin = static_cast<int>(w) * kBits;
+    for (int at = 0; at < kBits;) {
+      const std::uint64_t rest = (first < 0 ? words[w] : ~words[w]) >> at;
+      if (rest == 0) break;
+      at += std::countr_zero(rest);
+      if (first < 0) {
+        first = begin + at;
+      } else {
+        run(first, begin + at - 1);
+        first = -1;
+      }
+    }
+  }
+  if (first >= 0) run(first, static_cast<int>(words.size()) * kBits - 1);
+}
 
 class Sweeper {
  public:
@@ -73,59 +109,48 @@ class Sweeper {
     const std::vector<std::uint32_t> starts = row_starts(layout_, axis);
     parallel_for_each_index(starts.size(), [&](std::size_t i) {
       const BlockRow row = row_from(layout_, starts[i], axis);
-      Scratch scratch(row.size() * kBlockSide);
-      for (int line = 0; line < 64; ++line) sweep_line(Line(row, axis, line), axis, scratch);
+      Scratch scratch(row.size());
+      for (int line = 0; line < 64; ++line) sweep_line(Line(row, axis, line), scratch);
     });
   }
 
  private:
-  /// A line before and after its sweep.
   struct Scratch {
-    std::vector<SiteOffset> before, after;
-    std::vector<char> is_obstacle;  // and one more at the end
+    std::vector<std::uint64_t> free;  // a bit for each voxel of a line
+    std::vector<SiteOffset> before;   // its sites before the sweep
     detail::LineEnvelope envelope;
-    explicit Scratch(std::size_t size) : before(size), after(size), is_obstacle(size + 1, true) {}
-    int size() const { return static_cast<int>(before.size()); }
+    explicit Scratch(std::size_t blocks) : free(blocks / 8 + 1), before(blocks * kBlockSide) {}
   };
 
   /// An obstacle hides all that lies behind it, so each run between obstacles is swept alone.
-  void sweep_line(const Line& line, int axis, Scratch& scratch) const {
-    line.for_each_voxel([&](std::size_t i, VoxelId id) {
-      scratch.before[i] = site_[id];
-      scratch.is_obstacle[i] = obstacle_.test(id);
-    });
-    scratch.after = scratch.before;
-    const auto end = scratch.is_obstacle.end();
-    for (auto first = scratch.is_obstacle.begin(); first != end;) {
-      const auto last = std::find(first, end, true);
-      const auto place = [&](auto it) {
-        return static_cast<int>(it - scratch.is_obstacle.begin());
-      };
-      if (last != first) sweep_run(axis, place(first), place(last) - 1, scratch);
-      first = last + 1;
-    }
-    line.for_each_voxel([&](std::size_t i, VoxelId id) { site_[id] = scratch.after[i]; });
+  void sweep_line(const Line& line, Scratch& scratch) const {
+    std::fill(scratch.free.begin(), scratch.free.end(), 0);
+    for (std::size_t b = 0; b < line.row.size(); ++b)
+      scratch.free[b / 8] |= (line.bits(obstacle_.block(line.row[b])) ^ 0xff) << (b % 8 * 8);
+    for_each_run(scratch.free, [&](int first, int last) { sweep_run(line, first, last, scratch); });
   }
 
-  void sweep_run(int axis, int first, int last, Scratch& scratch) const {
+  void sweep_run(const Line& line, int first, int last, Scratch& scratch) const {
     detail::LineEnvelope& envelope = scratch.envelope;
     envelope.begin(first, last);
     if (first > 0 || solid_outside_) envelope.add({first - 1, 0});
-    for (int i = first; i <= last; ++i) {
-      const SiteOffset& offset = scratch.before[static_cast<std::size_t>(i)];
-      if (offset != kNoOffset) envelope.add({i, quarter_squared(offset)});
-    }
-    if (last + 1 < scratch.size() || solid_outside_) envelope.add({last + 1, 0});
+    if (line.axis > 0)  // before the first sweep no voxel has a site
+      line.for_each_voxel(first, last, [&](int i, VoxelId id) {
+        const SiteOffset offset = scratch.before[static_cast<std::size_t>(i)] = site_[id];
+        if (offset != kNoOffset) envelope.add({i, quarter_squared(offset)});
+      });
+    const int size = static_cast<int>(line.row.size()) * kBlockSide;
+    if (last + 1 < size || solid_outside_) envelope.add({last + 1, 0});
     envelope.for_each_stretch([&](int begin, int end, int winner) {
       SiteOffset offset{};
       if (winner >= first && winner <= last)
         offset = scratch.before[static_cast<std::size_t>(winner)];
-      for (int i = begin; i < end; ++i) {
+      line.for_each_voxel(begin, end - 1, [&](int i, VoxelId id) {
         const auto along = static_cast<std::int16_t>(
             std::clamp(winner - i, -kFarthestSite - 1, kFarthestSite + 1));
-        (axis == 0 ? offset.x : axis == 1 ? offset.y : offset.z) = along;
-        scratch.after[static_cast<std::size_t>(i)] = offset;
-      }
+        (line.axis == 0 ? offset.x : line.axis == 1 ? offset.y : offset.z) = along;
+        site_[id] = offset;
+      });
     });
   }
 
