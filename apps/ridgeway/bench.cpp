@@ -15,6 +15,7 @@ void add_bench_command(CLI::App& app, const Globals& globals, Command& chosen) {
   bench->fallthrough();
   add_bench_fusion(*bench, globals, chosen);
   add_bench_grid(*bench, globals, chosen);
+  add_bench_hall(*bench, globals, chosen);
   add_bench_maze(*bench, globals, chosen);
   add_bench_noise(*bench, globals, chosen);
   add_bench_trajectory(*bench, globals, chosen);

@@ -9,6 +9,7 @@ namespace ridgeway::cli {
 /// Each adds an experiment to `bench`.
 void add_bench_fusion(CLI::App& bench, const Globals& globals, Command& chosen);
 void add_bench_grid(CLI::App& bench, const Globals& globals, Command& chosen);
+void add_bench_hall(CLI::App& bench, const Globals& globals, Command& chosen);
 void add_bench_maze(CLI::App& bench, const Globals& globals, Command& chosen);
 void add_bench_noise(CLI::App& bench, const Globals& globals, Command& chosen);
 void add_bench_trajectory(CLI::App& bench, const Globals& globals, Command& chosen);

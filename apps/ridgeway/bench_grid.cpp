@@ -112,7 +112,7 @@ ScatterSeries excess_series(const GridRow& row) {
   for (const double ratio : row.shortened.ratios)
     if (!std::isnan(ratio)) excess.push_back(100.0 * (ratio - 1.0));
   std::sort(excess.rbegin(), excess.rend());
-  ScatterSeries series{row.map, {}};
+  ScatterSeries series{row.map, {}, SeriesStyle::kLine};
   std::size_t last = 0;
   for (double at = 1.0; last < excess.size(); at *= std::pow(10.0, 1.0 / kPointsPerDecade)) {
     const std::size_t place = std::min(static_cast<std::size_t>(std::round(at)), excess.size());
@@ -137,7 +137,7 @@ void draw_excess(const std::vector<GridRow>& rows, const fs::path& folder) {
     chart.y_label = "share of the scenarios that is at least so much longer";
     const std::size_t last = std::min(first + kSeriesPerChart, all.size());
     for (std::size_t i = first; i < last; ++i) chart.series.push_back(all[i]);
-    chart.log_y = chart.lines = true;
+    chart.log_y = true;
     const std::string name =
         first == 0 ? "grid" : "grid_" + std::to_string(1 + first / kSeriesPerChart);
     for (const char* extension : {".png", ".svg"}) draw_scatter(chart, folder / (name + extension));

@@ -111,26 +111,40 @@ void draw_axes(Canvas& canvas, const ScatterChart& chart, const Plot& plot) {
   canvas.draw_text(plot.left, plot.top - 10.0 * u, chart.y_label);
 }
 
-void draw_series(Canvas& canvas, const ScatterChart& chart, const Plot& plot, std::size_t index) {
-  const ScatterSeries& series = chart.series[index];
-  canvas.set_colour(kSeriesColours[index], 0.85);
-  if (chart.lines) {
+void draw_point(Canvas& canvas, double x, double y, double unit) {
+  cairo_arc(canvas.cairo(), x, y, 5.0 * unit, 0.0, 2.0 * M_PI);
+  cairo_fill(canvas.cairo());
+}
+
+void draw_values(Canvas& canvas, const ScatterSeries& series, const Plot& plot) {
+  if (series.style != SeriesStyle::kPoints) {
     for (const auto& [x, y] : series.points) cairo_line_to(canvas.cairo(), plot.x(x), plot.y(y));
-    canvas.set_line(2.0 * plot.unit);
     cairo_stroke(canvas.cairo());
   }
-  for (const auto& [x, y] : series.points) {
-    cairo_arc(canvas.cairo(), plot.x(x), plot.y(y), 5.0 * plot.unit, 0.0, 2.0 * M_PI);
-    cairo_fill(canvas.cairo());
-  }
-  // The legend, to the right of the plot.
-  const double x = plot.left + plot.width + 24.0 * plot.unit;
-  const double y = plot.top + (12.0 + 28.0 * static_cast<double>(index)) * plot.unit;
-  cairo_arc(canvas.cairo(), x, y, 5.0 * plot.unit, 0.0, 2.0 * M_PI);
-  cairo_fill(canvas.cairo());
+  if (series.style == SeriesStyle::kGuide) return;
+  for (const auto& [x, y] : series.points) draw_point(canvas, plot.x(x), plot.y(y), plot.unit);
+}
+
+/// A line of the legend, to the right of the plot.
+void draw_legend(Canvas& canvas, const ScatterSeries& series, const Plot& plot, std::size_t index) {
+  const double u = plot.unit, x = plot.left + plot.width + 24.0 * u;
+  const double y = plot.top + (12.0 + 28.0 * static_cast<double>(index)) * u;
+  if (series.style != SeriesStyle::kPoints) stroke(canvas, x - 10.0 * u, y, x + 10.0 * u, y);
+  if (series.style != SeriesStyle::kGuide) draw_point(canvas, x, y, u);
   canvas.set_colour(ink::kText);
-  canvas.set_font(15.0 * plot.unit);
-  canvas.draw_text(x + 14.0 * plot.unit, y + 5.0 * plot.unit, series.name);
+  canvas.set_font(15.0 * u);
+  canvas.draw_text(x + 14.0 * u, y + 5.0 * u, series.name);
+}
+
+void draw_series(Canvas& canvas, const ScatterChart& chart, const Plot& plot, std::size_t index) {
+  const ScatterSeries& series = chart.series[index];
+  const double u = plot.unit;
+  canvas.set_colour(kSeriesColours[index], 0.85);
+  canvas.set_line(2.0 * u, series.style == SeriesStyle::kGuide
+                               ? std::vector<double>{6.0 * u, 4.0 * u}
+                               : std::vector<double>{});
+  draw_values(canvas, series, plot);
+  draw_legend(canvas, series, plot, index);
 }
 
 }  // namespace

@@ -148,6 +148,37 @@ TEST_F(CliBench, GridRefusesWhatIsNoBenchmark) {
   expect_refused({"bench", "grid"}, {"maps"});
 }
 
+TEST_F(CliBench, HallHasARowForEveryMapAndNumberOfThreads) {
+  std::string cells = "voxel 40 40 12\n";  // a pillar in a box of metres
+  for (int z = 0; z < 12; ++z) cells += "20 20 " + std::to_string(z) + "\n";
+  write_whole(folder_ / "box.3dmap", cells);
+  const Outcome outcome =
+      run({"bench", "hall", path("box.3dmap"), "--voxel-sizes", "0.5,0.35", "--threads-list", "1,2",
+           "--repeat", "1", "--queries", "20", "-o", path("out"), "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto rows = outcome.json()["rows"];
+  ASSERT_EQ(rows.size(), 6u);
+  for (const auto& row : rows) {
+    for (const char* key : {"map", "voxel_size", "threads", "known_voxels", "allocated_voxels",
+                            "peak_memory_bytes", "bandwidth", "first_answer", "batch"})
+      EXPECT_TRUE(row.contains(key)) << key;
+    for (const char* numbers : {"seconds", "bytes", "voxels_per_second"})
+      for (const char* stage :
+           {"esdf", "gvd", "edges", "thin", "kernel", "graph", "attach", "esdf_to_graph", "total"})
+        EXPECT_GT(row[numbers][stage], 0.0) << numbers << "." << stage;
+    EXPECT_GT(row["first_answer"]["total"], row["first_answer"]["load"]);
+    EXPECT_GT(row["batch"]["solved"], 0);
+  }
+  EXPECT_EQ(rows[0]["map"], "hall");
+  EXPECT_EQ(rows[0]["times_as_fast"]["total"], 1.0);
+  EXPECT_EQ(rows[5]["map"], "box");
+  EXPECT_EQ(rows[5]["threads"], 2);
+  EXPECT_EQ(rows[5]["vertices"], rows[4]["vertices"]);
+  for (const char* file : {"hall.json", "hall.csv", "hall_times.png", "hall_times.svg"})
+    EXPECT_GT(read_whole(folder_ / "out" / file).size(), 100u) << file;
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("out")), {}), 4);  // no more
+}
+
 TEST_F(CliBench, TrajectoryHasARowForEveryMapAndNoViolation) {
   const std::string map = std::string(RIDGEWAY_DATA_DIR) + "/fr_079.bt";
   const Outcome outcome = run({"bench", "trajectory", map, "--worlds", "hall", "--voxel-size",
@@ -179,6 +210,9 @@ TEST_F(CliBench, BadArgumentsAreRefused) {
   EXPECT_EQ(run({"bench", "trajectory", "--min-clearance", "-1"}).code, 1);
   EXPECT_EQ(run({"bench", "trajectory", "--max-speed", "0"}).code, 1);
   EXPECT_EQ(run({"bench", "trajectory", "--worlds", "hall,hall"}).code, 1);
+  EXPECT_EQ(run({"bench", "hall", path("none.bt")}).code, 1);
+  EXPECT_EQ(run({"bench", "hall", "--threads-list", "0"}).code, 1);
+  EXPECT_EQ(run({"bench", "hall", "--voxel-sizes", "0"}).code, 1);
   EXPECT_EQ(run({"bench", "maze", "--min-clearance", "2"}).code, 1);
   EXPECT_EQ(run({"bench"}).code, 1);
   EXPECT_EQ(run({"bench", "noise", "--world", path("none.yaml")}).code, 1);

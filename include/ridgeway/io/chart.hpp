@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -9,18 +10,22 @@
 
 namespace ridgeway {
 
+/// How a series is drawn: points alone, points on a line, or a dashed line without points, which
+/// others are compared with.
+enum class SeriesStyle : std::uint8_t { kPoints, kLine, kGuide };
+
 /// Values that belong together: one colour, and a line in the legend.
 struct ScatterSeries {
   std::string name;
   std::vector<std::pair<double, double>> points;  ///< x, y
+  SeriesStyle style = SeriesStyle::kPoints;
 };
 
-/// Points over two axes; y runs in powers of ten where `log_y`, x where `log_x`. A series is joined
-/// by a line where `lines`.
+/// Points over two axes; y runs in powers of ten where `log_y`, x where `log_x`.
 struct ScatterChart {
   std::string title, x_label, y_label;
   std::vector<ScatterSeries> series;  ///< at most eight
-  bool log_x = false, log_y = false, lines = false;
+  bool log_x = false, log_y = false;
   int width = 1000;  ///< pixels; the height is two thirds
 };
 

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "memory_traffic.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "ridgeway/common/parallel.hpp"
+#include "ridgeway/common/spread.hpp"
+#include "ridgeway/skeleton/basins.hpp"
+
+namespace ridgeway::detail {
+namespace {
+
+// Bytes a voxel, of the fields as they are.
+constexpr double kState = sizeof(std::declval<EsdfMap&>().state[0]);
+constexpr double kSite = sizeof(std::declval<EsdfMap&>().site[0]);
+constexpr double kSquared = sizeof(std::declval<EsdfMap&>().squared[0]);
+constexpr double kBasin = sizeof(std::declval<Basins&>().basin[0]);
+constexpr double kNext = sizeof(std::declval<AttachField&>().next[0]);
+constexpr double kMask = static_cast<double>(sizeof(VoxelMask::Block)) / kBlockVoxels;
+
+}  // namespace
+
+StageNumbers least_traffic(const BuildReport& counts) {
+  const auto allocated = static_cast<double>(counts.allocated_voxels);
+  const auto traversable = static_cast<double>(counts.traversable_voxels);
+  const auto diagram = static_cast<double>(counts.diagram_voxels);
+  StageNumbers bytes;
+  // Obstacles; three sweeps over the sites, the first of which has nothing to read but obstacles;
+  // distances; traversable voxels.
+  const double sweeps = 3.0 * kMask + (3.0 + 2.0) * kSite;
+  bytes.esdf = allocated * (kState + kMask + sweeps + kSite + kSquared +  //
+                            kState + kSquared + kMask);
+  // Sites of the traversable voxels. Those of the neighbours beyond are not counted.
+  bytes.gvd = 2.0 * allocated * kMask + traversable * kSite;
+  bytes.edges = 2.0 * allocated * kMask;
+  bytes.thin = 2.0 * allocated * kMask;
+  // Basins: heights to ways and numbers. Kernel: heights once more, to order the deletions.
+  bytes.kernel =
+      2.0 * allocated * kMask + traversable * (kSquared + kNext + kBasin) + traversable * kSquared;
+  // The diagram is found in its mask; then it is a list.
+  bytes.graph = allocated * kMask + diagram * kSquared;
+  bytes.attach = allocated * kMask + diagram * (kSquared + kNext);
+  bytes.esdf_to_graph = bytes.gvd + bytes.edges + bytes.thin + bytes.kernel + bytes.graph;
+  bytes.total = bytes.esdf + bytes.esdf_to_graph + bytes.attach;
+  return bytes;
+}
+
+StageNumbers voxels_walked(const BuildReport& counts) {
+  const auto traversable = static_cast<double>(counts.traversable_voxels);
+  const auto diagram = static_cast<double>(counts.diagram_voxels);
+  StageNumbers voxels;
+  voxels.esdf = static_cast<double>(counts.allocated_voxels);
+  voxels.gvd = voxels.kernel = voxels.esdf_to_graph = traversable;
+  voxels.edges = static_cast<double>(counts.gvd_voxels);
+  voxels.thin = static_cast<double>(counts.edge_voxels);
+  voxels.graph = voxels.attach = diagram;
+  voxels.total = static_cast<double>(counts.voxels.known());
+  return voxels;
+}
+
+double copy_bandwidth(std::size_t bytes, int repeat) {
+  constexpr std::size_t kPiece = std::size_t{1} << 20;
+  const std::vector<std::byte> from(bytes, std::byte{1});
+  std::vector<std::byte> to(bytes);  // its pages are there before the clock runs
+  std::vector<double> seconds;
+  for (int run = 0; run < repeat; ++run) {
+    const auto begin = std::chrono::steady_clock::now();
+    parallel_for_each_index((bytes + kPiece - 1) / kPiece, [&](std::size_t i) {
+      const std::size_t first = i * kPiece;
+      std::memcpy(to.data() + first, from.data() + first, std::min(kPiece, bytes - first));
+    });
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    seconds.push_back(taken.count());
+  }
+  return 2.0 * static_cast<double>(bytes) / spread_of(std::move(seconds)).median;
+}
+
+}  // namespace ridgeway::detail
