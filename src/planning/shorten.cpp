@@ -10,10 +10,10 @@
 namespace ridgeway::detail {
 namespace {
 
-constexpr int kRounds = 8;
+constexpr int kRounds = 6;
 constexpr int kBisections = 4;
 constexpr double kWorthwhile = 1e-3;   // relative gain that makes a move or a detour worth it
-constexpr double kStep = 2.0;          // metres between the places that skipping may choose from
+constexpr double kStep = 8.0;          // metres between the places that skipping may choose from
 constexpr double kExcess = 0.02;       // of a stretch's length: worth a detour search
 constexpr double kExcessOfAll = 0.01;  // of the path's length
 constexpr int kDetourCorners = 2;

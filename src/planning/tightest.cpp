@@ -15,14 +15,15 @@
 namespace ridgeway::detail {
 namespace {
 
-constexpr double kNearlyStraight = 1.01;  // over the straight line: not worth another route
+constexpr double kNearlyStraight = 1.05;  // over the straight line: not worth another route
 constexpr double kMostlyShrinksTo = 0.3;  // of its length a route seldom becomes shorter
 constexpr double kMostlyDrawnInTo = 0.9;  // nor, once waypoints are skipped, of that length
 constexpr double kSuspicious = 1.15;      // over the straight line: worth a second opinion
 constexpr double kVerySuspicious = 1.25;  // worth a finer one
 constexpr double kQuickWeight = 1.2;      // of those searches' heuristic
 constexpr int kQuickExpansions = 3000;    // less than two milliseconds
-constexpr int kQuickInVain = 400;         // they give up sooner where they fill a pocket
+constexpr double kLeastInVain = 60.0;     // they give up after so many in a pocket, at least,
+constexpr double kInVain = 500.0;         // and so many for each length that shortening saved
 constexpr double kLatticeExcess = 1.05;   // by which a lattice path shrinks when it is shortened
 
 /// The nearest voxel with even coordinates that a point can move to.
@@ -43,7 +44,7 @@ VoxelId even_voxel(const EsdfMap& esdf, const FreeSpace& space, const Point& p, 
 /// A second opinion on a path that stays long: a quick search over every voxel, or every second
 /// one, for one that is shorter. Empty where it finds none in its small budget.
 Route search_quickly(const EsdfMap& esdf, const FreeSpace& space, const Point& start,
-                     const Point& goal, double radius, int stride, double longest,
+                     const Point& goal, double radius, int stride, double longest, int most_in_vain,
                      const Deadline& deadline) {
   const auto voxel_of = [&](const Point& p) {
     return stride == 1 ? find_endpoint(esdf, p, radius).voxel : even_voxel(esdf, space, p, radius);
@@ -54,7 +55,7 @@ Route search_quickly(const EsdfMap& esdf, const FreeSpace& space, const Point& s
                                .weight = kQuickWeight,
                                .longest = longest * kLatticeExcess / esdf.voxel_size,
                                .most_expansions = kQuickExpansions,
-                               .most_in_vain = kQuickInVain};
+                               .most_in_vain = most_in_vain};
   const LatticePath path = search_lattice(esdf, from, to, radius, options, deadline);
   if (path.status != SearchStatus::kFound) return {};
   return route_over_voxels(esdf, {from, to, start, goal, radius}, path.voxels);
@@ -67,16 +68,20 @@ Route redirect_tight(const EsdfMap& esdf, const FreeSpace& space, const Route& p
   return redirected == path ? path : shorten(space, std::move(redirected), radius, deadline);
 }
 
-/// A tight path, or where that is long a shorter one that quick searches find.
+/// A tight path, or where that is long a shorter one that quick searches find. `as_found`: the
+/// length of the route that it was made of. Where that is much longer the graph has little to say
+/// on the space around, and searches are worth more.
 Route ask_again(const EsdfMap& esdf, const FreeSpace& space, Route best, double radius,
-                const Deadline& deadline) {
+                double as_found, const Deadline& deadline) {
   const double straight = (best.back() - best.front()).norm();
   for (const int stride : {2, 1}) {  // the coarse one is quick, the fine one fits narrow places
     const double shortest = length_of(best);
     const double suspicious = stride == 2 ? kSuspicious : kVerySuspicious;
     if (shortest <= suspicious * straight || deadline.has_passed()) break;
-    Route other =
-        search_quickly(esdf, space, best.front(), best.back(), radius, stride, shortest, deadline);
+    const double in_vain = std::max(kInVain * (as_found / shortest - 1.0), kLeastInVain);
+    const int most_in_vain = static_cast<int>(std::min<double>(in_vain, kQuickExpansions));
+    Route other = search_quickly(esdf, space, best.front(), best.back(), radius, stride, shortest,
+                                 most_in_vain, deadline);
     if (!other.empty()) other = shorten(space, std::move(other), radius, deadline);
     if (!other.empty() && length_of(other) < shortest) best = std::move(other);
   }
@@ -90,6 +95,7 @@ Route cheapest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found,
   const auto is_kept = [&](std::span<const Point> before, std::span<const Point> after) {
     return cost.is_kept(before, after);
   };
+  const double as_found = length_of(found.route);
   Route best, shortest;
   double least = std::numeric_limits<double>::infinity();
   const auto offer = [&](Route route) {
@@ -108,7 +114,7 @@ Route cheapest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found,
     if (!found.next_alternative || deadline.has_passed()) break;
     route = found.next_alternative();
   }
-  offer(ask_again(esdf, space, std::move(shortest), query.radius, deadline));
+  offer(ask_again(esdf, space, std::move(shortest), query.radius, as_found, deadline));
   return best;
 }
 
@@ -137,10 +143,11 @@ Route best_of_alternatives(const FreeSpace& space, RouteResult& found, double ra
 Route tightest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found,
                const RouteQuery& query, const Deadline& deadline) {
   if (query.prefer_clearance > 0.0) return cheapest(esdf, space, found, query, deadline);
+  const double as_found = length_of(found.route);
   const double enough = kNearlyStraight * (query.goal - query.start).norm();
   Route best = best_of_alternatives(space, found, query.radius, enough, deadline);
   if (length_of(best) > enough) best = redirect_tight(esdf, space, best, query.radius, deadline);
-  return ask_again(esdf, space, std::move(best), query.radius, deadline);
+  return ask_again(esdf, space, std::move(best), query.radius, as_found, deadline);
 }
 
 }  // namespace ridgeway::detail
