@@ -17,7 +17,7 @@ namespace {
 
 using detail::Deadline;
 
-constexpr double kMostlyShrinksTo = 0.7;  // of its length a route seldom becomes shorter
+constexpr double kMostlyShrinksTo = 0.6;  // of its length a route seldom becomes shorter
 constexpr int kShortenings = 3;
 constexpr double kApart = 4.0;  // radii along a path between places that may not meet
 

@@ -15,7 +15,8 @@
 namespace ridgeway::detail {
 namespace {
 
-constexpr double kNearlyStraight = 1.05;  // over the straight line: not worth another route
+constexpr double kNearlyStraight = 1.03;  // over the straight line: not worth a detour
+constexpr double kStraightEnough = 1.05;  // nor another route
 constexpr double kMostlyShrinksTo = 0.3;  // of its length a route seldom becomes shorter
 constexpr double kMostlyDrawnInTo = 0.9;  // nor, once waypoints are skipped, of that length
 constexpr double kSuspicious = 1.15;      // over the straight line: worth a second opinion
