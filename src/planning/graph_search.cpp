@@ -11,6 +11,7 @@ namespace {
 
 struct OpenEntry {
   double estimate;
+  double cost;
   VertexId vertex;
   bool operator<(const OpenEntry& other) const {  // the queue's top is the best
     return estimate != other.estimate ? estimate > other.estimate : vertex > other.vertex;
@@ -20,7 +21,6 @@ struct OpenEntry {
 struct VertexState {
   double cost = std::numeric_limits<double>::infinity();
   VertexId from = kNoVertex;
-  bool closed = false;
 };
 
 /// A* that queues junctions alone: between them it walks, since most vertices have one way on.
@@ -41,11 +41,9 @@ class GraphSearch {
 
   std::vector<VertexId> run() {
     while (!open_.empty()) {
-      const VertexId vertex = open_.top().vertex;
+      const auto [estimate, cost, vertex] = open_.top();
       open_.pop();
-      VertexState& state = states_[number(vertex)];
-      if (state.closed) continue;
-      state.closed = true;
+      if (cost > states_[number(vertex)].cost) continue;  // reached for less since
       if (vertex == goal_) return route();
       for (const Link& link : graph_.links_of(vertex)) walk(vertex, link);
     }
@@ -77,7 +75,8 @@ class GraphSearch {
   void push(VertexId vertex) {
     const double rest = std::max((graph_.vertices[number(vertex)].position - target_).norm(),
                                  length_bound(landmarks_, vertex, goal_));
-    open_.push({states_[number(vertex)].cost + rest, vertex});
+    const double cost = states_[number(vertex)].cost;
+    open_.push({cost + rest, cost, vertex});
   }
 
   std::vector<VertexId> route() const {

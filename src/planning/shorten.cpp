@@ -12,10 +12,10 @@ namespace {
 
 constexpr int kRounds = 6;
 constexpr int kBisections = 4;
-constexpr double kWorthwhile = 1e-3;   // relative gain that makes a move or a detour worth it
-constexpr double kStep = 8.0;          // metres between the places that skipping may choose from
-constexpr double kExcess = 0.02;       // of a stretch's length: worth a detour search
-constexpr double kExcessOfAll = 0.01;  // of the path's length
+constexpr double kWorthwhile = 1e-3;    // relative gain that makes a move or a detour worth it
+constexpr double kStep = 8.0;           // metres between the places that skipping may choose from
+constexpr double kExcess = 0.02;        // of a stretch's length: worth a detour search
+constexpr double kExcessOfAll = 0.015;  // of the path's length
 constexpr int kDetourCorners = 2;
 constexpr std::size_t kLongestStretch = 3;  // segments that a detour may replace
 

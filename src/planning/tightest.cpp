@@ -17,9 +17,9 @@ namespace {
 
 constexpr double kNearlyStraight = 1.03;  // over the straight line: not worth a detour
 constexpr double kStraightEnough = 1.05;  // nor another route
-constexpr double kMostlyShrinksTo = 0.3;  // of its length a route seldom becomes shorter
-constexpr double kMostlyDrawnInTo = 0.9;  // nor, once waypoints are skipped, of that length
-constexpr double kSuspicious = 1.15;      // over the straight line: worth a second opinion
+constexpr double kMostlyDrawnInTo =
+    0.9;                              // of its length a route becomes once waypoints are skipped
+constexpr double kSuspicious = 1.15;  // over the straight line: worth a second opinion
 constexpr double kVerySuspicious = 1.25;  // worth a finer one
 constexpr double kQuickWeight = 1.2;      // of those searches' heuristic
 constexpr int kQuickExpansions = 3000;    // less than two milliseconds
@@ -127,7 +127,6 @@ Route best_of_alternatives(const FreeSpace& space, RouteResult& found, double ra
   while (found.next_alternative && shortest > enough && !deadline.has_passed()) {
     std::optional<Route> route = found.next_alternative();
     if (!route) break;
-    if (length_of(*route) * kMostlyShrinksTo > shortest) continue;
     Route candidate = skip_waypoints(space, std::move(*route), radius);
     if (length_of(candidate) * kMostlyDrawnInTo > shortest) continue;
     candidate = draw_corners_in(space, std::move(candidate), radius, deadline);
