@@ -129,18 +129,20 @@ class Tightening {
         path_(std::move(path)),
         moved_(path_.size(), true) {}
 
-  /// Tries every corner that moved, or has a neighbour that did: whether it can go, or else one of
-  /// three moves, by the round. Whether that was worth it.
+  /// Tries every corner that moved, or has a neighbour that did, and in the first rounds all of
+  /// them: whether it can go, or else one of three moves, by the round. Whether to go on.
   bool run_round(int round) {
-    bool was_worth_it = false;
+    const bool all = round < kMoves;
+    bool was_worth_it = round + 1 < kMoves;
     for (std::size_t i = 1; i + 1 < path_.size();) {
-      if (!moved_[i - 1] && !moved_[i] && !moved_[i + 1]) {
-        ++i;
-        continue;
-      }
-      if (can_go(i)) {
+      const bool may_go = round == 0 || moved_[i - 1] || moved_[i + 1];
+      if (may_go && can_go(i)) {
         erase(i);
         was_worth_it = true;
+        continue;
+      }
+      if (!all && !may_go && !moved_[i]) {
+        ++i;
         continue;
       }
       Corner corner{path_[i - 1], path_[i], path_[i + 1]};
@@ -153,7 +155,7 @@ class Tightening {
       const bool was_cut = move == 2 && cut(i, may_become);
       if (move == 0) slide(space_, corner, radius_, may_become);
       if (move == 1) draw_in(space_, corner, radius_, may_become);
-      moved_[i] = was_cut || round + 1 < kMoves || corner.length() < length * (1.0 - kWorthwhile);
+      moved_[i] = was_cut || corner.length() < length * (1.0 - kWorthwhile);
       was_worth_it |= moved_[i];
       i += was_cut ? 2 : 1;
     }
