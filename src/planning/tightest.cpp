@@ -17,9 +17,8 @@ namespace {
 
 constexpr double kNearlyStraight = 1.03;  // over the straight line: not worth a detour
 constexpr double kStraightEnough = 1.05;  // nor another route
-constexpr double kMostlyDrawnInTo =
-    0.9;                              // of its length a route becomes once waypoints are skipped
-constexpr double kSuspicious = 1.15;  // over the straight line: worth a second opinion
+constexpr double kMostlyDrawnInTo = 0.9;  // of its length when waypoints are skipped
+constexpr double kSuspicious = 1.15;      // over the straight line: worth a second opinion
 constexpr double kVerySuspicious = 1.25;  // worth a finer one
 constexpr double kQuickWeight = 1.2;      // of those searches' heuristic
 constexpr int kQuickExpansions = 3000;    // less than two milliseconds

@@ -71,7 +71,7 @@ TEST(Hall, PeakMemoryHoldsAllFieldsOfTheRoadmap) {
   config.voxel_sizes = {0.05};
   config.threads = {2};
   const std::vector<HallRow> rows = run_hall(config);
-  if (!rows[0].peak_memory) GTEST_SKIP() << "the system gives no process";
+  ASSERT_TRUE(rows[0].peak_memory);
   const auto least = static_cast<double>(rows[0].counts.allocated_voxels) *
                      static_cast<double>(sizeof(VoxelState) + sizeof(SiteOffset) + 4 + 1);
   EXPECT_GT(static_cast<double>(*rows[0].peak_memory), least);
@@ -82,7 +82,7 @@ TEST(Hall, PeakMemoryIsThatOfOneMapAlone) {
   config.voxel_sizes = {0.05, 0.25};
   config.threads = {1};
   const std::vector<HallRow> rows = run_hall(config);
-  if (!rows[0].peak_memory) GTEST_SKIP() << "the system gives no process";
+  ASSERT_TRUE(rows[0].peak_memory && rows[1].peak_memory);
   EXPECT_LT(*rows[1].peak_memory, *rows[0].peak_memory / 2);
 }
 

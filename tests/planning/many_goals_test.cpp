@@ -39,22 +39,30 @@ std::vector<Point> random_places(const Roadmap& roadmap, unsigned seed) {
   return points;
 }
 
-TEST(ManyGoals, AreReachedAsSinglePlansReachThem) {
-  int reached = 0, refused = 0;
+/// Calls body(roadmap, start, goals) on random maps.
+template <typename Body>
+void on_random_roadmaps(const Body& body) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
     const std::optional<Roadmap> roadmap = random_roadmap(seed);
     if (!roadmap) continue;
     const std::vector<Point> places = random_places(*roadmap, seed);
-    const std::span<const Point> goals = std::span(places).subspan(1);
+    body(*roadmap, places[0], std::span(places).subspan(1));
+    if (::testing::Test::HasFatalFailure()) return;
+  }
+}
+
+TEST(ManyGoals, AreReachedAsSinglePlansReachThem) {
+  int reached = 0, refused = 0;
+  on_random_roadmaps([&](const Roadmap& roadmap, const Point& start, std::span<const Point> goals) {
     for (const double radius : {kClearance, 0.15}) {
       const PlanConfig config{.radius = radius};
-      const std::vector<GoalPlan> many = plan_to_many(*roadmap, places[0], goals, config);
-      const NearestGoal nearest = plan_to_nearest(*roadmap, places[0], goals, config);
+      const std::vector<GoalPlan> many = plan_to_many(roadmap, start, goals, config);
+      const NearestGoal nearest = plan_to_nearest(roadmap, start, goals, config);
       ASSERT_EQ(many.size(), goals.size());
       std::optional<std::size_t> best;
       for (std::size_t i = 0; i < goals.size(); ++i) {
-        const PlanResult single = plan(*roadmap, places[0], goals[i], config);
+        const PlanResult single = plan(roadmap, start, goals[i], config);
         EXPECT_EQ(many[i].plan.status, single.status);
         EXPECT_EQ(many[i].plan.waypoints, single.waypoints);
         if (nearest.statuses[i]) {
@@ -67,32 +75,27 @@ TEST(ManyGoals, AreReachedAsSinglePlansReachThem) {
       EXPECT_EQ(nearest.plan.ok(), best.has_value());
       EXPECT_EQ(nearest.plan.waypoints, many[best.value_or(0)].plan.waypoints);
     }
-  }
+  });
   EXPECT_GT(reached, 200);
   EXPECT_GT(refused, 100);
 }
 
 TEST(ManyGoals, DistancesAreThoseOfRawPlansAndOfDijkstra) {
   int compared = 0, over_vertices = 0;
-  for (unsigned seed = 0; seed < 40; ++seed) {
-    SCOPED_TRACE(seed);
-    const std::optional<Roadmap> roadmap = random_roadmap(seed);
-    if (!roadmap) continue;
-    const std::vector<Point> places = random_places(*roadmap, seed);
-    const std::span<const Point> goals = std::span(places).subspan(1);
-    const std::vector<double> distances = distances_to_goals(*roadmap, places[0], goals);
+  on_random_roadmaps([&](const Roadmap& roadmap, const Point& start, std::span<const Point> goals) {
+    const std::vector<double> distances = distances_to_goals(roadmap, start, goals);
     for (std::size_t i = 0; i < goals.size(); ++i) {
-      const PlanResult raw = plan(*roadmap, places[0], goals[i], {.shorten = false});
+      const PlanResult raw = plan(roadmap, start, goals[i], {.shorten = false});
       if (!raw.ok() || raw.answered_by != Planner::kGraph) continue;
       EXPECT_NEAR(distances[i], raw.length, 1e-9);
       ++compared;
     }
     // From vertex to vertex no way leads to the graph or away from it: Dijkstra alone.
-    const SparseGraph& graph = roadmap->graph;
+    const SparseGraph& graph = roadmap.graph;
     std::vector<Point> vertices;
     for (const Vertex& v : graph.vertices) vertices.push_back(v.position);
     const std::map<VertexId, double> exact = testing::dijkstra_graph(graph, VertexId{0}, 0.1);
-    const std::vector<double> found = distances_to_goals(*roadmap, vertices[0], vertices);
+    const std::vector<double> found = distances_to_goals(roadmap, vertices[0], vertices);
     for (std::uint32_t v = 0; v < vertices.size(); ++v) {
       const auto known = exact.find(VertexId{v});
       EXPECT_EQ(known != exact.end(), std::isfinite(found[v]));
@@ -100,7 +103,7 @@ TEST(ManyGoals, DistancesAreThoseOfRawPlansAndOfDijkstra) {
       EXPECT_NEAR(found[v], known->second, 1e-9);
       ++over_vertices;
     }
-  }
+  });
   EXPECT_GT(compared, 100);
   EXPECT_GT(over_vertices, 100);
 }

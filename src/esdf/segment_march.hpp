@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "obstacle_scan.hpp"
+
+namespace ridgeway::detail {
+
+using Vector = Eigen::Vector3d;
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+inline VoxelIndex voxel_holding(const Vector& p) { return voxel_at(p, 1.0); }
+
+/// Squared distance (voxel units) that a voxel's stored value stands for; a voxel without a site
+/// is at least `far` from everything.
+inline double stored(const EsdfMap& esdf, VoxelId id, double far) {
+  return esdf.squared[id] == kNoSite ? far : 0.25 * esdf.squared[id];
+}
+
+inline double squared_far(const EsdfMap& esdf) {
+  const double far =
+      std::min(esdf.max_distance / esdf.voxel_size, static_cast<double>(kFarthestSite));
+  return far * far;
+}
+
+/// Lower bound of D^2 at a point from the ball that is free around the centre of its voxel.
+inline double ball_bound(const EsdfMap& esdf, VoxelFinder& finder, const Vector& p, double far) {
+  const VoxelIndex voxel = voxel_holding(p);
+  const VoxelId id = finder.find(voxel);
+  if (id == kNoVoxel) return 0.0;
+  const double off = (p - Vector(voxel.x + 0.5, voxel.y + 0.5, voxel.z + 0.5)).norm();
+  const double distance = std::max(std::sqrt(stored(esdf, id, far)) - off, 0.0);
+  return distance * distance;
+}
+
+/// Lower bound of D^2 at a point from the eight voxel centres around it: trilinear interpolation
+/// of d^2 less the sum of t (1 - t), since D^2(x) - |x|^2 is concave. Where nothing is known of one
+/// of them, from the ball around the centre of the point's own voxel.
+inline double lower_bound(const EsdfMap& esdf, VoxelFinder& finder, const Vector& p, double far) {
+  const Vector shifted = p - Vector::Constant(0.5);
+  const VoxelIndex base = voxel_holding(shifted);
+  const Vector t = shifted - Vector(base.x, base.y, base.z);
+  std::array<double, 8> corners{};
+  const VoxelId first = finder.find(base);
+  const auto is_inside = [](int i) { return (i & (kBlockSide - 1)) != kBlockSide - 1; };
+  const bool one_block =
+      first != kNoVoxel && is_inside(base.x) && is_inside(base.y) && is_inside(base.z);
+  for (int i = 0; i < 8; ++i) {
+    const int dx = i & 1, dy = i >> 1 & 1, dz = i >> 2;
+    VoxelId id = first + static_cast<VoxelId>(dx + kBlockSide * (dy + kBlockSide * dz));
+    if (!one_block)
+      id = first != kNoVoxel ? esdf.layout.step(first, dx, dy, dz)
+                             : finder.find(base + VoxelIndex{dx, dy, dz});
+    if (id != kNoVoxel) {
+      corners[static_cast<std::size_t>(i)] = stored(esdf, id, far);
+    } else if (esdf.unknown == UnknownPolicy::kIgnore) {
+      return ball_bound(esdf, finder, p, far);
+    }
+  }
+  const auto between = [](double a, double b, double share) { return a + share * (b - a); };
+  const auto over_face = [&](std::size_t i) {
+    return between(between(corners[i], corners[i + 1], t.x()),
+                   between(corners[i + 2], corners[i + 3], t.x()), t.y());
+  };
+  return between(over_face(0), over_face(4), t.z()) - (t.array() * (1.0 - t.array())).sum();
+}
+
+/// What a march along a segment is to find out.
+enum class Wanted { kWhether, kWhere, kWhetherClearly };
+
+/// D^2 along a segment, in voxel units. Lower bounds of it at two places bound it between them too,
+/// since it is concave but for |x|^2: from a place that is far from everything the march takes a
+/// long step, close to obstacles a short one, and where bounds do not decide it looks at the
+/// obstacles themselves.
+class SegmentMarch {
+ public:
+  SegmentMarch(const EsdfMap& esdf, const Vector& a, const Vector& b)
+      : esdf_(esdf), finder_(esdf.layout), a_(a), length_((b - a).norm()), far_(squared_far(esdf)) {
+    along_ = length_ > 0.0 ? Vector((b - a) / length_) : Vector::Zero();
+  }
+
+  /// Where, in voxels from the start, a stretch of at most a voxel begins on which D^2 falls below
+  /// the limit; infinite if there is none. Wanted::kWhether: some place that is too low, not the
+  /// first; kWhetherClearly: also one that might be.
+  template <Wanted wanted>
+  double doubt(double limit) {
+    double place = kInfinity;
+    if (wanted != Wanted::kWhere)  // most that are not free show it at a glance
+      for (const double share : {0.5, 0.25, 0.75})
+        if (is_low(at(share * length_), limit)) return share * length_;
+    const auto on_low = [&](double t) {
+      if (wanted != Wanted::kWhere && is_low(at(t), limit)) place = t;
+      return std::isinf(place);
+    };
+    march(limit, on_low, [&](double t, double end) {
+      if (wanted == Wanted::kWhetherClearly || !close_stays_above(t, end, limit)) place = t;
+      return std::isinf(place);
+    });
+    return place;
+  }
+
+  /// Upper bound of min D^2, from the sites of the voxels on the way; infinite where none has one.
+  double upper_bound() {
+    double best = std::min(at_site(at(0.0)), at_site(at(length_)));
+    for (double t = 4.0; t < length_; t += 8.0) best = std::min(best, at_site(at(t)));
+    return best;
+  }
+
+  /// min D^2 along the segment, if below `best` (finite), else `best`.
+  double minimum(double best) {
+    march(
+        best, [](double) { return true; },
+        [&](double t, double end) {
+          best = ObstacleScan(esdf_, at(t), at(end)).run(best);
+          return best > 0.0;
+        });
+    return best;
+  }
+
+ private:
+  static constexpr double kCloseStep = 1.0;  // voxels looked at closely at a time
+
+  Vector at(double t) const { return a_ + t * along_; }
+  double bound_at(double t) { return lower_bound(esdf_, finder_, at(t), far_); }
+
+  /// Goes along the segment as far as bounds show D^2 >= limit, which may fall meanwhile. Where
+  /// they do not, it calls `on_low(place)` with a place ahead whose bound is below the limit, and
+  /// looks closer; at last `on_close(begin, end)` with a stretch of at most kCloseStep, and goes on
+  /// behind it. Stops where one of them returns false.
+  template <typename OnLow, typename OnClose>
+  void march(const double& limit, const OnLow& on_low, const OnClose& on_close) {
+    double t = 0.0, bound = bound_at(0.0);
+    bool is_close = false;
+    do {
+      // Two places with this bound may be so far apart.
+      const double step = bound > limit && !is_close ? 2.0 * std::sqrt(bound - limit) : 0.0;
+      is_close = step <= kCloseStep;
+      double end = std::min(t + std::max(step, kCloseStep), length_);
+      double bound_ahead = bound_at(end);
+      if (bound_between(bound, bound_ahead, end - t) < limit) {
+        if (is_close) {
+          if (!on_close(t, end)) return;
+        } else {
+          if (bound_ahead < limit && !on_low(end)) return;
+          const double certain = certain_part(bound, bound_ahead, end - t, limit);
+          is_close = certain < kCloseStep;
+          if (is_close) continue;
+          end = t + certain;
+          bound_ahead = std::max(bound_at(end), limit);
+        }
+      }
+      t = end;
+      bound = bound_ahead;
+      is_close = false;
+    } while (t < length_);
+  }
+
+  /// Whether D^2(x) is below the limit for certain, by the distance at the centre of its voxel.
+  bool is_low(const Vector& x, double limit) {
+    const VoxelIndex voxel = voxel_holding(x);
+    const VoxelId id = finder_.find(voxel);
+    if (id == kNoVoxel) return esdf_.unknown == UnknownPolicy::kObstacle;
+    const double squared = 0.25 * esdf_.squared[id];
+    if (squared >= limit) return false;
+    const double off = (x - Vector(voxel.x + 0.5, voxel.y + 0.5, voxel.z + 0.5)).norm();
+    const double farthest = std::sqrt(squared) + off;
+    return farthest * farthest < limit;
+  }
+
+  /// Squared distance from x to the site of its voxel: never too small.
+  double at_site(const Vector& x) {
+    const VoxelIndex voxel = voxel_holding(x);
+    const VoxelId id = finder_.find(voxel);
+    if (id == kNoVoxel) return esdf_.unknown == UnknownPolicy::kObstacle ? 0.0 : kInfinity;
+    if (esdf_.squared[id] == kNoSite) return kInfinity;
+    const SiteOffset& o = esdf_.site[id];
+    return squared_distance(x, cube_of(voxel + VoxelIndex{o.x, o.y, o.z}));
+  }
+
+  /// Lower bound of D^2 between two places `length` apart, by concavity from bounds there: the
+  /// minimum over x of b0 + (b1 - b0) x / length - x (length - x).
+  static double bound_between(double b0, double b1, double length) {
+    const double squared = length * length, rise = std::abs(b1 - b0);
+    if (rise >= squared) return std::min(b0, b1);
+    return 0.5 * (b0 + b1) - 0.25 * squared - 0.25 * rise * rise / squared;
+  }
+
+  /// The first x at which that falls to the limit, if it is above at 0; else 0.
+  static double certain_part(double b0, double b1, double length, double limit) {
+    const double half = 0.5 * (length - (b1 - b0) / length);
+    const double root = half * half - (b0 - limit);
+    return b0 > limit && root > 0.0 ? half - std::sqrt(root) : 0.0;
+  }
+
+  bool close_stays_above(double t0, double t1, double limit) {
+    if (at_site(at(t0)) < limit || at_site(at(t1)) < limit) return false;
+    return ObstacleScan(esdf_, at(t0), at(t1)).run(limit) >= limit;
+  }
+
+  const EsdfMap& esdf_;
+  VoxelFinder finder_;
+  const Vector a_;
+  const double length_;
+  const double far_;
+  Vector along_;
+};
+
+}  // namespace ridgeway::detail
