@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
-#include "deadline.hpp"
+#include "../paths/deadline.hpp"
+#include "../paths/shorten.hpp"
 #include "deformation.hpp"
 #include "query.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "route_enumeration.hpp"
-#include "shorten.hpp"
 
 namespace ridgeway {
 namespace {

@@ -3,16 +3,24 @@
 #include "detour.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+
+#include "../paths/shorten.hpp"
 
 namespace ridgeway::detail {
 namespace {
 
 constexpr int kRays = 6;
 constexpr int kTriesPerRay = 3;
-constexpr double kWiden = 1.35;  // from one try on a ray to the next
+constexpr double kWiden = 1.35;         // from one try on a ray to the next
+constexpr double kWorthwhile = 1e-3;    // relative gain that makes a detour worth it
+constexpr double kExcess = 0.02;        // of a stretch's length: worth a detour search
+constexpr double kExcessOfAll = 0.015;  // of the path's length
+constexpr int kDetourCorners = 2;
+constexpr std::size_t kLongestStretch = 3;  // segments that a detour may replace
 
 /// Distance at the centre of the point's voxel, metres; 0 where nothing is known.
 double rough_distance(const EsdfMap& esdf, const Point& p) {
@@ -94,6 +102,30 @@ Detour find_detour(const EsdfMap& esdf, const FreeSpace& space, const Point& a, 
     }
   }
   return best;
+}
+
+std::vector<Point> redirect(const EsdfMap& esdf, const FreeSpace& space, std::vector<Point> path,
+                            double radius, const Deadline& deadline) {
+  const double total = length_of(path);
+  // The longest stretches first: what they find makes the shorter ones needless.
+  for (std::size_t stretch = std::min(kLongestStretch, path.size() - 1); stretch >= 2; --stretch) {
+    for (std::size_t i = 0; i + stretch < path.size() && !deadline.has_passed(); ++i) {
+      const auto first = path.begin() + static_cast<std::ptrdiff_t>(i);
+      const auto last = first + static_cast<std::ptrdiff_t>(stretch);
+      double length = 0.0;
+      for (auto p = first; p != last; ++p) length += (*(p + 1) - *p).norm();
+      if (length - (*last - *first).norm() < std::max(kExcess * length, kExcessOfAll * total))
+        continue;
+      const Detour detour = find_detour(esdf, space, *first, *last, radius,
+                                        length * (1.0 - kWorthwhile), kDetourCorners);
+      if (!detour.found()) continue;
+      const auto place = path.erase(first + 1, last);
+      path.insert(place, detour.corners.begin(), detour.corners.end());
+      stretch = std::min(stretch, path.size() - 1);
+    }
+    stretch = std::min(stretch, path.size());
+  }
+  return path;
 }
 
 }  // namespace ridgeway::detail

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "../paths/deadline.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 
 namespace ridgeway::detail {
@@ -19,5 +20,11 @@ struct Detour {
 };
 Detour find_detour(const EsdfMap& esdf, const FreeSpace& space, const Point& a, const Point& b,
                    double radius, double budget, int corners);
+
+/// Looks past the corners of a shortened path: where a stretch of it is much longer than the
+/// straight line, tries ways on other sides of what blocks the line, and keeps those that are
+/// shorter.
+std::vector<Point> redirect(const EsdfMap& esdf, const FreeSpace& space, std::vector<Point> path,
+                            double radius, const Deadline& deadline);
 
 }  // namespace ridgeway::detail

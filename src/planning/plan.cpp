@@ -7,7 +7,8 @@
 #include <cmath>
 #include <string>
 
-#include "deadline.hpp"
+#include "../paths/deadline.hpp"
+#include "../paths/shorten.hpp"
 #include "endpoint.hpp"
 #include "escape.hpp"
 #include "query.hpp"
@@ -15,7 +16,6 @@
 #include "ridgeway/common/number_text.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "route.hpp"
-#include "shorten.hpp"
 #include "tightest.hpp"
 
 namespace ridgeway {

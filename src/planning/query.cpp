@@ -4,10 +4,10 @@
 
 #include <span>
 
+#include "../paths/shorten.hpp"
 #include "endpoint.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/number_text.hpp"
-#include "shorten.hpp"
 
 namespace ridgeway::detail {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "deadline.hpp"
+#include "../paths/deadline.hpp"
 #include "lattice_search.hpp"
 #include "query.hpp"
 #include "ridgeway/esdf/free_space.hpp"

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 
-#include "attach_way.hpp"
+#include "../paths/shorten.hpp"
+#include "../roadmap/attach_way.hpp"
+#include "../roadmap/graph_search.hpp"
 #include "deformation.hpp"
-#include "graph_search.hpp"
-#include "shorten.hpp"
 #include "voxel_route.hpp"
 
 namespace ridgeway::detail {

@@ -6,10 +6,11 @@
 #include <limits>
 #include <span>
 
+#include "../paths/shorten.hpp"
+#include "detour.hpp"
 #include "endpoint.hpp"
 #include "path_cost.hpp"
 #include "ridgeway/esdf/free_space.hpp"
-#include "shorten.hpp"
 #include "voxel_route.hpp"
 
 namespace ridgeway::detail {

@@ -11,9 +11,9 @@
 #include <cmath>
 #include <string>
 
-#include "../planning/deadline.hpp"
+#include "../paths/deadline.hpp"
+#include "../paths/shorten.hpp"
 #include "../planning/query.hpp"
-#include "../planning/shorten.hpp"
 #include "ompl_problem.hpp"
 #include "prm_star.hpp"
 #include "ridgeway/common/error.hpp"

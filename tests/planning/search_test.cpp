@@ -2,8 +2,8 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include <gtest/gtest.h>
 
-#include "../src/planning/graph_search.hpp"
 #include "../src/planning/lattice_search.hpp"
+#include "../src/roadmap/graph_search.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "support/dijkstra.hpp"

@@ -5,19 +5,13 @@
 #include <algorithm>
 #include <array>
 
-#include "detour.hpp"
-
 namespace ridgeway::detail {
 namespace {
 
 constexpr int kRounds = 6;
 constexpr int kBisections = 4;
-constexpr double kWorthwhile = 1e-3;    // relative gain that makes a move or a detour worth it
-constexpr double kStep = 8.0;           // metres between the places that skipping may choose from
-constexpr double kExcess = 0.02;        // of a stretch's length: worth a detour search
-constexpr double kExcessOfAll = 0.015;  // of the path's length
-constexpr int kDetourCorners = 2;
-constexpr std::size_t kLongestStretch = 3;  // segments that a detour may replace
+constexpr double kWorthwhile = 1e-3;  // relative gain that makes a move worth it
+constexpr double kStep = 8.0;         // metres between the places that skipping may choose from
 
 /// Skips waypoints: from each one goes on to the farthest that can be seen, found by doubling
 /// the stride and then halving it.
@@ -233,30 +227,6 @@ std::vector<Point> shorten(const FreeSpace& space, std::vector<Point> path, doub
                            const Deadline& deadline, const MayReplace& may_replace) {
   path = skip_waypoints(space, std::move(path), radius, may_replace);
   return draw_corners_in(space, std::move(path), radius, deadline, may_replace);
-}
-
-std::vector<Point> redirect(const EsdfMap& esdf, const FreeSpace& space, std::vector<Point> path,
-                            double radius, const Deadline& deadline) {
-  const double total = length_of(path);
-  // The longest stretches first: what they find makes the shorter ones needless.
-  for (std::size_t stretch = std::min(kLongestStretch, path.size() - 1); stretch >= 2; --stretch) {
-    for (std::size_t i = 0; i + stretch < path.size() && !deadline.has_passed(); ++i) {
-      const auto first = path.begin() + static_cast<std::ptrdiff_t>(i);
-      const auto last = first + static_cast<std::ptrdiff_t>(stretch);
-      double length = 0.0;
-      for (auto p = first; p != last; ++p) length += (*(p + 1) - *p).norm();
-      if (length - (*last - *first).norm() < std::max(kExcess * length, kExcessOfAll * total))
-        continue;
-      const Detour detour = find_detour(esdf, space, *first, *last, radius,
-                                        length * (1.0 - kWorthwhile), kDetourCorners);
-      if (!detour.found()) continue;
-      const auto place = path.erase(first + 1, last);
-      path.insert(place, detour.corners.begin(), detour.corners.end());
-      stretch = std::min(stretch, path.size() - 1);
-    }
-    stretch = std::min(stretch, path.size());
-  }
-  return path;
 }
 
 }  // namespace ridgeway::detail

@@ -31,10 +31,4 @@ std::vector<Point> skip_waypoints(const FreeSpace& space, std::vector<Point> pat
 std::vector<Point> draw_corners_in(const FreeSpace& space, std::vector<Point> path, double radius,
                                    const Deadline& deadline, const MayReplace& may_replace = {});
 
-/// Looks past the corners of a shortened path: where a stretch of it is much longer than the
-/// straight line, tries ways on other sides of what blocks the line, and keeps those that are
-/// shorter.
-std::vector<Point> redirect(const EsdfMap& esdf, const FreeSpace& space, std::vector<Point> path,
-                            double radius, const Deadline& deadline);
-
 }  // namespace ridgeway::detail
