@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <limits>
 
 namespace ridgeway::detail {
 
@@ -14,6 +15,7 @@ inline double seconds_now() {
 struct Deadline {
   double at;  ///< seconds_now() of the end
   explicit Deadline(double time_limit) : at(seconds_now() + time_limit) {}
+  static Deadline never() { return Deadline(std::numeric_limits<double>::infinity()); }
   bool has_passed() const { return seconds_now() > at; }
 };
 

@@ -16,6 +16,7 @@
 #include "ridgeway/common/number_text.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "route.hpp"
+#include "taut_search.hpp"
 #include "tightest.hpp"
 
 namespace ridgeway {
@@ -98,9 +99,21 @@ PlanResult plan_between(const Roadmap& roadmap, const Point& start, const Point&
     return finish(PlanStatus::kOk);
   }
   const detail::RouteQuery query{ends.from, ends.to, start, goal, radius, config.prefer_clearance};
+  const bool may_ask_taut = config.shorten && config.planner == Planner::kGraph &&
+                            config.prefer_clearance == 0.0 &&
+                            radius <= roadmap.taut.graph.min_clearance * (1.0 + 1e-9);
+  detail::TautPath taut;
+  if (may_ask_taut) taut = detail::plan_taut(roadmap.taut, space, query, deadline);
+  result.seconds.search = taut.search_seconds;
+  result.seconds.shorten = taut.shorten_seconds;
+  if (taut.is_tight) {
+    result.waypoints = std::move(taut.waypoints);
+    detail::describe(esdf, space, taut.known, result);
+    if (detail::is_verified(esdf, space, result, radius)) return finish(PlanStatus::kOk);
+  }
   detail::RouteResult found = detail::find_route(roadmap, query, config.planner, deadline);
   result.seconds.attach = found.attach_seconds;
-  result.seconds.search = found.search_seconds;
+  result.seconds.search += found.search_seconds;
   result.answered_by = found.answered_by;
   if (found.status == detail::SearchStatus::kTimeout) return finish(PlanStatus::kTimeout);
   const double shortening = seconds_now();
@@ -111,8 +124,11 @@ PlanResult plan_between(const Roadmap& roadmap, const Point& start, const Point&
   } else {
     result.waypoints =
         config.shorten ? detail::tightest(esdf, space, found, query, deadline) : found.route;
+    if (!taut.waypoints.empty() &&
+        detail::length_of(taut.waypoints) < detail::length_of(result.waypoints))
+      result.waypoints = std::move(taut.waypoints);
   }
-  result.seconds.shorten = seconds_now() - shortening;
+  result.seconds.shorten += seconds_now() - shortening;
   detail::describe(esdf, space, config.shorten ? KnownStretch{} : found.known, result);
   if (detail::is_verified(esdf, space, result, radius)) return finish(PlanStatus::kOk);
   // What the search found holds move by move, whatever became of it since.

@@ -36,7 +36,7 @@ class StageClock {
 
  private:
   using Clock = std::chrono::steady_clock;
-  static constexpr int kStages = 7;
+  static constexpr int kStages = 8;
   const Progress& progress_;
   int done_ = 0;
   Clock::time_point start_ = Clock::now();
@@ -144,8 +144,13 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
   report.diagram_voxels = roadmap.diagram.voxels.count();
   clock.end(report.seconds.attach);
 
+  clock.begin("taut");
+  roadmap.taut = build_taut_graph(roadmap, {.routes = config.taut_routes});
+  clock.end(report.seconds.taut);
+
   const BuildSeconds& s = report.seconds;
-  report.seconds.total = s.esdf + s.gvd + s.edges + s.thin + s.kernel + s.graph + s.attach;
+  report.seconds.total = s.esdf + s.gvd + s.edges + s.thin + s.kernel + s.graph + s.attach +
+                         s.taut;
   if (progress) progress("done", 1.0);
   return result;
 }

@@ -19,6 +19,7 @@ struct BuildConfig {
   double split_deviation = 0.0;    ///< edge's greatest distance from its diagram; 0: two voxels
   double significance = 0.35;      ///< dead ends of the graph that reach less far go
   bool simplify = true;            ///< leave out of the graph what noise and voxels put into it
+  std::size_t taut_routes = 500;   ///< that the taut graph is learnt from; 0: none is made
   bool basis_point_edges = false;  ///< edges by basis points, not by the 18-of-26 rule
   bool paper_diagram = false;      ///< thinned edges alone, without the kernel, for comparison
 
@@ -28,7 +29,7 @@ struct BuildConfig {
 
 struct BuildSeconds {
   double esdf = 0.0, gvd = 0.0, edges = 0.0, thin = 0.0, kernel = 0.0, graph = 0.0, attach = 0.0,
-         total = 0.0;
+         taut = 0.0, total = 0.0;
 };
 
 /// Counts and times of a build, for reports.
@@ -50,8 +51,8 @@ struct BuildResult {
   BuildReport report;
 };
 
-/// The whole pipeline: ESDF, GVD, edges, thinning, kernel, diagram, graph, attach field. Consumes
-/// the map. Under UnknownPolicy::kIgnore free pockets smaller than the robot are taken as unknown.
+/// The whole pipeline: ESDF, GVD, edges, thinning, kernel, diagram, graph, attach field, taut graph.
+/// Consumes the map. Under UnknownPolicy::kIgnore free pockets smaller than the robot are taken as unknown.
 /// Same map and configuration give the same bytes for any number of threads (set by with_threads,
 /// common/parallel.hpp). Throws InputError where nothing is free.
 BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config = {},

@@ -8,6 +8,7 @@
 #include "ridgeway/esdf/esdf_map.hpp"
 #include "ridgeway/roadmap/graph_lengths.hpp"
 #include "ridgeway/roadmap/sparse_graph.hpp"
+#include "ridgeway/roadmap/taut_graph.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
 
 namespace ridgeway {
@@ -45,6 +46,7 @@ struct Roadmap {
   AttachField attach;
   ClearanceTree tree;
   Landmarks landmarks;  ///< of the graph; not in the file, placed when it is loaded
+  TautGraph taut;       ///< ways close around corners; may be empty
   std::string source;   ///< the map it was built from, for people
   std::string config;   ///< the configuration it was built with, as JSON text, for people
 };

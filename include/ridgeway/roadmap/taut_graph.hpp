@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "ridgeway/roadmap/graph_lengths.hpp"
+#include "ridgeway/roadmap/sparse_graph.hpp"
+#include "ridgeway/voxel/block_layout.hpp"
+
+namespace ridgeway {
+
+struct Roadmap;
+
+/// Where tight paths for the smallest robot turn, and between which of those places they run: the
+/// sparse graph goes along the middle of space, this one close around the corners, so that a route
+/// over it is nearly as short as can be before anything is pulled tight. A tangent graph (Liu and
+/// Arimoto, "Path planning using a tangent graph for mobile robots among polygonal and curved
+/// obstacles", 1992) of the corners that sampled routes were seen to use (experience graphs:
+/// Phillips et al. 2012). It need not reach everywhere: what it does not know, the sparse graph does.
+struct TautGraph {
+  SparseGraph graph;    ///< its vertices are the corners; free at its min_clearance
+  Landmarks landmarks;  ///< of the graph; not in the file, placed when it is loaded
+
+  /// Which corners are worth a look from a place, by cell: cells are cubes of 2 x 2 x 2 blocks.
+  std::vector<std::uint32_t> cell_of_block;  ///< by slot; not in the file
+  std::vector<std::uint32_t> first_seen;     ///< cells + 1 entries into `seen`; empty: no graph
+  std::vector<VertexId> seen;
+
+  std::span<const VertexId> seen_from(VoxelId voxel) const {
+    if (first_seen.empty()) return {};
+    const std::uint32_t cell = cell_of_block[voxel / kBlockVoxels];
+    return std::span(seen).subspan(first_seen[cell], first_seen[cell + 1] - first_seen[cell]);
+  }
+};
+
+struct TautConfig {
+  std::size_t routes = 500;  ///< between random places that corners are learnt from; 0: no graph
+};
+
+/// Learns the corners from routes over the sparse graph between random places. The roadmap must
+/// be complete but for this. Deterministic. Every edge is verified.
+TautGraph build_taut_graph(const Roadmap& roadmap, const TautConfig& config = {});
+
+/// Numbers the cells of a layout, in the order of their first blocks.
+struct BlockCells {
+  std::vector<std::uint32_t> cell_of_block;
+  std::uint32_t count = 0;
+};
+BlockCells number_cells(const BlockLayout& layout);
+
+}  // namespace ridgeway

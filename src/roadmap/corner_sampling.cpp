@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "corner_sampling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "../paths/shorten.hpp"
+#include "attach_way.hpp"
+#include "graph_search.hpp"
+#include "ridgeway/common/parallel.hpp"
+#include "ridgeway/sensing/random.hpp"
+
+namespace ridgeway::detail {
+namespace {
+
+constexpr int kRoutes = 2;        // between two places
+constexpr float kPenalty = 1.6f;  // on edges that the first of them took
+constexpr int kTries = 1000;      // to meet a traversable voxel
+
+VoxelId random_voxel(const Roadmap& roadmap, Random& random) {
+  const VoxelField<Direction>& next = roadmap.attach.next;
+  for (int i = 0; i < kTries; ++i) {
+    const auto id = static_cast<VoxelId>(random.below(next.size()));
+    if (next[id] != AttachField::kNotTraversable) return id;
+  }
+  return kNoVoxel;
+}
+
+VoxelId random_vertex(const Roadmap& roadmap, Random& random) {
+  const std::vector<Vertex>& vertices = roadmap.graph.vertices;
+  if (vertices.empty()) return kNoVoxel;
+  return roadmap.esdf.layout.find(vertices[random.below(vertices.size())].voxel);
+}
+
+/// Of the eight voxels around a corner the nearest one that is no nearer to obstacles.
+VoxelId voxel_for(const EsdfMap& esdf, const FreeSpace& space, const Point& corner, double radius) {
+  const double least = squared_threshold(std::max(space.distance(corner), radius), esdf.voxel_size);
+  const Point low = corner / esdf.voxel_size - Point::Constant(0.5);
+  const VoxelIndex first{floor_to_int(low.x()), floor_to_int(low.y()), floor_to_int(low.z())};
+  VoxelId best = kNoVoxel;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 8; ++i) {
+    const VoxelIndex v = first + VoxelIndex{i & 1, i >> 1 & 1, i >> 2};
+    const VoxelId id = esdf.layout.find(v);
+    if (id == kNoVoxel || esdf.state[id] != VoxelState::kFree || esdf.squared[id] < least) continue;
+    const double distance = (centre_of(v, esdf.voxel_size) - corner).squaredNorm();
+    if (distance >= nearest) continue;
+    nearest = distance;
+    best = id;
+  }
+  return best;
+}
+
+/// Paths over the graph between two voxels, pulled tight.
+std::vector<std::vector<Point>> tight_paths(const Roadmap& roadmap, const FreeSpace& space,
+                                            VoxelId from, VoxelId to) {
+  const EsdfMap& esdf = roadmap.esdf;
+  const double radius = roadmap.min_clearance;
+  const auto centre = [&](VoxelId id) {
+    return centre_of(esdf.layout.index_of(id), esdf.voxel_size);
+  };
+  if (space.is_free(centre(from), centre(to), radius)) return {};
+  const AttachWay start = follow_attach(roadmap, from, radius);
+  const AttachWay goal = follow_attach(roadmap, to, radius);
+  if (!start.reached() || !goal.reached()) return {};
+  std::vector<std::vector<Point>> paths;
+  std::vector<float> penalty(roadmap.graph.edges.size(), 1.0f);
+  for (int k = 0; k < kRoutes; ++k) {
+    const std::vector<VertexId> vertices =
+        search_graph(roadmap.graph, roadmap.landmarks, start.vertex, goal.vertex, radius, &penalty);
+    if (vertices.empty()) break;
+    std::vector<Point> path;
+    for (const VoxelId id : start.voxels) path.push_back(centre(id));
+    for (std::size_t i = 1; i < vertices.size(); ++i) {
+      path.push_back(roadmap.graph.vertices[number(vertices[i])].position);
+      penalty[number(edge_between(roadmap.graph, vertices[i - 1], vertices[i]))] = kPenalty;
+    }
+    for (auto id = goal.voxels.rbegin() + 1; id < goal.voxels.rend(); ++id)
+      path.push_back(centre(*id));
+    paths.push_back(shorten(space, std::move(path), radius, Deadline::never()));
+  }
+  return paths;
+}
+
+}  // namespace
+
+std::vector<CornerChain> sample_corners(const Roadmap& roadmap, std::size_t pairs) {
+  const FreeSpace space(roadmap.esdf);
+  std::vector<std::vector<CornerChain>> by_pair(pairs);
+  parallel_for_each_index(pairs, [&](std::size_t i) {
+    Random random(i);
+    // Queries start anywhere, and where the graph has most vertices there is most to go around.
+    const VoxelId from = random_voxel(roadmap, random);
+    const VoxelId to = i % 2 == 0 ? random_voxel(roadmap, random) : random_vertex(roadmap, random);
+    if (from == kNoVoxel || to == kNoVoxel) return;
+    for (const std::vector<Point>& path : tight_paths(roadmap, space, from, to)) {
+      CornerChain chain;
+      for (std::size_t k = 1; k + 1 < path.size(); ++k) {
+        const VoxelId id = voxel_for(roadmap.esdf, space, path[k], roadmap.min_clearance);
+        if (id != kNoVoxel) chain.push_back(id);
+      }
+      by_pair[i].push_back(std::move(chain));
+    }
+  });
+  std::vector<CornerChain> chains;
+  for (std::vector<CornerChain>& some : by_pair)
+    for (CornerChain& chain : some) chains.push_back(std::move(chain));
+  return chains;
+}
+
+}  // namespace ridgeway::detail
