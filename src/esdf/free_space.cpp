@@ -92,6 +92,15 @@ double FreeSpace::free_length(const Point& a, const Point& b, double radius) con
   return free;
 }
 
+std::optional<Point> FreeSpace::near_obstacle(const Point& p) const {
+  const VoxelIndex v = voxel_at(p, esdf_.voxel_size);
+  const VoxelId id = esdf_.layout.find(v);
+  if (id == kNoVoxel || esdf_.squared[id] == kNoSite) return std::nullopt;
+  const SiteOffset& site = esdf_.site[id];
+  const Point low = Point(v.x + site.x, v.y + site.y, v.z + site.z) * esdf_.voxel_size;
+  return p.cwiseMax(low).cwiseMin(low + Point::Constant(esdf_.voxel_size));
+}
+
 bool FreeSpace::is_known_free(const Point& a, const Point& b) const {
   const Vector from = a / esdf_.voxel_size, along = b / esdf_.voxel_size - from;
   // Between two crossings of lattice planes the segment stays in one voxel: ask at its middle,

@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace ridgeway::detail {
 namespace {
 
 constexpr int kRounds = 6;
 constexpr int kBisections = 4;
-constexpr double kWorthwhile = 1e-3;  // relative gain that makes a move worth it
+constexpr int kCheapBisections = 6;
+constexpr double kRounding = 1e-9;
+constexpr double kWorthwhile = 1e-3;    // of the path's length: what a move must gain
 constexpr double kStep = 8.0;         // metres between the places that skipping may choose from
 
 /// Skips waypoints: from each one goes on to the farthest that can be seen, found by doubling
@@ -57,59 +60,33 @@ std::vector<Point> subdivide(const std::vector<Point>& path, double step) {
   return result;
 }
 
-/// Largest share in [0, 1) found by halving at which `is_free` holds; it holds at 0.
-template <typename IsFree>
-double largest_free_share(const IsFree& is_free) {
+double squared_distance(const Point& p, const Point& a, const Point& b) {
+  const Point along = b - a;
+  const double squared = along.squaredNorm();
+  const double t = squared > 0.0 ? std::clamp((p - a).dot(along) / squared, 0.0, 1.0) : 0.0;
+  return (p - a - t * along).squaredNorm();
+}
+
+/// Largest share in [0, 1) found by halving at which both hold; they hold at 0. `may_be_free` is
+/// cheap and only ever wrong where it says yes, so it finds the place where to start with looks;
+/// 0 where that place would not be worth it.
+template <typename MayBeFree, typename IsWorthIt, typename IsFree>
+double largest_free_share(const MayBeFree& may_be_free, const IsWorthIt& is_worth_it,
+                          const IsFree& is_free) {
   double good = 0.0, bad = 1.0;
+  for (int i = 0; i < kCheapBisections; ++i) {
+    const double middle = 0.5 * (good + bad);
+    (may_be_free(middle) ? good : bad) = middle;
+  }
+  if (good == 0.0 || !is_worth_it(good)) return 0.0;
+  if (is_free(good)) return good;
+  bad = good;
+  good = 0.0;
   for (int i = 0; i < kBisections; ++i) {
     const double middle = 0.5 * (good + bad);
-    (is_free(middle) ? good : bad) = middle;
+    (may_be_free(middle) && is_free(middle) ? good : bad) = middle;
   }
   return good;
-}
-
-/// A corner of a path that is made shorter, between its neighbours.
-struct Corner {
-  const Point& before;
-  Point& at;
-  const Point& after;
-
-  double length() const { return length_over(at); }
-  double length_over(const Point& p) const { return (p - before).norm() + (after - p).norm(); }
-};
-
-/// Moves a corner along one of its two segments, as far as it stays free: one of the two new
-/// segments is part of an old one.
-template <typename MayBecome>
-void slide(const FreeSpace& space, Corner& corner, double radius, const MayBecome& may_become) {
-  const Point old = corner.at;
-  const double back = largest_free_share([&](double share) {
-    const Point p = old + share * (corner.before - old);
-    return space.is_clearly_free(p, corner.after, radius) && may_become(p);
-  });
-  const double on = largest_free_share([&](double share) {
-    const Point p = old + share * (corner.after - old);
-    return space.is_clearly_free(corner.before, p, radius) && may_become(p);
-  });
-  const Point backward = old + back * (corner.before - old);
-  const Point onward = old + on * (corner.after - old);
-  corner.at = corner.length_over(backward) < corner.length_over(onward) ? backward : onward;
-}
-
-/// Moves a corner towards the line between its neighbours, as far as it stays free.
-template <typename MayBecome>
-void draw_in(const FreeSpace& space, Corner& corner, double radius, const MayBecome& may_become) {
-  const Point old = corner.at, along = corner.after - corner.before;
-  const double squared = along.squaredNorm();
-  const double t =
-      squared > 0.0 ? std::clamp((old - corner.before).dot(along) / squared, 0.0, 1.0) : 0.0;
-  const Point target = corner.before + t * along;
-  const double in = largest_free_share([&](double share) {
-    const Point p = old + share * (target - old);
-    return space.is_clearly_free(corner.before, p, radius) &&
-           space.is_clearly_free(p, corner.after, radius) && may_become(p);
-  });
-  corner.at = old + in * (target - old);
 }
 
 /// The corners of a path pulled taut, round by round.
@@ -117,84 +94,154 @@ class Tightening {
  public:
   Tightening(const FreeSpace& space, std::vector<Point> path, double radius,
              const MayReplace& may_replace)
-      : space_(space),
-        radius_(radius),
-        may_replace_(may_replace),
-        path_(std::move(path)),
-        moved_(path_.size(), true) {}
+      : space_(space), radius_(radius), may_replace_(may_replace) {
+    for (const Point& p : path) corners_.push_back(corner_at(p));
+    least_gain_ = kWorthwhile * length_of(path);
+  }
 
   /// Tries every corner that moved, or has a neighbour that did, and in the first rounds all of
   /// them: whether it can go, or else one of three moves, by the round. Whether to go on.
   bool run_round(int round) {
     const bool all = round < kMoves;
     bool was_worth_it = round + 1 < kMoves;
-    for (std::size_t i = 1; i + 1 < path_.size();) {
-      const bool may_go = round == 0 || moved_[i - 1] || moved_[i + 1];
+    for (std::size_t i = 1; i + 1 < corners_.size();) {
+      const bool may_go = round == 0 || corners_[i - 1].moved || corners_[i + 1].moved;
       if (may_go && can_go(i)) {
         erase(i);
         was_worth_it = true;
         continue;
       }
-      if (!all && !may_go && !moved_[i]) {
+      if (!all && !may_go && !corners_[i].moved) {
         ++i;
         continue;
       }
-      Corner corner{path_[i - 1], path_[i], path_[i + 1]};
-      const double length = corner.length();
-      const auto may_become = [&, old = std::array{corner.before, corner.at, corner.after}](
-                                  const auto&... p) {
-        return !may_replace_ || may_replace_(old, std::array{corner.before, p..., corner.after});
-      };
+      const double length = length_over(i, corners_[i].at);
       const int move = round % kMoves;
-      const bool was_cut = move == 2 && cut(i, may_become);
-      if (move == 0) slide(space_, corner, radius_, may_become);
-      if (move == 1) draw_in(space_, corner, radius_, may_become);
-      moved_[i] = was_cut || corner.length() < length * (1.0 - kWorthwhile);
-      was_worth_it |= moved_[i];
+      const bool was_cut = move == 2 && cut(i);
+      if (move == 0) slide(i);
+      if (move == 1) draw_in(i);
+      corners_[i].moved = was_cut || length_over(i, corners_[i].at) < length - least_gain_;
+      was_worth_it |= corners_[i].moved;
       i += was_cut ? 2 : 1;
     }
     return was_worth_it;
   }
 
-  const std::vector<Point>& path() const { return path_; }
+  std::vector<Point> path() const {
+    std::vector<Point> path;
+    for (const Corner& corner : corners_) path.push_back(corner.at);
+    return path;
+  }
 
  private:
   static constexpr int kMoves = 3;
 
+  struct Corner {
+    Point at;
+    std::optional<Point> obstacle;  ///< a point of the one nearest to it
+    bool moved = true;              ///< since it was last tried
+  };
+
+  Corner corner_at(const Point& p) const { return {p, space_.near_obstacle(p)}; }
+
+  double length_over(std::size_t i, const Point& p) const {
+    return (p - corners_[i - 1].at).norm() + (corners_[i + 1].at - p).norm();
+  }
+
+  /// False where the segment passes one of the obstacles around a corner too closely.
+  bool may_be_free(std::size_t i, const Point& a, const Point& b) const {
+    for (std::size_t k = i - 1; k <= i + 1; ++k)
+      if (corners_[k].obstacle && squared_distance(*corners_[k].obstacle, a, b) <
+                                      radius_ * radius_ * (1.0 - kRounding))
+        return false;
+    return true;
+  }
+
+  template <typename... Points>
+  bool may_become(std::size_t i, const Points&... p) const {
+    if (!may_replace_) return true;
+    const std::array old{corners_[i - 1].at, corners_[i].at, corners_[i + 1].at};
+    return may_replace_(old, std::array{old.front(), p..., old.back()});
+  }
+
   bool can_go(std::size_t i) const {
-    const auto around = std::span(path_).subspan(i - 1, 3);
-    return space_.is_free(around.front(), around.back(), radius_) &&
-           (!may_replace_ || may_replace_(around, std::array{around.front(), around.back()}));
+    const Point &before = corners_[i - 1].at, &after = corners_[i + 1].at;
+    return may_be_free(i, before, after) && space_.is_free(before, after, radius_) &&
+           may_become(i);
   }
 
   void erase(std::size_t i) {
-    path_.erase(path_.begin() + static_cast<std::ptrdiff_t>(i));
-    moved_.erase(moved_.begin() + static_cast<std::ptrdiff_t>(i));
-    moved_[i - 1] = moved_[i] = true;
+    corners_.erase(corners_.begin() + static_cast<std::ptrdiff_t>(i));
+    corners_[i - 1].moved = corners_[i].moved = true;
+  }
+
+  /// Moves a corner along one of its two segments, as far as it stays free: one of the two new
+  /// segments is part of an old one.
+  void slide(std::size_t i) {
+    const Point old = corners_[i].at;
+    Point best = old;
+    const auto try_towards = [&](const Point& end, const Point& other) {
+      const auto place = [&](double share) -> Point { return old + share * (end - old); };
+      const double share = largest_free_share(
+          [&](double s) { return may_be_free(i, place(s), other); },
+          [&](double s) { return length_over(i, place(s)) < length_over(i, best) - least_gain_; },
+          [&](double s) {
+            return space_.is_clearly_free(place(s), other, radius_) && may_become(i, place(s));
+          });
+      if (length_over(i, place(share)) < length_over(i, best)) best = place(share);
+    };
+    try_towards(corners_[i - 1].at, corners_[i + 1].at);
+    try_towards(corners_[i + 1].at, corners_[i - 1].at);
+    if (best != old) corners_[i] = corner_at(best);
+  }
+
+  /// Moves a corner towards the line between its neighbours, as far as it stays free.
+  void draw_in(std::size_t i) {
+    const Point old = corners_[i].at, before = corners_[i - 1].at, after = corners_[i + 1].at;
+    const Point along = after - before;
+    const double squared = along.squaredNorm();
+    const double t =
+        squared > 0.0 ? std::clamp((old - before).dot(along) / squared, 0.0, 1.0) : 0.0;
+    const auto place = [&](double share) -> Point {
+      return old + share * (before + t * along - old);
+    };
+    const double share = largest_free_share(
+        [&](double s) {
+          return may_be_free(i, before, place(s)) && may_be_free(i, place(s), after);
+        },
+        [&](double s) { return length_over(i, place(s)) < length_over(i, old) - least_gain_; },
+        [&](double s) {
+          return space_.is_clearly_free(before, place(s), radius_) &&
+                 space_.is_clearly_free(place(s), after, radius_) && may_become(i, place(s));
+        });
+    if (share > 0.0) corners_[i] = corner_at(place(share));
   }
 
   /// Takes a corner off, between the places farthest from it, by equal shares of its two segments,
   /// that see each other: a way round a box needs a corner more. Whether that was worth it.
-  template <typename MayBecome>
-  bool cut(std::size_t i, const MayBecome& may_become) {
-    const Point at = path_[i], back = path_[i - 1] - at, on = path_[i + 1] - at;
-    const double share = largest_free_share([&](double s) {
-      const Point p = at + s * back, q = at + s * on;
-      return space_.is_clearly_free(p, q, radius_) && may_become(p, q);
-    });
-    const double whole = back.norm() + on.norm();
-    if (share * (whole - (on - back).norm()) < kWorthwhile * whole) return false;
-    path_[i] = at + share * back;
-    path_.insert(path_.begin() + static_cast<std::ptrdiff_t>(i + 1), at + share * on);
-    moved_.insert(moved_.begin() + static_cast<std::ptrdiff_t>(i + 1), true);
+  bool cut(std::size_t i) {
+    const Point at = corners_[i].at;
+    const Point back = corners_[i - 1].at - at, on = corners_[i + 1].at - at;
+    const double saved = back.norm() + on.norm() - (on - back).norm();
+    const double share = largest_free_share(
+        [&](double s) { return may_be_free(i, at + s * back, at + s * on); },
+        [&](double s) { return s * saved > least_gain_; },
+        [&](double s) {
+          const Point p = at + s * back, q = at + s * on;
+          return space_.is_clearly_free(p, q, radius_) && may_become(i, p, q);
+        });
+    if (share * saved <= least_gain_) return false;
+    corners_[i] = corner_at(at + share * back);
+    corners_.insert(corners_.begin() + static_cast<std::ptrdiff_t>(i + 1),
+                    corner_at(at + share * on));
     return true;
   }
 
   const FreeSpace& space_;
   const double radius_;
   const MayReplace& may_replace_;
-  std::vector<Point> path_;
-  std::vector<bool> moved_;  // since it was last tried
+  double least_gain_ = 0.0;  ///< metres; moves that gain less are not tried
+  std::vector<Corner> corners_;
 };
 
 }  // namespace

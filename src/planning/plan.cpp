@@ -16,7 +16,7 @@
 #include "ridgeway/common/number_text.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "route.hpp"
-#include "taut_search.hpp"
+#include "taut_path.hpp"
 #include "tightest.hpp"
 
 namespace ridgeway {

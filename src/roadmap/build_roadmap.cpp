@@ -145,7 +145,7 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
   clock.end(report.seconds.attach);
 
   clock.begin("taut");
-  roadmap.taut = build_taut_graph(roadmap, {.routes = config.taut_routes});
+  roadmap.taut = build_taut_graph(roadmap, {.most_pairs = config.taut_pairs});
   clock.end(report.seconds.taut);
 
   const BuildSeconds& s = report.seconds;

@@ -7,15 +7,18 @@
 #include <map>
 #include <queue>
 
+#include "../paths/shorten.hpp"
 #include "corner_merging.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/roadmap/roadmap.hpp"
+#include "taut_search.hpp"
 
 namespace ridgeway {
 namespace {
 
 using detail::MergedCorners;
+using detail::SampledPath;
 
 constexpr double kMergeDistance = 1.0;  // radii: nearer corners may become one
 constexpr std::size_t kNeighbours = 16;  // a corner is linked to the nearest of those it can see
@@ -23,6 +26,11 @@ constexpr double kStretch = 1.02;        // an edge goes that saves less than th
 constexpr double kOverTangent = 0.2;     // sine of the angle above a corner's tangent plane
 constexpr std::size_t kMostSeen = 24;    // corners listed for a cell
 constexpr std::size_t kMostTried = 72;   // looks at corners for it
+constexpr std::size_t kFirstRound = 250;  // pairs of places
+constexpr std::size_t kAsked = 100;       // paths of a round that show how much is known
+constexpr std::size_t kLeastAsked = 20;
+constexpr double kAboutAsShort = 1.1;  // as the tight path between the places
+constexpr double kKnownShare = 0.85;   // of the paths asked for
 
 /// A corner and the direction away from what it goes around: the gradient of the distance, shorter
 /// where obstacles of several sides meet.
@@ -168,41 +176,127 @@ SparseGraph link_corners(const Roadmap& roadmap, const MergedCorners& merged,
 }
 
 /// The widest traversable voxel of every cell, or kNoVoxel.
-std::vector<VoxelId> widest_of_cells(const Roadmap& roadmap, const TautGraph& taut,
-                                     std::uint32_t cells) {
+std::vector<VoxelId> widest_of_cells(const Roadmap& roadmap, const BlockCells& cells) {
   const EsdfMap& esdf = roadmap.esdf;
-  std::vector<VoxelId> widest(cells, kNoVoxel);
+  std::vector<VoxelId> widest(cells.count, kNoVoxel);
   for (VoxelId id = 0; id < roadmap.attach.next.size(); ++id) {
     if (roadmap.attach.next[id] == AttachField::kNotTraversable) continue;
-    VoxelId& best = widest[taut.cell_of_block[id / kBlockVoxels]];
+    VoxelId& best = widest[cells.cell_of_block[id / kBlockVoxels]];
     if (best == kNoVoxel || esdf.squared[id] > esdf.squared[best]) best = id;
   }
   return widest;
 }
 
-void list_seen(const Roadmap& roadmap, const std::vector<Corner>& corners, std::uint32_t cells,
-               TautGraph& taut) {
-  const FreeSpace space(roadmap.esdf);
-  const std::vector<VoxelId> widest = widest_of_cells(roadmap, taut, cells);
-  std::vector<std::vector<VertexId>> seen(cells);
-  parallel_for_each_index(cells, [&](std::size_t cell) {
-    if (widest[cell] == kNoVoxel) return;
-    const Point place =
-        centre_of(roadmap.esdf.layout.index_of(widest[cell]), roadmap.esdf.voxel_size);
-    for (const std::uint32_t i : nearest_corners(corners, place, kMostTried, [&](std::uint32_t j) {
-           return may_turn(corners[j], place);
-         })) {
-      if (!space.is_free(place, corners[i].place, roadmap.min_clearance)) continue;
-      seen[cell].push_back(VertexId{i});
-      if (seen[cell].size() == kMostSeen) break;
-    }
-  });
-  taut.first_seen.push_back(0);
-  for (const std::vector<VertexId>& own : seen) {
-    taut.seen.insert(taut.seen.end(), own.begin(), own.end());
-    taut.first_seen.push_back(static_cast<std::uint32_t>(taut.seen.size()));
+/// The corners that can be seen from a place and that a tight path from there may turn at.
+std::vector<VertexId> look_around(const FreeSpace& space, double radius,
+                                  const std::vector<Corner>& corners, const Point& place) {
+  std::vector<VertexId> seen;
+  for (const std::uint32_t i : nearest_corners(corners, place, kMostTried, [&](std::uint32_t j) {
+         return may_turn(corners[j], place);
+       })) {
+    if (!space.is_free(place, corners[i].place, radius)) continue;
+    seen.push_back(VertexId{i});
+    if (seen.size() == kMostSeen) break;
   }
+  return seen;
 }
+
+/// Learns corners in rounds, each as large as all before, until it knows the way of most new paths.
+class Learning {
+ public:
+  explicit Learning(const Roadmap& roadmap)
+      : roadmap_(roadmap),
+        space_(roadmap.esdf),
+        merging_(roadmap, kMergeDistance * roadmap.min_clearance) {
+    BlockCells cells = number_cells(roadmap.esdf.layout);
+    widest_ = widest_of_cells(roadmap, cells);
+    taut_.cell_of_block = std::move(cells.cell_of_block);
+  }
+
+  TautGraph run(std::size_t most_pairs) {
+    std::size_t pairs = 0;
+    for (std::size_t round = kFirstRound; pairs < most_pairs; round = pairs) {
+      round = std::min(round, most_pairs - pairs);
+      const std::vector<SampledPath> paths = detail::sample_paths(roadmap_, pairs, round);
+      const bool is_learnt = pairs > 0 && knows(paths);
+      pairs += round;
+      for (const SampledPath& path : paths) merging_.add(path);
+      link();
+      if (!is_learnt) continue;
+      list_seen();
+      return std::move(taut_);
+    }
+    return {};  // too much to learn: queries had better not rely on it
+  }
+
+ private:
+  void link() {
+    const MergedCorners merged = merging_.merged();
+    corners_.clear();
+    for (const VoxelId id : merged.voxels) corners_.push_back(corner_at(roadmap_.esdf, id));
+    taut_.graph = link_corners(roadmap_, merged, corners_);
+    taut_.landmarks = place_landmarks(taut_.graph);
+  }
+
+  /// Whether for most of the first paths between two places there is a route about as short.
+  bool knows(const std::vector<SampledPath>& paths) const {
+    std::vector<const SampledPath*> asked;
+    for (const SampledPath& path : paths)
+      if (asked.size() < kAsked && (asked.empty() || asked.back()->from != path.from))
+        asked.push_back(&path);
+    std::vector<char> is_known(asked.size());
+    parallel_for_each_index(asked.size(), [&](std::size_t i) {
+      is_known[i] = route_length(*asked[i]) <= kAboutAsShort * detail::length_of(asked[i]->waypoints);
+    });
+    const auto known = std::count(is_known.begin(), is_known.end(), 1);
+    return asked.size() >= kLeastAsked &&
+           static_cast<double>(known) >= kKnownShare * static_cast<double>(asked.size());
+  }
+
+  double route_length(const SampledPath& path) const {
+    const auto seen_from = [&](VoxelId id) {
+      return look_around(space_, roadmap_.min_clearance, corners_,
+                         place_of(widest_[taut_.cell_of_block[id / kBlockVoxels]]));
+    };
+    const std::vector<VertexId> from = seen_from(path.from), to = seen_from(path.to);
+    const std::vector<VertexId> route =
+        detail::search_taut(taut_.graph, taut_.landmarks, space_,
+                            {path.waypoints.front(), path.waypoints.back(), roadmap_.min_clearance,
+                             from, to});
+    if (route.empty()) return std::numeric_limits<double>::infinity();
+    double length = 0.0;
+    Point last = path.waypoints.front();
+    for (const VertexId v : route) {
+      length += (corners_[number(v)].place - last).norm();
+      last = corners_[number(v)].place;
+    }
+    return length + (path.waypoints.back() - last).norm();
+  }
+
+  void list_seen() {
+    std::vector<std::vector<VertexId>> seen(widest_.size());
+    parallel_for_each_index(seen.size(), [&](std::size_t cell) {
+      if (widest_[cell] != kNoVoxel)
+        seen[cell] = look_around(space_, roadmap_.min_clearance, corners_, place_of(widest_[cell]));
+    });
+    taut_.first_seen.push_back(0);
+    for (const std::vector<VertexId>& own : seen) {
+      taut_.seen.insert(taut_.seen.end(), own.begin(), own.end());
+      taut_.first_seen.push_back(static_cast<std::uint32_t>(taut_.seen.size()));
+    }
+  }
+
+  Point place_of(VoxelId id) const {
+    return centre_of(roadmap_.esdf.layout.index_of(id), roadmap_.esdf.voxel_size);
+  }
+
+  const Roadmap& roadmap_;
+  const FreeSpace space_;
+  detail::CornerMerging merging_;
+  std::vector<VoxelId> widest_;  // by cell
+  std::vector<Corner> corners_;
+  TautGraph taut_;
+};
 
 }  // namespace
 
@@ -219,19 +313,7 @@ BlockCells number_cells(const BlockLayout& layout) {
 }
 
 TautGraph build_taut_graph(const Roadmap& roadmap, const TautConfig& config) {
-  TautGraph taut;
-  if (config.routes == 0) return taut;
-  const MergedCorners merged =
-      detail::merge_corners(roadmap, detail::sample_corners(roadmap, config.routes),
-                            kMergeDistance * roadmap.min_clearance);
-  std::vector<Corner> corners;
-  for (const VoxelId id : merged.voxels) corners.push_back(corner_at(roadmap.esdf, id));
-  taut.graph = link_corners(roadmap, merged, corners);
-  taut.landmarks = place_landmarks(taut.graph);
-  BlockCells cells = number_cells(roadmap.esdf.layout);
-  taut.cell_of_block = std::move(cells.cell_of_block);
-  list_seen(roadmap, corners, cells.count, taut);
-  return taut;
+  return Learning(roadmap).run(config.most_pairs);
 }
 
 }  // namespace ridgeway

@@ -2,10 +2,13 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <map>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "corner_sampling.hpp"
+#include "ridgeway/esdf/free_space.hpp"
 
 namespace ridgeway::detail {
 
@@ -15,9 +18,30 @@ struct MergedCorners {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> steps;  ///< smaller first, ascending
 };
 
-/// One corner for those that lie within a distance of each other and can stand for each other:
-/// paths over them stay free.
-MergedCorners merge_corners(const Roadmap& roadmap, const std::vector<CornerChain>& chains,
-                            double distance);
+/// Gathers the corners of paths, on the voxels nearest to them that are as far from obstacles. One
+/// stands for all within a distance of it that it can stand for: paths over it stay free.
+class CornerMerging {
+ public:
+  CornerMerging(const Roadmap& roadmap, double distance);
+
+  void add(const SampledPath& path);
+  MergedCorners merged() const;
+
+ private:
+  using Bucket = std::tuple<int, int, int>;
+
+  Bucket bucket_of(const Point& p) const;
+  VoxelId voxel_for(const Point& corner) const;
+  std::uint32_t insert(VoxelId id, const Point& place);
+  std::uint32_t stand_in(const Point& corner, const Point* before, const Point& next) const;
+
+  const EsdfMap& esdf_;
+  const FreeSpace space_;
+  const double radius_, distance_;
+  std::vector<VoxelId> voxels_;
+  std::vector<Point> places_;
+  std::map<Bucket, std::vector<std::uint32_t>> buckets_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> steps_;
+};
 
 }  // namespace ridgeway::detail

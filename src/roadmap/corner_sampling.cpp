@@ -2,9 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "corner_sampling.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include <utility>
 
 #include "../paths/shorten.hpp"
 #include "attach_way.hpp"
@@ -32,25 +30,6 @@ VoxelId random_vertex(const Roadmap& roadmap, Random& random) {
   const std::vector<Vertex>& vertices = roadmap.graph.vertices;
   if (vertices.empty()) return kNoVoxel;
   return roadmap.esdf.layout.find(vertices[random.below(vertices.size())].voxel);
-}
-
-/// Of the eight voxels around a corner the nearest one that is no nearer to obstacles.
-VoxelId voxel_for(const EsdfMap& esdf, const FreeSpace& space, const Point& corner, double radius) {
-  const double least = squared_threshold(std::max(space.distance(corner), radius), esdf.voxel_size);
-  const Point low = corner / esdf.voxel_size - Point::Constant(0.5);
-  const VoxelIndex first{floor_to_int(low.x()), floor_to_int(low.y()), floor_to_int(low.z())};
-  VoxelId best = kNoVoxel;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 8; ++i) {
-    const VoxelIndex v = first + VoxelIndex{i & 1, i >> 1 & 1, i >> 2};
-    const VoxelId id = esdf.layout.find(v);
-    if (id == kNoVoxel || esdf.state[id] != VoxelState::kFree || esdf.squared[id] < least) continue;
-    const double distance = (centre_of(v, esdf.voxel_size) - corner).squaredNorm();
-    if (distance >= nearest) continue;
-    nearest = distance;
-    best = id;
-  }
-  return best;
 }
 
 /// Paths over the graph between two voxels, pulled tight.
@@ -86,28 +65,23 @@ std::vector<std::vector<Point>> tight_paths(const Roadmap& roadmap, const FreeSp
 
 }  // namespace
 
-std::vector<CornerChain> sample_corners(const Roadmap& roadmap, std::size_t pairs) {
+std::vector<SampledPath> sample_paths(const Roadmap& roadmap, std::size_t first_pair,
+                                      std::size_t pairs) {
   const FreeSpace space(roadmap.esdf);
-  std::vector<std::vector<CornerChain>> by_pair(pairs);
+  std::vector<std::vector<SampledPath>> by_pair(pairs);
   parallel_for_each_index(pairs, [&](std::size_t i) {
-    Random random(i);
+    Random random(first_pair + i);
     // Queries start anywhere, and where the graph has most vertices there is most to go around.
     const VoxelId from = random_voxel(roadmap, random);
     const VoxelId to = i % 2 == 0 ? random_voxel(roadmap, random) : random_vertex(roadmap, random);
     if (from == kNoVoxel || to == kNoVoxel) return;
-    for (const std::vector<Point>& path : tight_paths(roadmap, space, from, to)) {
-      CornerChain chain;
-      for (std::size_t k = 1; k + 1 < path.size(); ++k) {
-        const VoxelId id = voxel_for(roadmap.esdf, space, path[k], roadmap.min_clearance);
-        if (id != kNoVoxel) chain.push_back(id);
-      }
-      by_pair[i].push_back(std::move(chain));
-    }
+    for (std::vector<Point>& path : tight_paths(roadmap, space, from, to))
+      by_pair[i].push_back({from, to, std::move(path)});
   });
-  std::vector<CornerChain> chains;
-  for (std::vector<CornerChain>& some : by_pair)
-    for (CornerChain& chain : some) chains.push_back(std::move(chain));
-  return chains;
+  std::vector<SampledPath> paths;
+  for (std::vector<SampledPath>& some : by_pair)
+    for (SampledPath& path : some) paths.push_back(std::move(path));
+  return paths;
 }
 
 }  // namespace ridgeway::detail

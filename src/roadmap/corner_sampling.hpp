@@ -8,12 +8,16 @@
 
 namespace ridgeway::detail {
 
-/// The voxels nearest to the corners of a tight path, in its order, each as far from obstacles as
-/// the corner at least.
-using CornerChain = std::vector<VoxelId>;
+/// A tight path between two voxels.
+struct SampledPath {
+  VoxelId from = kNoVoxel, to = kNoVoxel;
+  std::vector<Point> waypoints;
+};
 
-/// Corners of tight paths between random pairs of places: of the graph's shortest route and of
-/// another way round. Deterministic; the smallest radius.
-std::vector<CornerChain> sample_corners(const Roadmap& roadmap, std::size_t pairs);
+/// Tight paths between random pairs of places, by the number of the pair: of the graph's shortest
+/// route and of another way round. Pairs that see each other have none. Deterministic; for the
+/// smallest radius.
+std::vector<SampledPath> sample_paths(const Roadmap& roadmap, std::size_t first_pair,
+                                      std::size_t pairs);
 
 }  // namespace ridgeway::detail

@@ -19,7 +19,7 @@ struct BuildConfig {
   double split_deviation = 0.0;    ///< edge's greatest distance from its diagram; 0: two voxels
   double significance = 0.35;      ///< dead ends of the graph that reach less far go
   bool simplify = true;            ///< leave out of the graph what noise and voxels put into it
-  std::size_t taut_routes = 500;   ///< that the taut graph is learnt from; 0: none is made
+  std::size_t taut_pairs = 2000;   ///< of places, at most, to learn the taut graph from; 0: none
   bool basis_point_edges = false;  ///< edges by basis points, not by the 18-of-26 rule
   bool paper_diagram = false;      ///< thinned edges alone, without the kernel, for comparison
 

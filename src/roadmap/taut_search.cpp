@@ -8,13 +8,9 @@
 #include <limits>
 #include <queue>
 
-#include "../paths/shorten.hpp"
-
 namespace ridgeway::detail {
 namespace {
 
-constexpr double kHardly = 1.03;          // shorter by less
-constexpr double kNearlyStraight = 1.05;  // longer than the straight line by less
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// What an entry of the queue says of its corner.
@@ -43,20 +39,25 @@ struct CornerState {
 
 class TautSearch {
  public:
-  TautSearch(const TautGraph& taut, const FreeSpace& space, const RouteQuery& query)
-      : taut_(taut), space_(space), query_(query), states_(taut.graph.vertices.size()) {
+  TautSearch(const SparseGraph& graph, const Landmarks& landmarks, const FreeSpace& space,
+             const TautQuery& query)
+      : graph_(graph),
+        landmarks_(landmarks),
+        space_(space),
+        query_(query),
+        states_(graph.vertices.size()) {
     goal_lengths_.fill(kFar);
-    for (const VertexId v : taut.seen_from(query.to)) {
+    for (const VertexId v : query.seen_from_goal) {
       const double length = (place_of(v) - query.goal).norm();
       states_[number(v)].to_goal = length;
       for (std::size_t k = 0; k < Landmarks::kCount; ++k)
-        goal_lengths_[k] = std::min(goal_lengths_[k], taut.landmarks.lengths[number(v)][k] + length);
+        goal_lengths_[k] = std::min(goal_lengths_[k], landmarks.lengths[number(v)][k] + length);
     }
-    for (const VertexId v : taut.seen_from(query.from))
+    for (const VertexId v : query.seen_from_start)
       push(v, (place_of(v) - query.start).norm(), Step::kFromStart);
   }
 
-  std::optional<TautRoute> run() {
+  std::vector<VertexId> run() {
     while (!open_.empty()) {
       const OpenEntry entry = open_.top();
       open_.pop();
@@ -79,16 +80,16 @@ class TautSearch {
         open_.push({entry.cost + state.to_goal, entry.cost, entry.corner, Step::kToGoal});
       leave(entry.corner);
     }
-    return std::nullopt;
+    return {};
   }
 
  private:
-  const Point& place_of(VertexId v) const { return taut_.graph.vertices[number(v)].position; }
+  const Point& place_of(VertexId v) const { return graph_.vertices[number(v)].position; }
 
   void leave(VertexId corner) {
     const double cost = states_[number(corner)].cost;
-    for (const Link& link : taut_.graph.links_of(corner)) {
-      const double next = cost + taut_.graph.edges[number(link.edge)].length;
+    for (const Link& link : graph_.links_of(corner)) {
+      const double next = cost + graph_.edges[number(link.edge)].length;
       CornerState& state = states_[number(link.vertex)];
       if (next >= state.cost) continue;
       state.cost = next;
@@ -99,34 +100,23 @@ class TautSearch {
 
   void push(VertexId v, double cost, Step step) {
     double rest = (place_of(v) - query_.goal).norm();
-    const auto& lengths = taut_.landmarks.lengths[number(v)];
+    const auto& lengths = landmarks_.lengths[number(v)];
     for (std::size_t k = 0; k < Landmarks::kCount; ++k)
       if (goal_lengths_[k] < kFar) rest = std::max(rest, std::abs(goal_lengths_[k] - lengths[k]));
     if (rest < kFar) open_.push({cost + rest, cost, v, step});
   }
 
-  TautRoute route_to(VertexId last) const {
-    TautRoute found;
-    found.waypoints.push_back(query_.goal);
-    for (VertexId v = last; v != kNoVertex; v = states_[number(v)].from) {
-      found.waypoints.push_back(place_of(v));
-      const VertexId before = states_[number(v)].from;
-      if (before == kNoVertex) break;
-      for (const Link& link : taut_.graph.links_of(v))
-        if (link.vertex == before)
-          found.known.clearance =
-              std::min(found.known.clearance, taut_.graph.edges[number(link.edge)].clearance);
-    }
-    found.waypoints.push_back(query_.start);
-    std::reverse(found.waypoints.begin(), found.waypoints.end());
-    found.known.first = 1;
-    found.known.last = found.waypoints.size() - 2;
-    return found;
+  std::vector<VertexId> route_to(VertexId last) const {
+    std::vector<VertexId> route;
+    for (VertexId v = last; v != kNoVertex; v = states_[number(v)].from) route.push_back(v);
+    std::reverse(route.begin(), route.end());
+    return route;
   }
 
-  const TautGraph& taut_;
+  const SparseGraph& graph_;
+  const Landmarks& landmarks_;
   const FreeSpace& space_;
-  const RouteQuery& query_;
+  const TautQuery& query_;
   std::vector<CornerState> states_;
   std::array<double, Landmarks::kCount> goal_lengths_{};  ///< at least, from each landmark
   std::priority_queue<OpenEntry> open_;
@@ -134,28 +124,10 @@ class TautSearch {
 
 }  // namespace
 
-std::optional<TautRoute> search_taut(const TautGraph& taut, const FreeSpace& space,
-                                     const RouteQuery& query) {
-  if (taut.seen_from(query.from).empty() || taut.seen_from(query.to).empty()) return std::nullopt;
-  return TautSearch(taut, space, query).run();
-}
-
-TautPath plan_taut(const TautGraph& taut, const FreeSpace& space, const RouteQuery& query,
-                   const Deadline& deadline) {
-  TautPath path;
-  const double began = seconds_now();
-  std::optional<TautRoute> route = search_taut(taut, space, query);
-  const double found = seconds_now();
-  path.search_seconds = found - began;
-  if (!route) return path;
-  const double as_found = length_of(route->waypoints);
-  path.waypoints = draw_corners_in(space, route->waypoints, query.radius, deadline);
-  if (path.waypoints == route->waypoints) path.known = route->known;
-  const double length = length_of(path.waypoints);
-  path.is_tight = as_found <= kHardly * length ||
-                  length <= kNearlyStraight * (query.goal - query.start).norm();
-  path.shorten_seconds = seconds_now() - found;
-  return path;
+std::vector<VertexId> search_taut(const SparseGraph& graph, const Landmarks& landmarks,
+                                  const FreeSpace& space, const TautQuery& query) {
+  if (query.seen_from_start.empty() || query.seen_from_goal.empty()) return {};
+  return TautSearch(graph, landmarks, space, query).run();
 }
 
 }  // namespace ridgeway::detail

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "taut_path.hpp"
+
+#include <algorithm>
+
+#include "../paths/shorten.hpp"
+#include "../roadmap/graph_search.hpp"
+#include "../roadmap/taut_search.hpp"
+
+namespace ridgeway::detail {
+namespace {
+
+constexpr double kHardly = 1.03;          // shorter by less
+constexpr double kNearlyStraight = 1.05;  // longer than the straight line by less
+
+/// Waypoints of a route over corners, and what is known of it.
+TautPath path_over(const SparseGraph& graph, const RouteQuery& query,
+                   const std::vector<VertexId>& corners) {
+  TautPath path;
+  path.waypoints.push_back(query.start);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    path.waypoints.push_back(graph.vertices[number(corners[i])].position);
+    if (i == 0) continue;
+    const EdgeId edge = edge_between(graph, corners[i - 1], corners[i]);
+    path.known.clearance = std::min(path.known.clearance, graph.edges[number(edge)].clearance);
+  }
+  path.waypoints.push_back(query.goal);
+  path.known.first = 1;
+  path.known.last = corners.size();
+  return path;
+}
+
+}  // namespace
+
+TautPath plan_taut(const TautGraph& taut, const FreeSpace& space, const RouteQuery& query,
+                   const Deadline& deadline) {
+  const double began = seconds_now();
+  const std::vector<VertexId> corners = search_taut(
+      taut.graph, taut.landmarks, space,
+      {query.start, query.goal, query.radius, taut.seen_from(query.from), taut.seen_from(query.to)});
+  const double found = seconds_now();
+  TautPath path;
+  if (!corners.empty()) {
+    path = path_over(taut.graph, query, corners);
+    const double as_found = length_of(path.waypoints);
+    Route tight = draw_corners_in(space, path.waypoints, query.radius, deadline);
+    if (tight != path.waypoints) path.known = {};
+    path.waypoints = std::move(tight);
+    const double length = length_of(path.waypoints);
+    path.is_tight = as_found <= kHardly * length ||
+                    length <= kNearlyStraight * (query.goal - query.start).norm();
+  }
+  path.search_seconds = found - began;
+  path.shorten_seconds = seconds_now() - found;
+  return path;
+}
+
+}  // namespace ridgeway::detail

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/roadmap/taut_graph.hpp"
+
+namespace ridgeway::detail {
+
+/// From where to where, and which corners are worth a look from either.
+struct TautQuery {
+  Point start, goal;
+  double radius;
+  std::span<const VertexId> seen_from_start, seen_from_goal;
+};
+
+/// The corners of the shortest route from start to goal over the taut graph, every segment of it
+/// free at the radius. Empty where the graph has none, which says nothing about space. A* that
+/// looks along the segments from the start and to the goal only when they would be next (lazy PRM,
+/// Bohlin and Kavraki 2000).
+std::vector<VertexId> search_taut(const SparseGraph& graph, const Landmarks& landmarks,
+                                  const FreeSpace& space, const TautQuery& query);
+
+}  // namespace ridgeway::detail
