@@ -87,7 +87,8 @@ struct Stage {
 constexpr Stage kStages[] = {{"esdf", &BuildSeconds::esdf},     {"gvd", &BuildSeconds::gvd},
                              {"edges", &BuildSeconds::edges},   {"thin", &BuildSeconds::thin},
                              {"kernel", &BuildSeconds::kernel}, {"graph", &BuildSeconds::graph},
-                             {"attach", &BuildSeconds::attach}, {"total", &BuildSeconds::total}};
+                             {"attach", &BuildSeconds::attach}, {"taut", &BuildSeconds::taut},
+                             {"total", &BuildSeconds::total}};
 
 /// Builds `repeat` times; the times of the stages are then medians.
 BuildResult build_repeatedly(OccupancyMap map, const BuildConfig& config, int repeat,

@@ -40,6 +40,7 @@ std::vector<Memory> memory_of(const Roadmap& roadmap) {
   const EsdfMap& esdf = roadmap.esdf;
   const SparseGraph& graph = roadmap.graph;
   const ClearanceTree& tree = roadmap.tree;
+  const TautGraph& taut = roadmap.taut;
   return {{"esdf", esdf.layout.memory_bytes() + esdf.state.memory_bytes() +
                        esdf.squared.memory_bytes() + esdf.site.memory_bytes() +
                        esdf.obstacle.memory_bytes()},
@@ -47,6 +48,10 @@ std::vector<Memory> memory_of(const Roadmap& roadmap) {
           {"graph", bytes_of(graph.vertices) + bytes_of(graph.edges) + bytes_of(graph.first_link) +
                         bytes_of(graph.links)},
           {"attach", roadmap.attach.next.memory_bytes()},
+          {"taut", bytes_of(taut.graph.vertices) + bytes_of(taut.graph.edges) +
+                       bytes_of(taut.graph.first_link) + bytes_of(taut.graph.links) +
+                       bytes_of(taut.landmarks.lengths) + bytes_of(taut.cell_of_block) +
+                       bytes_of(taut.first_seen) + bytes_of(taut.seen)},
           {"tree", bytes_of(tree.parent) + bytes_of(tree.clearance) + bytes_of(tree.place)}};
 }
 

@@ -52,7 +52,7 @@ std::vector<Query> draw_queries(const Roadmap& roadmap, std::size_t count, std::
 
 StageNumbers stages_of(const BuildSeconds& s) {
   const double graph = s.gvd + s.edges + s.thin + s.kernel + s.graph;
-  return {s.esdf, s.gvd, s.edges, s.thin, s.kernel, s.graph, s.attach, graph, s.total};
+  return {s.esdf, s.gvd, s.edges, s.thin, s.kernel, s.graph, s.attach, s.taut, graph, s.total};
 }
 
 /// All that is measured of one map with one number of threads.

@@ -20,41 +20,45 @@ bool is_length(double value) { return std::isfinite(value) && value >= 0.0; }
 /// Clearances may be infinite: far from everything there is no site.
 bool is_clearance(double value) { return value >= 0.0; }
 
-Defect find_vertex_defect(const Roadmap& roadmap) {
+/// The sections that a graph is stored in.
+struct GraphParts {
+  const char *vertices, *edges;
+};
+
+Defect find_vertex_defect(const Roadmap& roadmap, const SparseGraph& graph, const char* part) {
   VoxelId last = kNoVoxel;
-  for (const Vertex& v : roadmap.graph.vertices) {
+  for (const Vertex& v : graph.vertices) {
     const VoxelId id = roadmap.esdf.layout.find(v.voxel);
-    if (id == kNoVoxel) return RoadmapDefect{"vertices", "has a vertex outside the map"};
-    if (last != kNoVoxel && id <= last) return RoadmapDefect{"vertices", "is not in order"};
+    if (id == kNoVoxel) return RoadmapDefect{part, "has a vertex outside the map"};
+    if (last != kNoVoxel && id <= last) return RoadmapDefect{part, "is not in order"};
     last = id;
     if (!is_clearance(v.clearance)) {
-      return RoadmapDefect{"vertices", "has a clearance that is no distance"};
+      return RoadmapDefect{part, "has a clearance that is no distance"};
     }
   }
   return {};
 }
 
-Defect find_edge_defect(const SparseGraph& graph) {
+Defect find_edge_defect(const SparseGraph& graph, const char* part) {
   for (std::size_t i = 0; i < graph.edges.size(); ++i) {
     const Edge& edge = graph.edges[i];
     if (number(edge.to) >= graph.vertices.size() || edge.from >= edge.to) {
-      return RoadmapDefect{"edges", "has an edge to no vertex"};
+      return RoadmapDefect{part, "has an edge to no vertex"};
     }
     if (!is_length(edge.length) || !is_clearance(edge.clearance)) {
-      return RoadmapDefect{"edges", "has a length or clearance that is no distance"};
+      return RoadmapDefect{part, "has a length or clearance that is no distance"};
     }
     if (i > 0 &&
         std::tie(graph.edges[i - 1].from, graph.edges[i - 1].to) >= std::tie(edge.from, edge.to)) {
-      return RoadmapDefect{"edges", "is not in order"};
+      return RoadmapDefect{part, "is not in order"};
     }
   }
   return {};
 }
 
 /// Whether every edge has the length and the clearance that it says: queries rely on both.
-bool edges_hold(const Roadmap& roadmap) {
+bool edges_hold(const Roadmap& roadmap, const SparseGraph& graph) {
   constexpr double kRounding = 1e-9;
-  const SparseGraph& graph = roadmap.graph;
   const FreeSpace space(roadmap.esdf);
   std::atomic<bool> good = true;
   parallel_for_each_index(
@@ -73,6 +77,14 @@ bool edges_hold(const Roadmap& roadmap) {
       },
       64);
   return good;
+}
+
+Defect find_defect(const Roadmap& roadmap, const SparseGraph& graph, const GraphParts& parts) {
+  if (Defect defect = find_vertex_defect(roadmap, graph, parts.vertices)) return defect;
+  if (Defect defect = find_edge_defect(graph, parts.edges)) return defect;
+  if (!edges_hold(roadmap, graph))
+    return RoadmapDefect{parts.edges, "has an edge that comes nearer to an obstacle than it says"};
+  return {};
 }
 
 /// Every vertex must reach a root: each is walked from once, up to the first known good one.
@@ -167,15 +179,28 @@ Defect find_size_defect(const Roadmap& roadmap) {
       tree.place.size() != vertices) {
     return RoadmapDefect{"tree", "does not fit the number of vertices"};
   }
+  const TautGraph& taut = roadmap.taut;
+  const bool has_cells = !taut.first_seen.empty();
+  if (has_cells == taut.graph.vertices.empty() ||
+      (has_cells && (taut.cell_of_block.size() != blocks || taut.first_seen.back() != taut.seen.size() ||
+                     taut.first_seen.size() != number_cells(esdf.layout).count + 1u))) {
+    return RoadmapDefect{"cells", "does not fit the blocks, or the corners"};
+  }
   return {};
 }
 
 Defect find_graph_defect(const Roadmap& roadmap) {
-  if (Defect defect = find_vertex_defect(roadmap)) return defect;
-  if (Defect defect = find_edge_defect(roadmap.graph)) return defect;
-  if (!edges_hold(roadmap))
-    return RoadmapDefect{"edges", "has an edge that comes nearer to an obstacle than it says"};
+  if (Defect defect = find_defect(roadmap, roadmap.graph, {"vertices", "edges"})) return defect;
   return find_tree_defect(roadmap);
+}
+
+Defect find_taut_defect(const Roadmap& roadmap) {
+  const TautGraph& taut = roadmap.taut;
+  if (Defect defect = find_defect(roadmap, taut.graph, {"corners", "taut_edges"})) return defect;
+  for (const VertexId v : taut.seen)
+    if (number(v) >= taut.graph.vertices.size())
+      return RoadmapDefect{"seen", "has a corner that does not exist"};
+  return {};
 }
 
 Defect find_attach_defect(const Roadmap& roadmap) {

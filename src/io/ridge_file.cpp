@@ -13,6 +13,7 @@ namespace ridgeway {
 void save_roadmap(const Roadmap& roadmap, const std::filesystem::path& path) {
   auto defect = find_size_defect(roadmap);
   if (!defect) defect = find_graph_defect(roadmap);
+  if (!defect) defect = find_taut_defect(roadmap);
   if (!defect) defect = find_attach_defect(roadmap);
   if (defect) {
     throw InputError("roadmap", "part '" + defect->part + "' " + defect->what,
@@ -43,10 +44,14 @@ Roadmap load_roadmap(const std::filesystem::path& path) {
   load_graph(reader, header, roadmap);
 
   auto defect = find_graph_defect(roadmap);
+  if (!defect) defect = find_taut_defect(roadmap);
   if (!defect) defect = find_attach_defect(roadmap);
   if (defect) reader.damaged(defect->part, defect->what);
-  index_links(roadmap.graph);
-  roadmap.landmarks = place_landmarks(roadmap.graph);
+  for (const auto& [graph, landmarks] : {std::pair(&roadmap.graph, &roadmap.landmarks),
+                                         std::pair(&roadmap.taut.graph, &roadmap.taut.landmarks)}) {
+    index_links(*graph);
+    *landmarks = place_landmarks(*graph);
+  }
   return roadmap;
 }
 

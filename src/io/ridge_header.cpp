@@ -52,6 +52,10 @@ RidgeHeader header_from(const Json& json) {
   header.blocks = get_count(counts, "blocks");
   header.vertices = get_count(counts, "vertices");
   header.edges = get_count(counts, "edges");
+  if (counts.contains("corners")) {  // added after the first files
+    header.corners = get_count(counts, "corners");
+    header.taut_edges = get_count(counts, "taut_edges");
+  }
   if (!(header.voxel_size > 0.0)) throw std::out_of_range("'voxel_size' is not positive");
   if (!(header.max_distance >= 0.0) || !(header.min_clearance >= 0.0) ||
       !(header.graph_min_clearance >= 0.0)) {
@@ -73,7 +77,9 @@ RidgeHeader header_of(const Roadmap& roadmap) {
           roadmap.config,
           roadmap.esdf.layout.block_count(),
           static_cast<std::uint32_t>(roadmap.graph.vertices.size()),
-          static_cast<std::uint32_t>(roadmap.graph.edges.size())};
+          static_cast<std::uint32_t>(roadmap.graph.edges.size()),
+          static_cast<std::uint32_t>(roadmap.taut.graph.vertices.size()),
+          static_cast<std::uint32_t>(roadmap.taut.graph.edges.size())};
 }
 
 std::string header_text(const RidgeHeader& header) {
@@ -87,8 +93,11 @@ std::string header_text(const RidgeHeader& header) {
   json["complete_diagram"] = header.complete_diagram;
   json["source"] = header.source;
   json["config"] = header.config;
-  json["counts"] = {
-      {"blocks", header.blocks}, {"vertices", header.vertices}, {"edges", header.edges}};
+  json["counts"] = {{"blocks", header.blocks},
+                    {"vertices", header.vertices},
+                    {"edges", header.edges},
+                    {"corners", header.corners},
+                    {"taut_edges", header.taut_edges}};
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -23,6 +23,8 @@ struct RidgeHeader {
   std::uint32_t blocks = 0;
   std::uint32_t vertices = 0;
   std::uint32_t edges = 0;
+  std::uint32_t corners = 0;  ///< of the taut graph, and its edges
+  std::uint32_t taut_edges = 0;
 };
 
 RidgeHeader header_of(const Roadmap& roadmap);

@@ -12,6 +12,8 @@ constexpr std::size_t kBlockBytes = 12;
 constexpr std::size_t kVertexBytes = 20;
 constexpr std::size_t kEdgeBytes = 24;
 constexpr std::size_t kTreeBytes = 24;
+constexpr std::size_t kNumberBytes = 4;
+constexpr std::uint64_t kMostSeen = 0xffffffffu;  // what an entry of first_seen can hold
 
 /// Appends one number of every item, item after item: alike bytes stand together.
 template <typename Items, typename NumberOf>
@@ -87,6 +89,64 @@ std::vector<std::byte> tree_bytes(const ClearanceTree& tree) {
   return bytes;
 }
 
+std::vector<std::byte> cell_bytes(const TautGraph& taut) {
+  std::vector<std::byte> bytes;
+  for (std::size_t cell = 1; cell < taut.first_seen.size(); ++cell)
+    append_number(bytes, taut.first_seen[cell] - taut.first_seen[cell - 1]);
+  return bytes;
+}
+
+std::vector<std::byte> seen_bytes(const TautGraph& taut) {
+  std::vector<std::byte> bytes;
+  append_plane(bytes, taut.seen, [](VertexId v) { return static_cast<std::uint32_t>(v); });
+  return bytes;
+}
+
+void load_vertices(const RidgeReader& reader, const char* name, const RidgeHeader& header,
+                   std::uint32_t count, SparseGraph& graph) {
+  Planes vertices(reader, name, kVerticesType, count, kVertexBytes);
+  graph.vertices.resize(count);
+  for (const auto axis : {&VoxelIndex::x, &VoxelIndex::y, &VoxelIndex::z}) {
+    vertices.take<int>([&](std::size_t i, int k) { graph.vertices[i].voxel.*axis = k; });
+  }
+  vertices.take<double>([&](std::size_t i, double c) { graph.vertices[i].clearance = c; });
+  for (Vertex& v : graph.vertices) v.position = centre_of(v.voxel, header.voxel_size);
+}
+
+void load_edges(const RidgeReader& reader, const char* name, std::uint32_t count,
+                SparseGraph& graph) {
+  Planes edges(reader, name, kEdgesType, count, kEdgeBytes);
+  graph.edges.resize(count);
+  edges.take<std::uint32_t>(
+      [&](std::size_t i, std::uint32_t v) { graph.edges[i].from = VertexId{v}; });
+  edges.take<std::uint32_t>(
+      [&](std::size_t i, std::uint32_t v) { graph.edges[i].to = VertexId{v}; });
+  edges.take<double>([&](std::size_t i, double d) { graph.edges[i].length = d; });
+  edges.take<double>([&](std::size_t i, double c) { graph.edges[i].clearance = c; });
+}
+
+/// Files of before there was a taut graph have none.
+void load_taut(const RidgeReader& reader, const RidgeHeader& header, const BlockLayout& layout,
+               TautGraph& taut) {
+  if (header.corners == 0) return;
+  taut.graph.min_clearance = header.min_clearance;
+  load_vertices(reader, "corners", header, header.corners, taut.graph);
+  load_edges(reader, "taut_edges", header.taut_edges, taut.graph);
+  BlockCells cells = number_cells(layout);
+  taut.cell_of_block = std::move(cells.cell_of_block);
+  taut.first_seen.push_back(0);
+  std::uint64_t seen = 0;
+  Planes counts(reader, "cells", kNumbersType, cells.count, kNumberBytes);
+  counts.take<std::uint32_t>([&](std::size_t, std::uint32_t count) {
+    seen += count;
+    if (seen > kMostSeen) reader.damaged("cells", "counts more corners than there can be");
+    taut.first_seen.push_back(static_cast<std::uint32_t>(seen));
+  });
+  Planes corners(reader, "seen", kNumbersType, seen, kNumberBytes);
+  taut.seen.resize(seen);
+  corners.take<std::uint32_t>([&](std::size_t i, std::uint32_t v) { taut.seen[i] = VertexId{v}; });
+}
+
 }  // namespace
 
 RidgeSectionSource blocks_section(const BlockLayout& layout) {
@@ -97,7 +157,11 @@ std::vector<RidgeSectionSource> list_sections(const Roadmap& roadmap) {
   return {blocks_section(roadmap.esdf.layout),
           plain_section("vertices", kVerticesType, vertex_bytes(roadmap.graph)),
           plain_section("edges", kEdgesType, edge_bytes(roadmap.graph)),
-          plain_section("tree", kTreeType, tree_bytes(roadmap.tree))};
+          plain_section("tree", kTreeType, tree_bytes(roadmap.tree)),
+          plain_section("corners", kVerticesType, vertex_bytes(roadmap.taut.graph)),
+          plain_section("taut_edges", kEdgesType, edge_bytes(roadmap.taut.graph)),
+          plain_section("cells", kNumbersType, cell_bytes(roadmap.taut)),
+          plain_section("seen", kNumbersType, seen_bytes(roadmap.taut))};
 }
 
 BlockLayout load_blocks(const RidgeReader& reader, std::uint32_t count) {
@@ -121,23 +185,9 @@ BlockLayout load_blocks(const RidgeReader& reader, std::uint32_t count) {
 }
 
 void load_graph(const RidgeReader& reader, const RidgeHeader& header, Roadmap& roadmap) {
-  SparseGraph& graph = roadmap.graph;
-  Planes vertices(reader, "vertices", kVerticesType, header.vertices, kVertexBytes);
-  graph.vertices.resize(header.vertices);
-  for (const auto axis : {&VoxelIndex::x, &VoxelIndex::y, &VoxelIndex::z}) {
-    vertices.take<int>([&](std::size_t i, int k) { graph.vertices[i].voxel.*axis = k; });
-  }
-  vertices.take<double>([&](std::size_t i, double c) { graph.vertices[i].clearance = c; });
-  for (Vertex& v : graph.vertices) v.position = centre_of(v.voxel, header.voxel_size);
-
-  Planes edges(reader, "edges", kEdgesType, header.edges, kEdgeBytes);
-  graph.edges.resize(header.edges);
-  edges.take<std::uint32_t>(
-      [&](std::size_t i, std::uint32_t v) { graph.edges[i].from = VertexId{v}; });
-  edges.take<std::uint32_t>(
-      [&](std::size_t i, std::uint32_t v) { graph.edges[i].to = VertexId{v}; });
-  edges.take<double>([&](std::size_t i, double d) { graph.edges[i].length = d; });
-  edges.take<double>([&](std::size_t i, double c) { graph.edges[i].clearance = c; });
+  load_vertices(reader, "vertices", header, header.vertices, roadmap.graph);
+  load_edges(reader, "edges", header.edges, roadmap.graph);
+  load_taut(reader, header, roadmap.esdf.layout, roadmap.taut);
 
   ClearanceTree& tree = roadmap.tree;
   Planes nodes(reader, "tree", kTreeType, header.vertices, kTreeBytes);

@@ -22,6 +22,7 @@ enum RidgeType : std::uint32_t {
   kEdgesType = 7,     ///< planes: from, to (uint32), length, clearance (double)
   kTreeType = 8,      ///< planes: parent (uint32), clearance (double), place x, y, z (int32)
   kTsdfType = 9,      ///< a chunk: planes of distance and weight (float) of 128 blocks
+  kNumbersType = 10,  ///< a uint32 each
 };
 
 /// Sections with a value for every voxel: state, site, diagram, attach.
@@ -32,11 +33,12 @@ void check_memory(const RidgeReader& reader, const RidgeHeader& header);
 /// Fills esdf (the layout must stand), diagram and attach.
 void load_voxels(const RidgeReader& reader, const RidgeHeader& header, Roadmap& roadmap);
 
-/// Sections blocks, vertices, edges and tree.
+/// Sections blocks, vertices, edges, tree, and those of the taut graph: corners, taut_edges, cells
+/// (how many corners are seen from each) and seen (which).
 std::vector<RidgeSectionSource> list_sections(const Roadmap& roadmap);
 RidgeSectionSource blocks_section(const BlockLayout& layout);
 BlockLayout load_blocks(const RidgeReader& reader, std::uint32_t count);
-/// Fills graph (with its links) and tree; the layout must stand.
+/// Fills graph (without links), tree and taut graph; the layout must stand.
 void load_graph(const RidgeReader& reader, const RidgeHeader& header, Roadmap& roadmap);
 
 }  // namespace ridgeway

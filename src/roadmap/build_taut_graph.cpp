@@ -26,11 +26,12 @@ constexpr double kStretch = 1.02;        // an edge goes that saves less than th
 constexpr double kOverTangent = 0.2;     // sine of the angle above a corner's tangent plane
 constexpr std::size_t kMostSeen = 24;    // corners listed for a cell
 constexpr std::size_t kMostTried = 72;   // looks at corners for it
-constexpr std::size_t kFirstRound = 250;  // pairs of places
-constexpr std::size_t kAsked = 100;       // paths of a round that show how much is known
-constexpr std::size_t kLeastAsked = 20;
-constexpr double kAboutAsShort = 1.1;  // as the tight path between the places
-constexpr double kKnownShare = 0.85;   // of the paths asked for
+constexpr std::size_t kFirstPairs = 250;  // of places to learn from
+constexpr std::size_t kAskedPairs = 100;  // between which new paths show how much is known
+constexpr std::size_t kLeastAsked = 20;   // paths
+constexpr double kAboutAsShort = 1.1;     // as the tight path between the places
+constexpr double kKnown = 0.85;           // of the paths: that is enough
+constexpr double kHopeless = 0.65;        // that is too little to go on
 
 /// A corner and the direction away from what it goes around: the gradient of the distance, shorter
 /// where obstacles of several sides meet.
@@ -201,7 +202,7 @@ std::vector<VertexId> look_around(const FreeSpace& space, double radius,
   return seen;
 }
 
-/// Learns corners in rounds, each as large as all before, until it knows the way of most new paths.
+/// Learns corners, each time from as many paths as before, until it knows the way of most new ones.
 class Learning {
  public:
   explicit Learning(const Roadmap& roadmap)
@@ -214,15 +215,17 @@ class Learning {
   }
 
   TautGraph run(std::size_t most_pairs) {
-    std::size_t pairs = 0;
-    for (std::size_t round = kFirstRound; pairs < most_pairs; round = pairs) {
-      round = std::min(round, most_pairs - pairs);
-      const std::vector<SampledPath> paths = detail::sample_paths(roadmap_, pairs, round);
-      const bool is_learnt = pairs > 0 && knows(paths);
-      pairs += round;
-      for (const SampledPath& path : paths) merging_.add(path);
+    std::size_t more = kFirstPairs;
+    while (pairs_ + more + kAskedPairs <= most_pairs) {
+      learn(sample(more));
       link();
-      if (!is_learnt) continue;
+      const std::vector<SampledPath> unseen = sample(kAskedPairs);
+      const double known = share_known(unseen);
+      if (known < kHopeless) break;
+      learn(unseen);
+      more = pairs_;
+      if (known < kKnown) continue;
+      link();
       list_seen();
       return std::move(taut_);
     }
@@ -230,6 +233,15 @@ class Learning {
   }
 
  private:
+  std::vector<SampledPath> sample(std::size_t pairs) {
+    pairs_ += pairs;
+    return detail::sample_paths(roadmap_, pairs_ - pairs, pairs);
+  }
+
+  void learn(const std::vector<SampledPath>& paths) {
+    for (const SampledPath& path : paths) merging_.add(path);
+  }
+
   void link() {
     const MergedCorners merged = merging_.merged();
     corners_.clear();
@@ -238,19 +250,19 @@ class Learning {
     taut_.landmarks = place_landmarks(taut_.graph);
   }
 
-  /// Whether for most of the first paths between two places there is a route about as short.
-  bool knows(const std::vector<SampledPath>& paths) const {
+  /// Of the shorter paths between two places, the share for which there is a route about as short.
+  /// Nothing is known where there are next to none.
+  double share_known(const std::vector<SampledPath>& paths) const {
     std::vector<const SampledPath*> asked;
     for (const SampledPath& path : paths)
-      if (asked.size() < kAsked && (asked.empty() || asked.back()->from != path.from))
-        asked.push_back(&path);
+      if (asked.empty() || asked.back()->from != path.from) asked.push_back(&path);
+    if (asked.size() < kLeastAsked) return 0.0;
     std::vector<char> is_known(asked.size());
     parallel_for_each_index(asked.size(), [&](std::size_t i) {
       is_known[i] = route_length(*asked[i]) <= kAboutAsShort * detail::length_of(asked[i]->waypoints);
     });
-    const auto known = std::count(is_known.begin(), is_known.end(), 1);
-    return asked.size() >= kLeastAsked &&
-           static_cast<double>(known) >= kKnownShare * static_cast<double>(asked.size());
+    return static_cast<double>(std::count(is_known.begin(), is_known.end(), 1)) /
+           static_cast<double>(asked.size());
   }
 
   double route_length(const SampledPath& path) const {
@@ -293,6 +305,7 @@ class Learning {
   const Roadmap& roadmap_;
   const FreeSpace space_;
   detail::CornerMerging merging_;
+  std::size_t pairs_ = 0;        // of places that paths were sampled between
   std::vector<VoxelId> widest_;  // by cell
   std::vector<Corner> corners_;
   TautGraph taut_;

@@ -81,11 +81,13 @@ VoxelId CornerMerging::voxel_for(const Point& corner) const {
 }
 
 std::uint32_t CornerMerging::insert(VoxelId id, const Point& place) {
-  const auto own = static_cast<std::uint32_t>(voxels_.size());
+  std::vector<std::uint32_t>& bucket = buckets_[bucket_of(place)];
+  for (const std::uint32_t other : bucket)
+    if (voxels_[other] == id) return other;
+  bucket.push_back(static_cast<std::uint32_t>(voxels_.size()));
   voxels_.push_back(id);
   places_.push_back(place);
-  buckets_[bucket_of(place)].push_back(own);
-  return own;
+  return bucket.back();
 }
 
 /// The nearest known corner that a path from `before` (if any) on to `next` may turn at instead.

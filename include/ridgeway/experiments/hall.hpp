@@ -47,13 +47,13 @@ struct RoadmapStore {
 /// sparse graph, the kernel included; `total`: from occupancy to a roadmap that can be queried.
 struct StageNumbers {
   double esdf = 0.0, gvd = 0.0, edges = 0.0, thin = 0.0, kernel = 0.0, graph = 0.0, attach = 0.0,
-         esdf_to_graph = 0.0, total = 0.0;
+         taut = 0.0, esdf_to_graph = 0.0, total = 0.0;
 };
 struct StageName {
   const char* name;
   double StageNumbers::*number;
 };
-inline constexpr std::array<StageName, 9> kStageNames = {
+inline constexpr std::array<StageName, 10> kStageNames = {
     {{"esdf", &StageNumbers::esdf},
      {"gvd", &StageNumbers::gvd},
      {"edges", &StageNumbers::edges},
@@ -61,6 +61,7 @@ inline constexpr std::array<StageName, 9> kStageNames = {
      {"kernel", &StageNumbers::kernel},
      {"graph", &StageNumbers::graph},
      {"attach", &StageNumbers::attach},
+     {"taut", &StageNumbers::taut},
      {"esdf_to_graph", &StageNumbers::esdf_to_graph},
      {"total", &StageNumbers::total}}};
 
