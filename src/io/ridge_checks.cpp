@@ -182,8 +182,9 @@ Defect find_size_defect(const Roadmap& roadmap) {
   const TautGraph& taut = roadmap.taut;
   const bool has_cells = !taut.first_seen.empty();
   if (has_cells == taut.graph.vertices.empty() ||
-      (has_cells && (taut.cell_of_block.size() != blocks || taut.first_seen.back() != taut.seen.size() ||
-                     taut.first_seen.size() != number_cells(esdf.layout).count + 1u))) {
+      (has_cells &&
+       (taut.cell_of_block.size() != blocks || taut.first_seen.back() != taut.seen.size() ||
+        taut.first_seen.size() != number_cells(esdf.layout).count + 1u))) {
     return RoadmapDefect{"cells", "does not fit the blocks, or the corners"};
   }
   return {};

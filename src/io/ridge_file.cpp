@@ -47,10 +47,11 @@ Roadmap load_roadmap(const std::filesystem::path& path) {
   if (!defect) defect = find_taut_defect(roadmap);
   if (!defect) defect = find_attach_defect(roadmap);
   if (defect) reader.damaged(defect->part, defect->what);
-  for (const auto& [graph, landmarks] : {std::pair(&roadmap.graph, &roadmap.landmarks),
-                                         std::pair(&roadmap.taut.graph, &roadmap.taut.landmarks)}) {
-    index_links(*graph);
-    *landmarks = place_landmarks(*graph);
+  index_links(roadmap.graph);
+  roadmap.landmarks = place_landmarks(roadmap.graph);
+  if (TautGraph& taut = roadmap.taut; !taut.graph.vertices.empty()) {
+    index_links(taut.graph);
+    taut.landmarks = place_landmarks(taut.graph);
   }
   return roadmap;
 }

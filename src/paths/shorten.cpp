@@ -13,7 +13,7 @@ constexpr int kRounds = 6;
 constexpr int kBisections = 4;
 constexpr int kCheapBisections = 6;
 constexpr double kRounding = 1e-9;
-constexpr double kWorthwhile = 1e-3;    // of the path's length: what a move must gain
+constexpr double kWorthwhile = 1e-3;  // of the path's length: what a move must gain
 constexpr double kStep = 8.0;         // metres between the places that skipping may choose from
 
 /// Skips waypoints: from each one goes on to the farthest that can be seen, found by doubling
@@ -151,8 +151,8 @@ class Tightening {
   /// False where the segment passes one of the obstacles around a corner too closely.
   bool may_be_free(std::size_t i, const Point& a, const Point& b) const {
     for (std::size_t k = i - 1; k <= i + 1; ++k)
-      if (corners_[k].obstacle && squared_distance(*corners_[k].obstacle, a, b) <
-                                      radius_ * radius_ * (1.0 - kRounding))
+      if (corners_[k].obstacle &&
+          squared_distance(*corners_[k].obstacle, a, b) < radius_ * radius_ * (1.0 - kRounding))
         return false;
     return true;
   }
@@ -166,8 +166,7 @@ class Tightening {
 
   bool can_go(std::size_t i) const {
     const Point &before = corners_[i - 1].at, &after = corners_[i + 1].at;
-    return may_be_free(i, before, after) && space_.is_free(before, after, radius_) &&
-           may_become(i);
+    return may_be_free(i, before, after) && space_.is_free(before, after, radius_) && may_become(i);
   }
 
   void erase(std::size_t i) {
@@ -223,13 +222,13 @@ class Tightening {
     const Point at = corners_[i].at;
     const Point back = corners_[i - 1].at - at, on = corners_[i + 1].at - at;
     const double saved = back.norm() + on.norm() - (on - back).norm();
-    const double share = largest_free_share(
-        [&](double s) { return may_be_free(i, at + s * back, at + s * on); },
-        [&](double s) { return s * saved > least_gain_; },
-        [&](double s) {
-          const Point p = at + s * back, q = at + s * on;
-          return space_.is_clearly_free(p, q, radius_) && may_become(i, p, q);
-        });
+    const double share =
+        largest_free_share([&](double s) { return may_be_free(i, at + s * back, at + s * on); },
+                           [&](double s) { return s * saved > least_gain_; },
+                           [&](double s) {
+                             const Point p = at + s * back, q = at + s * on;
+                             return space_.is_clearly_free(p, q, radius_) && may_become(i, p, q);
+                           });
     if (share * saved <= least_gain_) return false;
     corners_[i] = corner_at(at + share * back);
     corners_.insert(corners_.begin() + static_cast<std::ptrdiff_t>(i + 1),

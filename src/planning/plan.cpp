@@ -100,13 +100,12 @@ PlanResult plan_between(const Roadmap& roadmap, const Point& start, const Point&
   }
   const detail::RouteQuery query{ends.from, ends.to, start, goal, radius, config.prefer_clearance};
   const bool may_ask_taut = config.shorten && config.planner == Planner::kGraph &&
-                            config.prefer_clearance == 0.0 &&
                             radius <= roadmap.taut.graph.min_clearance * (1.0 + 1e-9);
   detail::TautPath taut;
   if (may_ask_taut) taut = detail::plan_taut(roadmap.taut, space, query, deadline);
   result.seconds.search = taut.search_seconds;
   result.seconds.shorten = taut.shorten_seconds;
-  if (taut.is_tight) {
+  if (taut.is_tight && config.prefer_clearance == 0.0) {
     result.waypoints = std::move(taut.waypoints);
     detail::describe(esdf, space, taut.known, result);
     if (detail::is_verified(esdf, space, result, radius)) return finish(PlanStatus::kOk);
@@ -122,11 +121,9 @@ PlanResult plan_between(const Roadmap& roadmap, const Point& start, const Point&
     if (!space.is_free(start, goal, radius)) return finish(PlanStatus::kNoRoute);
     result.waypoints = {start, goal};
   } else {
-    result.waypoints =
-        config.shorten ? detail::tightest(esdf, space, found, query, deadline) : found.route;
-    if (!taut.waypoints.empty() &&
-        detail::length_of(taut.waypoints) < detail::length_of(result.waypoints))
-      result.waypoints = std::move(taut.waypoints);
+    result.waypoints = config.shorten ? detail::tightest(esdf, space, found, query,
+                                                         std::move(taut.waypoints), deadline)
+                                      : found.route;
   }
   result.seconds.shorten += seconds_now() - shortening;
   detail::describe(esdf, space, config.shorten ? KnownStretch{} : found.known, result);

@@ -36,9 +36,10 @@ TautPath path_over(const SparseGraph& graph, const RouteQuery& query,
 TautPath plan_taut(const TautGraph& taut, const FreeSpace& space, const RouteQuery& query,
                    const Deadline& deadline) {
   const double began = seconds_now();
-  const std::vector<VertexId> corners = search_taut(
-      taut.graph, taut.landmarks, space,
-      {query.start, query.goal, query.radius, taut.seen_from(query.from), taut.seen_from(query.to)});
+  const std::vector<VertexId> corners =
+      search_taut(taut.graph, taut.landmarks, space,
+                  {query.start, query.goal, query.radius, taut.seen_from(query.from),
+                   taut.seen_from(query.to)});
   const double found = seconds_now();
   TautPath path;
   if (!corners.empty()) {

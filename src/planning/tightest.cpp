@@ -91,7 +91,7 @@ Route ask_again(const EsdfMap& esdf, const FreeSpace& space, Route best, double 
 
 /// As tightest(), by cost; short paths count among what it chooses from.
 Route cheapest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found,
-               const RouteQuery& query, const Deadline& deadline) {
+               const RouteQuery& query, Route known, const Deadline& deadline) {
   const PathCost cost(space, query.radius, query.prefer_clearance);
   const auto is_kept = [&](std::span<const Point> before, std::span<const Point> after) {
     return cost.is_kept(before, after);
@@ -106,6 +106,7 @@ Route cheapest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found,
     best = std::move(route);
   };
   if (space.is_free(query.start, query.goal, query.radius)) offer({query.start, query.goal});
+  if (!known.empty()) offer(std::move(known));
   for (std::optional<Route> route = found.route; route;) {
     Route tight = shorten(space, *route, query.radius, deadline);
     tight = redirect_tight(esdf, space, tight, query.radius, deadline);
@@ -141,11 +142,13 @@ Route best_of_alternatives(const FreeSpace& space, RouteResult& found, double ra
 }  // namespace
 
 Route tightest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found,
-               const RouteQuery& query, const Deadline& deadline) {
-  if (query.prefer_clearance > 0.0) return cheapest(esdf, space, found, query, deadline);
+               const RouteQuery& query, Route known, const Deadline& deadline) {
+  if (query.prefer_clearance > 0.0)
+    return cheapest(esdf, space, found, query, std::move(known), deadline);
   const double as_found = length_of(found.route);
   const double enough = kNearlyStraight * (query.goal - query.start).norm();
   Route best = best_of_alternatives(space, found, query.radius, enough, deadline);
+  if (!known.empty() && length_of(known) < length_of(best)) best = std::move(known);
   if (length_of(best) > enough) best = redirect_tight(esdf, space, best, query.radius, deadline);
   return ask_again(esdf, space, std::move(best), query.radius, as_found, deadline);
 }

@@ -149,8 +149,7 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
   clock.end(report.seconds.taut);
 
   const BuildSeconds& s = report.seconds;
-  report.seconds.total = s.esdf + s.gvd + s.edges + s.thin + s.kernel + s.graph + s.attach +
-                         s.taut;
+  report.seconds.total = s.esdf + s.gvd + s.edges + s.thin + s.kernel + s.graph + s.attach + s.taut;
   if (progress) progress("done", 1.0);
   return result;
 }

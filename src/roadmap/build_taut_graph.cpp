@@ -20,12 +20,12 @@ namespace {
 using detail::MergedCorners;
 using detail::SampledPath;
 
-constexpr double kMergeDistance = 1.0;  // radii: nearer corners may become one
-constexpr std::size_t kNeighbours = 16;  // a corner is linked to the nearest of those it can see
-constexpr double kStretch = 1.02;        // an edge goes that saves less than this over others
-constexpr double kOverTangent = 0.2;     // sine of the angle above a corner's tangent plane
-constexpr std::size_t kMostSeen = 24;    // corners listed for a cell
-constexpr std::size_t kMostTried = 72;   // looks at corners for it
+constexpr double kMergeDistance = 1.0;    // radii: nearer corners may become one
+constexpr std::size_t kNeighbours = 16;   // a corner is linked to the nearest of those it can see
+constexpr double kStretch = 1.02;         // an edge goes that saves less than this over others
+constexpr double kOverTangent = 0.2;      // sine of the angle above a corner's tangent plane
+constexpr std::size_t kMostSeen = 24;     // corners listed for a cell
+constexpr std::size_t kMostTried = 72;    // looks at corners for it
 constexpr std::size_t kFirstPairs = 250;  // of places to learn from
 constexpr std::size_t kAskedPairs = 100;  // between which new paths show how much is known
 constexpr std::size_t kLeastAsked = 20;   // paths
@@ -259,7 +259,8 @@ class Learning {
     if (asked.size() < kLeastAsked) return 0.0;
     std::vector<char> is_known(asked.size());
     parallel_for_each_index(asked.size(), [&](std::size_t i) {
-      is_known[i] = route_length(*asked[i]) <= kAboutAsShort * detail::length_of(asked[i]->waypoints);
+      is_known[i] =
+          route_length(*asked[i]) <= kAboutAsShort * detail::length_of(asked[i]->waypoints);
     });
     return static_cast<double>(std::count(is_known.begin(), is_known.end(), 1)) /
            static_cast<double>(asked.size());
@@ -271,10 +272,9 @@ class Learning {
                          place_of(widest_[taut_.cell_of_block[id / kBlockVoxels]]));
     };
     const std::vector<VertexId> from = seen_from(path.from), to = seen_from(path.to);
-    const std::vector<VertexId> route =
-        detail::search_taut(taut_.graph, taut_.landmarks, space_,
-                            {path.waypoints.front(), path.waypoints.back(), roadmap_.min_clearance,
-                             from, to});
+    const std::vector<VertexId> route = detail::search_taut(
+        taut_.graph, taut_.landmarks, space_,
+        {path.waypoints.front(), path.waypoints.back(), roadmap_.min_clearance, from, to});
     if (route.empty()) return std::numeric_limits<double>::infinity();
     double length = 0.0;
     Point last = path.waypoints.front();

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <queue>
 
@@ -102,7 +101,7 @@ class TautSearch {
     double rest = (place_of(v) - query_.goal).norm();
     const auto& lengths = landmarks_.lengths[number(v)];
     for (std::size_t k = 0; k < Landmarks::kCount; ++k)
-      if (goal_lengths_[k] < kFar) rest = std::max(rest, std::abs(goal_lengths_[k] - lengths[k]));
+      if (goal_lengths_[k] < kFar) rest = std::max(rest, goal_lengths_[k] - lengths[k]);
     if (rest < kFar) open_.push({cost + rest, cost, v, step});
   }
 

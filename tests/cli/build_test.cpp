@@ -24,8 +24,8 @@ TEST_F(CliBuild, JsonHasTheKeysThatScriptsRelyOn) {
   for (const char* key : {"vertices", "edges"})
     EXPECT_GT(json["graph"][key].get<std::size_t>(), 0u) << key;
   EXPECT_GT(json["traversable"]["voxels"].get<std::size_t>(), 0u);
-  for (const char* key :
-       {"load", "esdf", "gvd", "edges", "thin", "kernel", "graph", "attach", "save", "total"})
+  for (const char* key : {"load", "esdf", "gvd", "edges", "thin", "kernel", "graph", "attach",
+                          "taut", "save", "total"})
     EXPECT_GE(json["seconds"][key].get<double>(), 0.0) << key;
   EXPECT_EQ(json["file_bytes"], std::filesystem::file_size(path("rooms.ridge")));
 }

@@ -121,15 +121,31 @@ TEST_F(HostileRidge, WrongContentIsRefused) {
     std::uint64_t value;
     std::size_t size;
   };
-  for (const Case& c :
-       {Case{"blocks", 0, 0x7fffffff, 4}, Case{"blocks", 4, 0, 4}, Case{"state", 0, 3, 1},
-        Case{"state", 0, 8, 1}, Case{"state", 0, 6, 1}, Case{"diagram", 0, ~0ull, 8},
-        Case{"attach", 0, 28, 1}, Case{"vertices", 0, 0x7fffffff, 4},
-        Case{"vertices", 12 * vertices, nan, 8}, Case{"edges", 0, 0xffffffff, 4},
-        Case{"edges", 0, 39, 4}, Case{"edges", 8 * edges, nan, 8},
-        Case{"edges", 8 * edges, bits(0.7), 8}, Case{"edges", 16 * edges, bits(2.0), 8},
-        Case{"edges", 16 * edges, bits(0.2), 8}, Case{"tree", 0, 40, 4}, Case{"tree", 0, 39, 4},
-        Case{"tree", 4 * vertices, nan, 8}, Case{"tree", 12 * vertices + 4, 0x7fffffff, 4}}) {
+  for (const Case& c : {Case{"blocks", 0, 0x7fffffff, 4},
+                        Case{"blocks", 4, 0, 4},
+                        Case{"state", 0, 3, 1},
+                        Case{"state", 0, 8, 1},
+                        Case{"state", 0, 6, 1},
+                        Case{"diagram", 0, ~0ull, 8},
+                        Case{"attach", 0, 28, 1},
+                        Case{"vertices", 0, 0x7fffffff, 4},
+                        Case{"vertices", 12 * vertices, nan, 8},
+                        Case{"edges", 0, 0xffffffff, 4},
+                        Case{"edges", 0, 39, 4},
+                        Case{"edges", 8 * edges, nan, 8},
+                        Case{"edges", 8 * edges, bits(0.7), 8},
+                        Case{"edges", 16 * edges, bits(2.0), 8},
+                        Case{"edges", 16 * edges, bits(0.2), 8},
+                        Case{"tree", 0, 40, 4},
+                        Case{"tree", 0, 39, 4},
+                        Case{"tree", 4 * vertices, nan, 8},
+                        Case{"tree", 12 * vertices + 4, 0x7fffffff, 4},
+                        Case{"corners", 0, 0x7fffffff, 4},
+                        Case{"corners", 12 * vertices, nan, 8},
+                        Case{"taut_edges", 0, 0xffffffff, 4},
+                        Case{"taut_edges", 16 * edges, bits(2.0), 8},
+                        Case{"cells", 0, 0xffffffff, 4},
+                        Case{"seen", 0, 40, 4}}) {
     const std::string message =
         refusal_with(c.section, [&](Bytes& bytes) { put(bytes, c.at, c.value, c.size); });
     EXPECT_NE(message.find("'" + c.section + "'"), std::string::npos)
@@ -138,8 +154,8 @@ TEST_F(HostileRidge, WrongContentIsRefused) {
 }
 
 TEST_F(HostileRidge, WrongSizesAreRefused) {
-  for (const char* section :
-       {"blocks", "vertices", "edges", "tree", "state", "site", "diagram", "attach"}) {
+  for (const char* section : {"blocks", "vertices", "edges", "tree", "state", "site", "diagram",
+                              "attach", "corners", "taut_edges", "cells", "seen"}) {
     EXPECT_NE(refusal_with(section, [](Bytes& b) { b.pop_back(); }).find(section),
               std::string::npos);
     EXPECT_NE(refusal_with(section, [](Bytes& b) { b.clear(); }).find(section), std::string::npos);
@@ -178,8 +194,9 @@ TEST_F(HostileRidge, WrongHeadersAreRefused) {
 
 TEST_F(HostileRidge, AnyChangedByteGivesARoadmapOrARefusal) {
   std::mt19937 random(5);
-  const std::vector<std::string> names = {"blocks", "vertices", "edges",   "tree",
-                                          "state",  "site",     "diagram", "attach"};
+  const std::vector<std::string> names = {"blocks",  "vertices",   "edges",   "tree",
+                                          "state",   "site",       "diagram", "attach",
+                                          "corners", "taut_edges", "cells",   "seen"};
   for (int i = 0; i < 400; ++i) {
     refusal_with(names[random() % names.size()], [&](Bytes& bytes) {
       for (int k = 0; k < 3; ++k) {

@@ -13,6 +13,29 @@
 namespace ridgeway {
 namespace {
 
+void expect_same(const SparseGraph& a, const SparseGraph& b) {
+  EXPECT_EQ(a.min_clearance, b.min_clearance);
+  ASSERT_EQ(a.vertices.size(), b.vertices.size());
+  for (std::size_t i = 0; i < a.vertices.size(); ++i) {
+    EXPECT_EQ(a.vertices[i].voxel, b.vertices[i].voxel);
+    EXPECT_EQ(a.vertices[i].position, b.vertices[i].position);
+    EXPECT_EQ(a.vertices[i].clearance, b.vertices[i].clearance);
+  }
+  ASSERT_EQ(a.edges.size(), b.edges.size());
+  for (std::size_t i = 0; i < a.edges.size(); ++i) {
+    EXPECT_EQ(a.edges[i].from, b.edges[i].from);
+    EXPECT_EQ(a.edges[i].to, b.edges[i].to);
+    EXPECT_EQ(a.edges[i].length, b.edges[i].length);
+    EXPECT_EQ(a.edges[i].clearance, b.edges[i].clearance);
+  }
+  EXPECT_EQ(a.first_link, b.first_link);
+  ASSERT_EQ(a.links.size(), b.links.size());
+  for (std::size_t i = 0; i < a.links.size(); ++i) {
+    EXPECT_EQ(a.links[i].vertex, b.links[i].vertex);
+    EXPECT_EQ(a.links[i].edge, b.links[i].edge);
+  }
+}
+
 void expect_same(const Roadmap& a, const Roadmap& b) {
   EXPECT_EQ(a.esdf.voxel_size, b.esdf.voxel_size);
   EXPECT_EQ(a.esdf.unknown, b.esdf.unknown);
@@ -28,26 +51,11 @@ void expect_same(const Roadmap& a, const Roadmap& b) {
   EXPECT_EQ(a.source, b.source);
   EXPECT_EQ(a.config, b.config);
 
-  EXPECT_EQ(a.graph.min_clearance, b.graph.min_clearance);
-  ASSERT_EQ(a.graph.vertices.size(), b.graph.vertices.size());
-  for (std::size_t i = 0; i < a.graph.vertices.size(); ++i) {
-    EXPECT_EQ(a.graph.vertices[i].voxel, b.graph.vertices[i].voxel);
-    EXPECT_EQ(a.graph.vertices[i].position, b.graph.vertices[i].position);
-    EXPECT_EQ(a.graph.vertices[i].clearance, b.graph.vertices[i].clearance);
-  }
-  ASSERT_EQ(a.graph.edges.size(), b.graph.edges.size());
-  for (std::size_t i = 0; i < a.graph.edges.size(); ++i) {
-    EXPECT_EQ(a.graph.edges[i].from, b.graph.edges[i].from);
-    EXPECT_EQ(a.graph.edges[i].to, b.graph.edges[i].to);
-    EXPECT_EQ(a.graph.edges[i].length, b.graph.edges[i].length);
-    EXPECT_EQ(a.graph.edges[i].clearance, b.graph.edges[i].clearance);
-  }
-  EXPECT_EQ(a.graph.first_link, b.graph.first_link);
-  ASSERT_EQ(a.graph.links.size(), b.graph.links.size());
-  for (std::size_t i = 0; i < a.graph.links.size(); ++i) {
-    EXPECT_EQ(a.graph.links[i].vertex, b.graph.links[i].vertex);
-    EXPECT_EQ(a.graph.links[i].edge, b.graph.links[i].edge);
-  }
+  expect_same(a.graph, b.graph);
+  expect_same(a.taut.graph, b.taut.graph);
+  EXPECT_EQ(a.taut.cell_of_block, b.taut.cell_of_block);
+  EXPECT_EQ(a.taut.first_seen, b.taut.first_seen);
+  EXPECT_EQ(a.taut.seen, b.taut.seen);
   EXPECT_EQ(a.tree.parent, b.tree.parent);
   EXPECT_EQ(a.tree.clearance, b.tree.clearance);
   EXPECT_EQ(a.tree.place, b.tree.place);
@@ -116,7 +124,7 @@ TEST(RidgeFile, InfoTellsTheSections) {
   const RidgeInfo info = read_ridge_info(folder / "map.ridge");
   EXPECT_EQ(info.version, 1u);
   EXPECT_NE(info.header.find("\"voxel_size\": 0.1"), std::string::npos);
-  EXPECT_EQ(info.sections.size(), 8u);
+  EXPECT_EQ(info.sections.size(), 12u);
 }
 
 TEST(RidgeFile, PartsThatDoNotFitAreNotSaved) {

@@ -121,6 +121,17 @@ inline Roadmap synthetic_roadmap(const SyntheticConfig& config = {}) {
         {VertexId{a}, VertexId{b}, (to - from).norm(), space.clearance(from, to)});
   }
   index_links(graph);
+
+  if (graph.vertices.empty()) return roadmap;
+  TautGraph& taut = roadmap.taut;
+  taut.graph = graph;
+  BlockCells cells = number_cells(esdf.layout);
+  taut.cell_of_block = std::move(cells.cell_of_block);
+  taut.first_seen = {0};
+  for (std::uint32_t cell = 0; cell < cells.count; ++cell) {
+    for (std::uint32_t k = 0; k < cell % 3; ++k) taut.seen.push_back(VertexId{(cell + k) % count});
+    taut.first_seen.push_back(static_cast<std::uint32_t>(taut.seen.size()));
+  }
   return roadmap;
 }
 

@@ -51,8 +51,8 @@ class FreeSpace {
   /// Exact where it says that all is free, up to a voxel short where it is not.
   double free_length(const Point& a, const Point& b, double radius) const;
 
-  /// A point of the obstacle nearest to the centre of a point's voxel: its nearest one to the point.
-  /// Nothing where all are farther than max_distance, or the point is outside the map.
+  /// A point of the obstacle nearest to the centre of a point's voxel: its nearest one to the
+  /// point. Nothing where all are farther than max_distance, or the point is outside the map.
   std::optional<Point> near_obstacle(const Point& p) const;
 
   /// Whether all of a segment lies in known-free voxels.

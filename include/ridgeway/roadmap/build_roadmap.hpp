@@ -51,10 +51,10 @@ struct BuildResult {
   BuildReport report;
 };
 
-/// The whole pipeline: ESDF, GVD, edges, thinning, kernel, diagram, graph, attach field, taut graph.
-/// Consumes the map. Under UnknownPolicy::kIgnore free pockets smaller than the robot are taken as unknown.
-/// Same map and configuration give the same bytes for any number of threads (set by with_threads,
-/// common/parallel.hpp). Throws InputError where nothing is free.
+/// The whole pipeline: ESDF, GVD, edges, thinning, kernel, diagram, graph, attach field, taut
+/// graph. Consumes the map. Under UnknownPolicy::kIgnore free pockets smaller than the robot are
+/// taken as unknown. Same map and configuration give the same bytes for any number of threads (set
+/// by with_threads, common/parallel.hpp). Throws InputError where nothing is free.
 BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config = {},
                           const Progress& progress = {});
 

@@ -19,7 +19,8 @@ struct Roadmap;
 /// over it is nearly as short as can be before anything is pulled tight. A tangent graph (Liu and
 /// Arimoto, "Path planning using a tangent graph for mobile robots among polygonal and curved
 /// obstacles", 1992) of the corners that sampled routes were seen to use (experience graphs:
-/// Phillips et al. 2012). It need not reach everywhere: what it does not know, the sparse graph does.
+/// Phillips et al. 2012). It need not reach everywhere: what it does not know, the sparse graph
+/// does.
 struct TautGraph {
   SparseGraph graph;    ///< its vertices are the corners; free at its min_clearance
   Landmarks landmarks;  ///< of the graph; not in the file, placed when it is loaded
