@@ -22,7 +22,7 @@ using detail::SampledPath;
 
 constexpr double kMergeDistance = 1.0;    // radii: nearer corners may become one
 constexpr std::size_t kNeighbours = 16;   // a corner is linked to the nearest of those it can see
-constexpr double kStretch = 1.02;         // an edge goes that saves less than this over others
+constexpr double kStretch = 1.005;        // an edge goes that saves less than this over others
 constexpr double kOverTangent = 0.2;      // sine of the angle above a corner's tangent plane
 constexpr std::size_t kMostSeen = 24;     // corners listed for a cell
 constexpr std::size_t kMostTried = 72;    // looks at corners for it
