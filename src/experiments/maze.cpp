@@ -35,6 +35,12 @@ Plan on_roadmap(const Roadmap& roadmap, Planner planner, bool shorten) {
   };
 }
 
+Plan quickly(const Roadmap& roadmap) {
+  return [&roadmap](const Pair& pair) {
+    return plan(roadmap, pair.start, pair.goal, {.quick = true});
+  };
+}
+
 Plan by_sampling(const Roadmap& roadmap, const MazeExperimentConfig& config, Planner planner,
                  bool first_solution) {
   return [&roadmap, &config, planner, first_solution](const Pair& pair) {
@@ -56,6 +62,7 @@ std::vector<Contender> contenders(const Roadmap& roadmap, const MazeExperimentCo
           {"esdf", on_roadmap(roadmap, Planner::kEsdf, false)},
           {"diagram", on_roadmap(roadmap, Planner::kDiagram, false)},
           {"graph_raw", on_roadmap(roadmap, Planner::kGraph, false)},
+          {"graph_quick", quickly(roadmap)},
           {"graph", on_roadmap(roadmap, Planner::kGraph, true)}};
 }
 

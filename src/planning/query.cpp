@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "query.hpp"
 
+#include <algorithm>
 #include <span>
 
 #include "../paths/shorten.hpp"
@@ -12,7 +13,8 @@
 namespace ridgeway::detail {
 namespace {
 
-constexpr double kUnknownStep = 8.0;  // voxels between looks at what the path borders
+constexpr double kUnknownStep = 8.0;     // voxels between looks at what the path borders
+constexpr double kMostUnknownLooks = 32;  // with more between them on long paths
 
 PlanStatus status_of(EndpointStatus status, bool is_start) {
   switch (status) {
@@ -53,7 +55,8 @@ bool borders_unknown(const EsdfMap& esdf, VoxelFinder& finder, const Point& p) {
 /// of equal pieces of it.
 double unknown_share(const EsdfMap& esdf, std::span<const Point> path, double length) {
   if (length <= 0.0) return 0.0;
-  const int pieces = 1 + static_cast<int>(length / (kUnknownStep * esdf.voxel_size));
+  const int pieces = static_cast<int>(
+      std::min(1.0 + length / (kUnknownStep * esdf.voxel_size), kMostUnknownLooks));
   const double piece = length / pieces;
   VoxelFinder finder(esdf.layout);
   int looks = 0, unknown = 0;

@@ -34,7 +34,7 @@ TautPath path_over(const SparseGraph& graph, const RouteQuery& query,
 }  // namespace
 
 TautPath plan_taut(const TautGraph& taut, const FreeSpace& space, const RouteQuery& query,
-                   const Deadline& deadline) {
+                   bool as_it_is, const Deadline& deadline) {
   const double began = seconds_now();
   const std::vector<VertexId> corners =
       search_taut(taut.graph, taut.landmarks, space,
@@ -42,15 +42,16 @@ TautPath plan_taut(const TautGraph& taut, const FreeSpace& space, const RouteQue
                    taut.seen_from(query.to)});
   const double found = seconds_now();
   TautPath path;
-  if (!corners.empty()) {
-    path = path_over(taut.graph, query, corners);
+  if (!corners.empty()) path = path_over(taut.graph, query, corners);
+  path.will_do = as_it_is && !corners.empty();
+  if (!corners.empty() && !as_it_is) {
     const double as_found = length_of(path.waypoints);
     Route tight = draw_corners_in(space, path.waypoints, query.radius, deadline);
     if (tight != path.waypoints) path.known = {};
     path.waypoints = std::move(tight);
     const double length = length_of(path.waypoints);
-    path.is_tight = as_found <= kHardly * length ||
-                    length <= kNearlyStraight * (query.goal - query.start).norm();
+    path.will_do = as_found <= kHardly * length ||
+                   length <= kNearlyStraight * (query.goal - query.start).norm();
   }
   path.search_seconds = found - began;
   path.shorten_seconds = seconds_now() - found;

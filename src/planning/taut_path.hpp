@@ -7,15 +7,15 @@
 
 namespace ridgeway::detail {
 
-/// The taut graph's route, pulled tight.
+/// The taut graph's route, pulled tight, or as it is where that has to do.
 struct TautPath {
   Route waypoints;        ///< empty where there is none
   KnownStretch known;     ///< of it
-  bool is_tight = false;  ///< it hardly became shorter, or is nearly straight: the graph knows the
+  bool will_do = false;   ///< it hardly became shorter, or is nearly straight: the graph knows the
                           ///< place, and a search is not likely to find anything shorter
   double search_seconds = 0.0, shorten_seconds = 0.0;
 };
 TautPath plan_taut(const TautGraph& taut, const FreeSpace& space, const RouteQuery& query,
-                   const Deadline& deadline);
+                   bool as_it_is, const Deadline& deadline);
 
 }  // namespace ridgeway::detail

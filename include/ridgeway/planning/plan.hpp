@@ -52,6 +52,10 @@ struct PlanConfig {
   /// Metres; the roadmap's min_clearance when not given.
   std::optional<double> radius = std::nullopt;
   bool shorten = true;  ///< pull the path tight; otherwise as the search found it
+  /// Settle for the taut graph's route where it has one, though moving corners would make it a
+  /// little shorter: a percent or two as a rule, but some paths are detours. Nothing else is new
+  /// where it has none, at larger radii, or with prefer_clearance.
+  bool quick = false;
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds
   /// What distance from walls is worth: a metre of a path at a distance d from the nearest obstacle
   /// costs 1 + prefer_clearance * (radius / d)^2. At 0 paths are as short as can be; at 1 they keep
