@@ -41,6 +41,7 @@ struct Basins {
   std::vector<VoxelId> peaks;       ///< by basin, ascending handles
   std::vector<double> dynamics;     ///< by basin: height above its pass to a higher peak, voxels
   std::vector<Pass> passes;         ///< widest first
+  VoxelMask obstinate;              ///< voxels that may outlive their first turn, see kernel.hpp
   std::size_t components() const { return peaks.size() - passes.size(); }
 };
 
