@@ -18,6 +18,7 @@ namespace ridgeway {
 namespace {
 
 constexpr SiteOffset kNoOffset{INT16_MIN, INT16_MIN, INT16_MIN};
+static_assert(quarter_squared(kNoOffset) > quarter_squared(kFarthestSite + 1));
 
 /// A straight row of blocks without a gap: the sweeps run along its 64 lines of voxels.
 using BlockRow = std::vector<std::uint32_t>;
@@ -237,10 +238,11 @@ void finish_distances(EsdfMap& map, double farthest) {
         SiteOffset* site = map.site.block(slot);
         for (const std::uint64_t layer : map.obstacle.block(slot))
           for (int v = 0; v < 64; ++v, ++squared, ++site) {
-            if (layer >> v & 1) *site = {};
-            const bool is_far = *site == kNoOffset || quarter_squared(*site) > limit;
-            if (is_far) *site = {};
-            *squared = is_far ? kNoSite : quarter_squared(*site);
+            const bool is_solid = layer >> v & 1;
+            const std::uint32_t value = is_solid ? 0 : quarter_squared(*site);
+            const bool is_far = value > limit;  // kNoOffset too
+            if (is_solid || is_far) *site = {};
+            *squared = is_far ? kNoSite : value;
           }
       },
       16);

@@ -28,20 +28,28 @@ constexpr int bordered_step(int direction) {
 /// constant) in a row at a time; kNoVoxel for those in blocks that are not allocated.
 template <typename Body>
 void for_each_bordered_row(const BlockLayout& layout, std::uint32_t slot, const Body& body) {
-  std::size_t place = 0;
-  for (int z = -1; z <= kBlockSide; ++z)
-    for (int y = -1; y <= kBlockSide; ++y) {
-      const int beside = 13 + 3 * (y >> 3) + 9 * (z >> 3);
-      const auto row = static_cast<VoxelId>((y & 7) << 3 | (z & 7) << 6);
-      const auto visit = [&](int dx, VoxelId x, auto count) {
-        const std::uint32_t n = layout.neighbour_block(slot, beside + dx);
-        body(place, n == BlockLayout::kNoBlock ? kNoVoxel : n * kBlockVoxels + row + x, count);
-        place += count;
+  // From one row of blocks to the next, so that neighbours are looked up once for all their voxels.
+  const auto first_of = [](int beside) { return beside < 0 ? -1 : beside == 0 ? 0 : kBlockSide; };
+  const auto last_of = [](int beside) { return beside < 0 ? -1 : beside == 0 ? 7 : kBlockSide; };
+  for (int dz = -1; dz <= 1; ++dz)
+    for (int dy = -1; dy <= 1; ++dy) {
+      const auto first_in = [&](int dx) {
+        const std::uint32_t n = layout.neighbour_block(slot, 13 + dx + 3 * dy + 9 * dz);
+        return n == BlockLayout::kNoBlock ? kNoVoxel : n * kBlockVoxels;
       };
-      constexpr std::integral_constant<std::size_t, 1> kOne;
-      visit(-1, kBlockSide - 1, kOne);
-      visit(0, 0, std::integral_constant<std::size_t, kBlockSide>());
-      visit(1, 0, kOne);
+      const VoxelId before = first_in(-1), own = first_in(0), behind = first_in(1);
+      for (int z = first_of(dz); z <= last_of(dz); ++z)
+        for (int y = first_of(dy); y <= last_of(dy); ++y) {
+          const auto row = static_cast<VoxelId>((y & 7) << 3 | (z & 7) << 6);
+          const auto place = static_cast<std::size_t>((z + 1) * 100 + (y + 1) * 10);
+          const auto visit = [&](std::size_t at, VoxelId block, VoxelId x, auto count) {
+            body(place + at, block == kNoVoxel ? kNoVoxel : block + row + x, count);
+          };
+          constexpr std::integral_constant<std::size_t, 1> kOne;
+          visit(0, before, kBlockSide - 1, kOne);
+          visit(1, own, 0, std::integral_constant<std::size_t, kBlockSide>());
+          visit(1 + kBlockSide, behind, 0, kOne);
+        }
     }
 }
 

@@ -50,7 +50,7 @@ class KnownSurroundings {
       : esdf_(esdf),
         traversable_(traversable),
         known_(esdf.layout),
-        around_(esdf.layout.block_count()) {
+        blocks_(esdf.layout.block_count()) {
     parallel_for_each_index(
         esdf.layout.block_count(),
         [&](std::size_t slot) { gather(static_cast<std::uint32_t>(slot), obstinate); }, 16);
@@ -59,12 +59,10 @@ class KnownSurroundings {
   Surroundings of(VoxelId id) const {
     if (!known_.test(id)) return look_around(esdf_, traversable_, id);
     const std::uint32_t slot = id / kBlockVoxels;
-    const VoxelMask::Block& known = known_.block(slot);
-    std::size_t rank = 0;
-    for (std::size_t z = 0; z < id / 64 % kBlockSide; ++z)
-      rank += static_cast<std::size_t>(std::popcount(known[z]));
-    const std::uint64_t before = known[id / 64 % kBlockSide] & ((std::uint64_t{1} << id % 64) - 1);
-    return around_[slot][rank + static_cast<std::size_t>(std::popcount(before))];
+    const std::uint32_t layer = id / 64 % kBlockSide;
+    const std::uint64_t before = known_.block(slot)[layer] & ((std::uint64_t{1} << id % 64) - 1);
+    const InBlock& block = blocks_[slot];
+    return block.around[block.first[layer] + static_cast<std::size_t>(std::popcount(before))];
   }
 
  private:
@@ -78,19 +76,32 @@ class KnownSurroundings {
     });
     if (known == VoxelMask::Block{}) return;
     const Levels levels = gather_levels(esdf_, traversable_, slot);
+    InBlock& block = blocks_[slot];
+    std::uint16_t count = 0;
+    for (std::size_t z = 0; z < kBlockSide; ++z) {
+      block.first[z] = count;
+      count = static_cast<std::uint16_t>(count + std::popcount(known[z]));
+    }
+    block.around.reserve(count);
     for_each_four(known_, slot, [&](VoxelId first, unsigned members) {
-      const LevelCubes around(levels, bordered_place(first));
+      const LevelCubes by_level(levels, bordered_place(first));
       for (; members != 0; members &= members - 1) {
         const auto x = static_cast<std::size_t>(std::countr_zero(members));
-        around_[slot].push_back({around.higher[x], around.level[x] & kCells26});
+        block.around.push_back({by_level.higher[x], by_level.level[x] & kCells26});
       }
     });
   }
 
+  /// Surroundings of a block's known voxels, ascending, and the first of each layer.
+  struct InBlock {
+    std::vector<Surroundings> around;
+    std::array<std::uint16_t, kBlockSide> first;
+  };
+
   const EsdfMap& esdf_;
   const VoxelMask& traversable_;
   VoxelMask known_;
-  std::vector<std::vector<Surroundings>> around_;  // of known voxels, by block
+  std::vector<InBlock> blocks_;
 };
 
 /// When a voxel is asked first: by its level, sub-field and handle, in one number.
