@@ -19,10 +19,6 @@ namespace detail {
 /// page is the one that waits for it.
 template <typename Value>
 struct UnsetAllocator : std::allocator<Value> {
-  template <typename Other>
-  struct rebind {
-    using other = UnsetAllocator<Other>;
-  };
   void construct(Value* at) {
     if constexpr (!std::is_trivially_copyable_v<Value>) ::new (static_cast<void*>(at)) Value();
   }

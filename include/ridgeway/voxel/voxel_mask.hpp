@@ -72,7 +72,7 @@ VoxelMask::Block block_where(const Holds& holds) {
     std::uint64_t& layer = block[static_cast<std::size_t>(z)];
     layer = 0;
     for (std::size_t y = 0; y < kBlockSide; ++y) {
-      std::uint64_t row;
+      std::uint64_t row = 0;
       std::memcpy(&row, &ones[8 * y], sizeof row);
       layer |= row * 0x0102040810204080u >> 56 << 8 * y;  // the lowest bit of each byte
     }
