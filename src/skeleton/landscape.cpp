@@ -78,14 +78,14 @@ Cubes are_regular(const Cubes& higher) {
 
 /// The ways inside a block, and where they leave it. Between blocks ways go from drain to drain.
 struct BlockWays {
-  std::vector<VoxelId> drains;    // voxels of other blocks that ways lead to, and own peaks
-  std::vector<VoxelId> critical;  // ascending
+  std::vector<std::uint16_t> drains;  // places where ways leave the block, and its peaks
+  std::vector<VoxelId> critical;      // ascending
 };
 
-/// Fills in each place's number among the drains that it returns; 0, which is no voxel, where a
-/// place is not traversable.
-std::vector<VoxelId> find_drains(const BlockLayout& layout, const VoxelMask& traversable,
-                                 std::uint32_t slot, const Direction* next, std::uint32_t* drain) {
+/// Fills in each place's number among the drains that it returns; 0, which is none, where a place
+/// is not traversable.
+std::vector<std::uint16_t> find_drains(const VoxelMask& traversable, std::uint32_t slot,
+                                       const Direction* next, std::uint32_t* drain) {
   std::array<std::uint16_t, kBlockVoxels> end;  // of the way inside the block
   for (std::uint16_t i = 0; i < kBlockVoxels; ++i) end[i] = i;
   for_each_member(traversable, slot, [&](VoxelId id) {
@@ -102,20 +102,20 @@ std::vector<VoxelId> find_drains(const BlockLayout& layout, const VoxelMask& tra
     }
     again = changed != 0;
   }
-  std::vector<VoxelId> drains{kNoVoxel};
+  std::vector<std::uint16_t> drains{0};
   std::fill_n(drain, kBlockVoxels, 0u);
   for_each_member(traversable, slot, [&](VoxelId id) {
     const VoxelId place = id % kBlockVoxels;
     if (end[place] != place) return;
     drain[place] = static_cast<std::uint32_t>(drains.size());
-    drains.push_back(layout.neighbour(id, next[place]));
+    drains.push_back(static_cast<std::uint16_t>(place));
   });
   for (std::size_t place = 0; place < kBlockVoxels; ++place) drain[place] = drain[end[place]];
   return drains;
 }
 
 /// Numbers the peaks and labels every voxel with its own. `basins.basin` holds the voxels' drains.
-void label_basins(const std::vector<BlockWays>& ways, Basins& basins) {
+void label_basins(const BlockLayout& layout, const std::vector<BlockWays>& ways, Basins& basins) {
   std::vector<std::uint32_t> first(ways.size() + 1, 0);  // drain of each block
   for (std::size_t slot = 0; slot < ways.size(); ++slot)
     first[slot + 1] = first[slot] + static_cast<std::uint32_t>(ways[slot].drains.size());
@@ -137,11 +137,13 @@ void label_basins(const std::vector<BlockWays>& ways, Basins& basins) {
         std::vector<std::uint32_t> way;
         for (std::size_t i = 1; i < ways[slot].drains.size(); ++i) {
           way.assign(1, first[slot] + static_cast<std::uint32_t>(i));
-          VoxelId to = ways[slot].drains[i];
+          VoxelId at = static_cast<VoxelId>(slot * kBlockVoxels) + ways[slot].drains[i];
           std::uint32_t basin = kNone;
           while ((basin = label_of(way.back()).load(std::memory_order_relaxed)) == kNone) {
+            const VoxelId to = layout.neighbour(at, basins.next[at]);
             way.push_back(drain_of(to));
-            to = ways[to / kBlockVoxels].drains[basins.basin[to]];
+            at =
+                to / kBlockVoxels * kBlockVoxels + ways[to / kBlockVoxels].drains[basins.basin[to]];
           }
           for (const std::uint32_t drain : way)
             label_of(drain).store(basin, std::memory_order_relaxed);
@@ -173,7 +175,7 @@ Landscape survey(const EsdfMap& esdf, const VoxelMask& traversable) {
         std::fill_n(basins.next.block(slot), kBlockVoxels, kNotTraversable);
         if (traversable.block(slot) == VoxelMask::Block{}) {
           std::fill_n(basins.basin.block(slot), kBlockVoxels, 0u);
-          ways[slot].drains = {kNoVoxel};
+          ways[slot].drains = {0};
           return;
         }
         const Levels levels = gather_levels(esdf, traversable, slot);
@@ -195,11 +197,11 @@ Landscape survey(const EsdfMap& esdf, const VoxelMask& traversable) {
             if (!simple[x]) basins.obstinate.set(first + x);
           }
         });
-        ways[slot].drains = find_drains(esdf.layout, traversable, slot, basins.next.block(slot),
-                                        basins.basin.block(slot));
+        ways[slot].drains =
+            find_drains(traversable, slot, basins.next.block(slot), basins.basin.block(slot));
       },
       16);
-  label_basins(ways, basins);
+  label_basins(esdf.layout, ways, basins);
   for (const BlockWays& of_block : ways)
     land.critical.insert(land.critical.end(), of_block.critical.begin(), of_block.critical.end());
   return land;
