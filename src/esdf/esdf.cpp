@@ -18,6 +18,7 @@ namespace ridgeway {
 namespace {
 
 constexpr SiteOffset kNoOffset{INT16_MIN, INT16_MIN, INT16_MIN};
+static_assert(quarter_squared(kNoOffset) > quarter_squared(kFarthestSite + 1));
 
 /// A straight row of blocks without a gap: the sweeps run along its 64 lines of voxels.
 using BlockRow = std::vector<std::uint32_t>;
@@ -142,6 +143,8 @@ class Sweeper {
     const int size = static_cast<int>(line.row.size()) * kBlockSide;
     if (last + 1 < size || solid_outside_) envelope.add({last + 1, 0});
     envelope.for_each_stretch([&](int begin, int end, int winner) {
+      // A voxel alone with its own site keeps it.
+      if (winner == begin && end == begin + 1 && winner >= first) return;
       SiteOffset offset{};
       if (winner >= first && winner <= last)
         offset = scratch.before[static_cast<std::size_t>(winner)];
@@ -162,24 +165,28 @@ class Sweeper {
 
 VoxelMask find_obstacles(const BlockLayout& layout, const VoxelField<VoxelState>& state,
                          UnknownPolicy unknown) {
+  const bool solid_unknown = unknown == UnknownPolicy::kObstacle;
   VoxelMask obstacle(layout);
   parallel_for_each_index(
       layout.block_count(),
       [&](std::size_t slot) {
-        const VoxelState* states = state.block(static_cast<std::uint32_t>(slot));
-        for (int v = 0; v < kBlockVoxels; ++v)
-          if (states[v] == VoxelState::kOccupied ||
-              (states[v] == VoxelState::kUnknown && unknown == UnknownPolicy::kObstacle))
-            obstacle.set(static_cast<VoxelId>(slot) * kBlockVoxels + static_cast<VoxelId>(v));
+        const auto block = static_cast<std::uint32_t>(slot);
+        const VoxelState* states = state.block(block);
+        obstacle.block(block) = block_where([&](int v) {
+          return (states[v] == VoxelState::kOccupied) |
+                 ((states[v] == VoxelState::kUnknown) & solid_unknown);
+        });
       },
       16);
   return obstacle;
 }
 
-/// Runs the three sweeps on a layout; voxels without a site get kNoOffset, obstacles zero.
+/// Runs the three sweeps on a layout; voxels without a site get kNoOffset, obstacles anything.
 VoxelField<SiteOffset> sweep_sites(const BlockLayout& layout, const VoxelMask& obstacle,
                                    bool solid_outside) {
-  VoxelField<SiteOffset> site(layout, kNoOffset);
+  // Where all lines end at obstacles, the first sweep gives each free voxel a site.
+  auto site = solid_outside ? VoxelField<SiteOffset>::unset(layout)
+                            : VoxelField<SiteOffset>(layout, kNoOffset);
   const Sweeper sweeper(layout, obstacle, solid_outside, site);
   for (int axis = 0; axis < 3; ++axis) sweeper.sweep(axis);
   return site;
@@ -189,14 +196,17 @@ VoxelField<SiteOffset> sweep_sites(const BlockLayout& layout, const VoxelMask& o
 template <typename Value>
 VoxelField<Value> move_to_layout(const BlockLayout& from, const VoxelField<Value>& field,
                                  const BlockLayout& to, Value absent) {
-  VoxelField<Value> result(to, absent);
+  auto result = VoxelField<Value>::unset(to);
   parallel_for_each_index(
       to.block_count(),
       [&](std::size_t slot) {
         const auto target = static_cast<std::uint32_t>(slot);
         const std::uint32_t source = from.find_block(to.block(target));
-        if (source != BlockLayout::kNoBlock)
+        if (source != BlockLayout::kNoBlock) {
           std::copy_n(field.block(source), kBlockVoxels, result.block(target));
+        } else {
+          std::fill_n(result.block(target), kBlockVoxels, absent);
+        }
       },
       64);
   return result;
@@ -217,7 +227,7 @@ VoxelField<SiteOffset> sweep_sites_through_unknown(const EsdfMap& map, double fa
 
 /// Squared distances from the offsets; too far or nothing at all becomes "no site".
 void finish_distances(EsdfMap& map, double farthest) {
-  map.squared = VoxelField<std::uint32_t>(map.layout);
+  map.squared = VoxelField<std::uint32_t>::unset(map.layout);
   const double reach = std::min(farthest, static_cast<double>(kFarthestSite));
   const auto limit = static_cast<std::uint32_t>(squared_threshold(reach, 1.0) * (1.0 + 4e-9));
   parallel_for_each_index(
@@ -228,10 +238,11 @@ void finish_distances(EsdfMap& map, double farthest) {
         SiteOffset* site = map.site.block(slot);
         for (const std::uint64_t layer : map.obstacle.block(slot))
           for (int v = 0; v < 64; ++v, ++squared, ++site) {
-            const bool solid = layer >> v & 1;
-            const bool far = *site == kNoOffset || quarter_squared(*site) > limit;
-            if (solid || far) *site = {};
-            *squared = far && !solid ? kNoSite : quarter_squared(*site);
+            const bool is_solid = layer >> v & 1;
+            const std::uint32_t value = is_solid ? 0 : quarter_squared(*site);
+            const bool is_far = value > limit;  // kNoOffset too
+            if (is_solid || is_far) *site = {};
+            *squared = is_far ? kNoSite : value;
           }
       },
       16);

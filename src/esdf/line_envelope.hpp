@@ -41,16 +41,22 @@ constexpr std::int64_t crossing(const LineCandidate& a, const LineCandidate& b) 
   const std::int64_t m = std::int64_t{b.position} - a.position;
   const std::int64_t t = a.cost - b.cost;
   const std::int64_t at_ends = (2 * m - 1) * (2 * m - 1);
-  // Neighbours are the most frequent, and need no division.
-  const auto divide = [m](std::int64_t n) { return m == 1 ? n >> 3 : floor_divide(n, 8 * m); };
-  if (t > at_ends) return divide(4 * m * (sum - 1) - t) + 1;
+  if (t > at_ends) return floor_divide(4 * m * (sum - 1) - t, 8 * m) + 1;
   if (m > 1 && t > (2 * m - 2) * (4 - 2 * m)) {
     const std::int64_t between = floor_divide(4 * (m - 1) * sum - t, 8 * (m - 1)) + 1;
     return between > a.position ? between : a.position + 1;
   }
   if (t > -at_ends) return b.position;
-  const std::int64_t beyond = divide(4 * m * (sum + 1) - t) + 1;
+  const std::int64_t beyond = floor_divide(4 * m * (sum + 1) - t, 8 * m) + 1;
   return beyond > b.position ? beyond : b.position + 1;
+}
+
+/// The same for neighbours, which are the most frequent. Where `b` lies, it wins unless its cost is
+/// higher; every position further adds 8 to the difference.
+constexpr std::int64_t crossing_of_neighbours(const LineCandidate& a, const LineCandidate& b) {
+  const std::int64_t t = a.cost - b.cost;
+  if (t > 1) return a.position - ((t - 1) >> 3);
+  return t >= 0 ? b.position : b.position + (-t >> 3) + 1;
 }
 
 /// Lower envelope of the candidates of one run of a line, built left to right. Equal distances go
@@ -65,6 +71,14 @@ class LineEnvelope {
   }
 
   void add(const LineCandidate& candidate) {
+    if (!pieces_.empty() && pieces_.back().candidate.position + 1 == candidate.position) {
+      const std::int64_t from = crossing_of_neighbours(pieces_.back().candidate, candidate);
+      if (from > pieces_.back().from) {
+        if (from <= last_) pieces_.push_back({candidate, from});
+        return;
+      }
+      pieces_.pop_back();
+    }
     while (!pieces_.empty() && is_nearer(candidate, pieces_.back().candidate, pieces_.back().from))
       pieces_.pop_back();
     if (pieces_.empty()) {

@@ -19,6 +19,8 @@ class EditableGraph {
   struct Link {
     double clearance = 0.0;
     bool widest = false;  ///< see mark_widest_ways
+    bool is_new = false;  ///< not from the SparseGraph
+    Number first = 0;     ///< the end from which a new one is measured
   };
   using Links = std::map<Number, Link>;  ///< by neighbour
 

@@ -3,6 +3,7 @@
 #include "ridgeway/roadmap/simplify_graph.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -11,6 +12,7 @@
 #include "editable_graph.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/number_text.hpp"
+#include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 
 namespace ridgeway {
@@ -45,6 +47,7 @@ class Simplification {
       mark_widest_ways();
       again |= drop_parallel_ways();
     }
+    measure_new_links();
     return graph_.result();
   }
 
@@ -58,6 +61,28 @@ class Simplification {
     const double step = config_.width_step * radius_;
     const double whole = std::floor(clearance / step * (1.0 + 1e-9)) * step;
     return std::clamp(whole, radius_, widest_kept_);
+  }
+
+  /// Clearance of a link, or something wider than all that is kept. Most new links are soon
+  /// replaced by others, so how wide they are beyond that is measured in the end.
+  double clearance_that_counts(Number from, Number to) const {
+    const std::array<Point, 2> ends{graph_.at(from), graph_.at(to)};
+    return space_.clearance(ends, widest_kept_ + config_.width_step * radius_);
+  }
+
+  void measure_new_links() {
+    struct NewLink {
+      Number from, to;
+      EditableGraph::Link link;
+    };
+    std::vector<NewLink> links;
+    for (Number v = 0; v < graph_.size(); ++v)
+      for (const auto& [w, link] : graph_.links_of(v))
+        if (link.is_new && link.first == v) links.push_back({v, w, link});
+    parallel_for_each_index(links.size(), [&](std::size_t i) {
+      links[i].link.clearance = space_.clearance(graph_.at(links[i].from), graph_.at(links[i].to));
+    });
+    for (const NewLink& l : links) graph_.link(l.from, l.to, l.link);
   }
 
   /// Whether the ball at a dead end (`way` leads from it to its base) reaches far enough beyond
@@ -144,7 +169,7 @@ class Simplification {
       EditableGraph::Link link =
           known != graph_.links_of(to).end()
               ? known->second
-              : EditableGraph::Link{space_.clearance(graph_.at(to), graph_.at(other))};
+              : EditableGraph::Link{clearance_that_counts(to, other), false, true, to};
       link.widest |= replaced.widest;
       graph_.link(to, other, link);
     }

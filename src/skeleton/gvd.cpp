@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "lanes.hpp"
 #include "ridgeway/common/parallel.hpp"
@@ -20,8 +21,6 @@ using detail::load_lanes;
 constexpr std::size_t kGrain = 16;
 constexpr int kEdgeNeighbours = 18;
 constexpr std::size_t kEdgeBasisPoints = 3;
-
-VoxelId first_of(std::size_t slot) { return static_cast<VoxelId>(slot * kBlockVoxels); }
 
 /// Whether the angle between two directions exceeds theta; false where one of them is zero.
 bool diverge(const SiteOffset& v, const SiteOffset& w, double cosine) {
@@ -68,18 +67,19 @@ bool has_basis_points(const EsdfMap& esdf, VoxelId id, double cosine, std::size_
   });
 }
 
-/// Where the nearest sites of a block and its border lie, each seen from its own voxel; zero where
-/// there is none.
+/// Where the nearest sites of a block and its border lie, each seen from its own voxel; not numbers
+/// where there is none, as in obstacles.
 struct SiteGather {
-  std::array<detail::Bordered<float>, 3> at{};
+  std::array<detail::Bordered<float>, 3> at;
 
   SiteGather(const EsdfMap& esdf, std::uint32_t slot) {
+    constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
     detail::for_each_bordered_row(
-        esdf.layout, slot, [&](std::size_t place, VoxelId first, std::size_t count) {
-          if (first == kNoVoxel) return;
+        esdf.layout, slot, [&](std::size_t place, VoxelId first, auto count) {
           for (std::size_t i = 0; i < count; ++i) {
-            const SiteOffset& site = esdf.site[first + static_cast<VoxelId>(i)];
-            at[0][place + i] = site.x;
+            const SiteOffset site =
+                first == kNoVoxel ? SiteOffset{} : esdf.site[first + static_cast<VoxelId>(i)];
+            at[0][place + i] = site == SiteOffset{} ? kNone : site.x;
             at[1][place + i] = site.y;
             at[2][place + i] = site.z;
           }
@@ -87,18 +87,25 @@ struct SiteGather {
   }
 };
 
-/// For four voxels of a block whether rounding leaves no doubt that the sites of all six neighbours
-/// lie in directions less than theta away: true for almost all that are not on the GVD. Neighbours
-/// without a say may only raise a doubt.
-Cubes surely_off_ridge(const SiteGather& sites, std::size_t first, double cosine) {
+/// What single precision says of four voxels without a doubt.
+struct Verdict {
+  Cubes off_ridge;  ///< the sites of all six neighbours lie in directions less than theta away
+  Cubes on_ridge;   ///< that of one lies more than theta away
+};
+
+/// One or the other is true of almost all voxels. Where unknown voxels have sites too, but no say,
+/// they may raise a doubt (`all_count`: there are none).
+Verdict judge(const SiteGather& sites, std::size_t first, double cosine, bool all_count) {
   Floats v[3], vv{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     v[axis] = load_lanes<Floats>(&sites.at[axis][first]);
     vv += v[axis] * v[axis];
   }
-  const auto least = static_cast<float>(std::max(cosine, 0.0) + 1e-5);  // far above float rounding
-  const Floats limit = vv * (least * least);
-  Cubes sure = ~Cubes{};
+  constexpr double kDoubt = 1e-5;  // far above float rounding
+  const auto least = static_cast<float>(std::max(cosine, 0.0) + kDoubt);
+  const auto most = static_cast<float>(all_count ? std::max(cosine - kDoubt, 0.0) : 0.0);
+  const Floats off_limit = vv * (least * least), on_limit = vv * (most * most);
+  Verdict verdict{~Cubes{}, Cubes{}};
   for (const Direction d : kFaceDirections) {
     const VoxelIndex o = offset_of(d);
     const std::array<int, 3> step{o.x, o.y, o.z};
@@ -109,9 +116,12 @@ Cubes surely_off_ridge(const SiteGather& sites, std::size_t first, double cosine
       dot += v[axis] * w;
       ww += w * w;
     }
-    sure &= reinterpret_cast<Cubes>((dot > 0.0f) & (dot * dot >= limit * ww));
+    const Floats squared = dot * dot;
+    verdict.off_ridge &= reinterpret_cast<Cubes>((dot > 0.0f) & (squared >= off_limit * ww));
+    verdict.on_ridge |= reinterpret_cast<Cubes>(squared < on_limit * ww);
+    verdict.on_ridge |= reinterpret_cast<Cubes>((dot < 0.0f) & (on_limit > 0.0f));
   }
-  return sure;
+  return verdict;
 }
 
 /// Those voxels of a mask for which keep(voxel) holds.
@@ -133,14 +143,18 @@ VoxelMask filter(const BlockLayout& layout, const VoxelMask& mask, const Keep& k
 }  // namespace
 
 VoxelMask traversable_voxels(const EsdfMap& esdf, double radius) {
-  const double threshold = squared_threshold(radius, esdf.voxel_size);
+  const double threshold = std::ceil(squared_threshold(radius, esdf.voxel_size));
+  if (threshold > kNoSite) return VoxelMask(esdf.layout);
+  const auto least = static_cast<std::uint32_t>(threshold);
   VoxelMask result(esdf.layout);
   parallel_for_each_index(
       esdf.layout.block_count(),
-      [&](std::size_t slot) {
-        const VoxelId first = first_of(slot);
-        for (VoxelId id = first; id < first + kBlockVoxels; ++id)
-          if (esdf.state[id] == VoxelState::kFree && esdf.squared[id] >= threshold) result.set(id);
+      [&](std::size_t index) {
+        const auto slot = static_cast<std::uint32_t>(index);
+        const VoxelState* state = esdf.state.block(slot);
+        const std::uint32_t* squared = esdf.squared.block(slot);
+        result.block(slot) = block_where(
+            [&](int v) { return (state[v] == VoxelState::kFree) & (squared[v] >= least); });
       },
       kGrain);
   return result;
@@ -148,6 +162,7 @@ VoxelMask traversable_voxels(const EsdfMap& esdf, double radius) {
 
 VoxelMask compute_gvd(const EsdfMap& esdf, const VoxelMask& traversable, const GvdConfig& config) {
   const double cosine = std::cos(config.theta);
+  const bool all_count = esdf.unknown == UnknownPolicy::kObstacle;
   VoxelMask gvd(esdf.layout);
   parallel_for_each_index(
       esdf.layout.block_count(),
@@ -156,10 +171,11 @@ VoxelMask compute_gvd(const EsdfMap& esdf, const VoxelMask& traversable, const G
         if (traversable.block(slot) == VoxelMask::Block{}) return;
         const SiteGather sites(esdf, slot);
         detail::for_each_four(traversable, slot, [&](VoxelId first, unsigned members) {
-          const Cubes sure = surely_off_ridge(sites, detail::bordered_place(first), cosine);
+          const Verdict verdict = judge(sites, detail::bordered_place(first), cosine, all_count);
           for (; members != 0; members &= members - 1) {
             const auto x = static_cast<VoxelId>(std::countr_zero(members));
-            if (!sure[x] && is_on_gvd(esdf, first + x, cosine)) gvd.set(first + x);
+            if (verdict.off_ridge[x]) continue;
+            if (verdict.on_ridge[x] || is_on_gvd(esdf, first + x, cosine)) gvd.set(first + x);
           }
         });
       },

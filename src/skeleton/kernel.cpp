@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "level_peeling.hpp"
@@ -36,14 +37,18 @@ class OrderedDeletion {
   template <typename MayGo>
   void process(std::vector<VoxelId> work, const MayGo& may_go) {
     for (const VoxelId id : work) due_.set(id);
-    left_.insert(left_.end(), work.begin(), work.end());
     delete_all(std::move(work), may_go);
   }
 
-  /// Left over from turns that have come.
-  const std::vector<VoxelId>& left() {
-    std::erase_if(left_, [&](VoxelId id) { return !due_.test(id); });
-    return left_;
+  /// Left over from turns that have come, each once: those around which anything has changed since
+  /// the last call, and some others.
+  std::vector<VoxelId> take_changed(const std::vector<VoxelId>& others) {
+    std::vector<VoxelId> changed = std::exchange(asked_, {});
+    changed.insert(changed.end(), others.begin(), others.end());
+    std::erase_if(changed, [&](VoxelId id) { return !due_.test(id); });
+    std::sort(changed.begin(), changed.end());
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    return changed;
   }
 
   /// Deletes voxels that may go for another reason, and then what that sets free.
@@ -60,6 +65,7 @@ class OrderedDeletion {
   template <typename MayGo>
   void delete_all(std::vector<VoxelId> work, const MayGo& may_go) {
     while (!work.empty()) {
+      asked_.insert(asked_.end(), work.begin(), work.end());
       const std::vector<VoxelId> deleted = detail::delete_round(layout_, voxels_, work, may_go);
       for (const VoxelId id : deleted) due_.reset(id);
       work = detail::neighbours_of(layout_, due_, deleted);
@@ -68,8 +74,8 @@ class OrderedDeletion {
 
   const BlockLayout& layout_;
   VoxelMask& voxels_;
-  VoxelMask due_;
-  std::vector<VoxelId> left_;  // those of due_, and some that are gone
+  VoxelMask due_;  // those whose turn has come and that are still there
+  std::vector<VoxelId> asked_;
 };
 
 /// Calls body(voxels of one level) for runs of equal level(value) in ascending order.
@@ -87,18 +93,12 @@ void for_each_level(const std::vector<std::uint64_t>& order, const Level& level,
 /// A voxel of a sheet: foreground around it hangs together, background lies on two sides of it.
 bool is_sheet(Cube27 cube) { return foreground_parts(cube) == 1 && background_parts(cube) > 1; }
 
-/// From each connected group of sheet voxels that are due, the one nearest to an obstacle.
-std::vector<VoxelId> piercing_places(const EsdfMap& esdf, const VoxelMask& voxels,
-                                     const std::vector<VoxelId>& due, const VoxelMask& keep) {
+/// From each connected group of sheet voxels the one nearest to an obstacle.
+std::vector<VoxelId> piercing_places(const EsdfMap& esdf, const std::vector<VoxelId>& sheets) {
   VoxelMask sheet(esdf.layout);
-  std::vector<VoxelId> candidates;
-  for (const VoxelId id : due)
-    if (!keep.test(id) && is_sheet(cube_around(esdf.layout, voxels, id))) {
-      sheet.set(id);
-      candidates.push_back(id);
-    }
+  for (const VoxelId id : sheets) sheet.set(id);
   std::vector<VoxelId> places;
-  for (const VoxelId seed : candidates) {
+  for (const VoxelId seed : sheets) {
     if (!sheet.test(seed)) continue;
     VoxelId best = seed;
     std::vector<VoxelId> stack{seed};
@@ -127,7 +127,7 @@ VoxelMask significant_peaks(const EsdfMap& esdf, const Basins& basins) {
 }
 
 VoxelMask compute_kernel(const EsdfMap& esdf, const VoxelMask& traversable, const Basins& basins) {
-  return detail::peel_levels(esdf, traversable, significant_peaks(esdf, basins));
+  return detail::peel_levels(esdf, traversable, basins.obstinate, significant_peaks(esdf, basins));
 }
 
 void open_shells(const EsdfMap& esdf, VoxelMask& voxels, const VoxelMask& keep) {
@@ -142,10 +142,15 @@ void open_shells(const EsdfMap& esdf, VoxelMask& voxels, const VoxelMask& keep) 
   };
   for_each_level(ascending_by_distance(esdf, voxels), level, [&](std::vector<VoxelId> ids) {
     deletion.process(std::move(ids), may_go);
-    for (;;) {
-      const std::vector<VoxelId> places = piercing_places(esdf, voxels, deletion.left(), keep);
-      if (places.empty()) break;
-      deletion.process_after(places, may_be_pierced, may_go);
+    // None of the voxels that are due is a sheet's when the next level begins, so only those can be
+    // around which something has changed.
+    for (std::vector<VoxelId> sheets;;) {
+      sheets = deletion.take_changed(sheets);
+      std::erase_if(sheets, [&](VoxelId id) {
+        return keep.test(id) || !is_sheet(cube_around(esdf.layout, voxels, id));
+      });
+      if (sheets.empty()) break;
+      deletion.process_after(piercing_places(esdf, sheets), may_be_pierced, may_go);
     }
   });
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 #include "ridgeway/voxel/voxel_mask.hpp"
 
@@ -23,23 +24,32 @@ constexpr int bordered_step(int direction) {
   return o.x + 10 * o.y + 100 * o.z;
 }
 
-/// Calls body(place, id, count) for all voxels of a block and its border, `count` (8 or 1) in a row
-/// at a time; kNoVoxel for those in blocks that are not allocated.
+/// Calls body(place, id, count) for all voxels of a block and its border, `count` (8 or 1, a
+/// constant) in a row at a time; kNoVoxel for those in blocks that are not allocated.
 template <typename Body>
 void for_each_bordered_row(const BlockLayout& layout, std::uint32_t slot, const Body& body) {
-  std::size_t place = 0;
-  for (int z = -1; z <= kBlockSide; ++z)
-    for (int y = -1; y <= kBlockSide; ++y) {
-      const int beside = 13 + 3 * (y >> 3) + 9 * (z >> 3);
-      const auto row = static_cast<VoxelId>((y & 7) << 3 | (z & 7) << 6);
-      const auto visit = [&](int dx, VoxelId x, std::size_t count) {
-        const std::uint32_t n = layout.neighbour_block(slot, beside + dx);
-        body(place, n == BlockLayout::kNoBlock ? kNoVoxel : n * kBlockVoxels + row + x, count);
-        place += count;
+  // From one row of blocks to the next, so that neighbours are looked up once for all their voxels.
+  const auto first_of = [](int beside) { return beside < 0 ? -1 : beside == 0 ? 0 : kBlockSide; };
+  const auto last_of = [](int beside) { return beside < 0 ? -1 : beside == 0 ? 7 : kBlockSide; };
+  for (int dz = -1; dz <= 1; ++dz)
+    for (int dy = -1; dy <= 1; ++dy) {
+      const auto first_in = [&](int dx) {
+        const std::uint32_t n = layout.neighbour_block(slot, 13 + dx + 3 * dy + 9 * dz);
+        return n == BlockLayout::kNoBlock ? kNoVoxel : n * kBlockVoxels;
       };
-      visit(-1, kBlockSide - 1, 1);
-      visit(0, 0, kBlockSide);
-      visit(1, 0, 1);
+      const VoxelId before = first_in(-1), own = first_in(0), behind = first_in(1);
+      for (int z = first_of(dz); z <= last_of(dz); ++z)
+        for (int y = first_of(dy); y <= last_of(dy); ++y) {
+          const auto row = static_cast<VoxelId>((y & 7) << 3 | (z & 7) << 6);
+          const auto place = static_cast<std::size_t>((z + 1) * 100 + (y + 1) * 10);
+          const auto visit = [&](std::size_t at, VoxelId block, VoxelId x, auto count) {
+            body(place + at, block == kNoVoxel ? kNoVoxel : block + row + x, count);
+          };
+          constexpr std::integral_constant<std::size_t, 1> kOne;
+          visit(0, before, kBlockSide - 1, kOne);
+          visit(1, own, 0, std::integral_constant<std::size_t, kBlockSide>());
+          visit(1 + kBlockSide, behind, 0, kOne);
+        }
     }
 }
 
@@ -54,6 +64,14 @@ Lanes load_lanes(const void* first) {
   Lanes lanes;
   std::memcpy(&lanes, first, sizeof lanes);
   return lanes;
+}
+
+/// The first cells of four cubes that are not empty, as directions.
+inline Cubes first_cells(const Cubes& cubes) {
+  using Signed [[gnu::vector_size(16)]] = std::int32_t;
+  const auto lowest = reinterpret_cast<Signed>(cubes & -cubes);
+  // Of a power of two as a float, the exponent.
+  return (reinterpret_cast<Cubes>(__builtin_convertvector(lowest, Floats)) >> 23) - 127u;
 }
 
 /// Calls body(first of four voxels, those of a mask as four bits) for a block, where there are any.

@@ -14,18 +14,16 @@ using Levels = Bordered<std::uint32_t>;
 
 inline Levels gather_levels(const EsdfMap& esdf, const VoxelMask& traversable, std::uint32_t slot) {
   Levels levels{};
-  for_each_bordered_row(
-      esdf.layout, slot, [&](std::size_t place, VoxelId first, std::size_t count) {
-        if (first == kNoVoxel) return;
-        const std::uint64_t all = (std::uint64_t{1} << count) - 1;
-        const std::uint64_t layer =
-            traversable.block(first / kBlockVoxels)[first / 64 % kBlockSide];
-        const std::uint64_t members = layer >> (first % 64) & all;
-        if (members == 0) return;
-        std::copy_n(&esdf.squared[first], count, &levels[place]);
-        for (std::uint64_t others = ~members & all; others != 0; others &= others - 1)
-          levels[place + static_cast<std::size_t>(std::countr_zero(others))] = 0;
-      });
+  for_each_bordered_row(esdf.layout, slot, [&](std::size_t place, VoxelId first, auto count) {
+    if (first == kNoVoxel) return;
+    const std::uint64_t all = (std::uint64_t{1} << count) - 1;
+    const std::uint64_t layer = traversable.block(first / kBlockVoxels)[first / 64 % kBlockSide];
+    const std::uint64_t members = layer >> (first % 64) & all;
+    if (members == 0) return;
+    std::copy_n(&esdf.squared[first], count, &levels[place]);
+    for (std::uint64_t others = ~members & all; others != 0; others &= others - 1)
+      levels[place + static_cast<std::size_t>(std::countr_zero(others))] = 0;
+  });
   return levels;
 }
 
@@ -52,16 +50,16 @@ inline bool any(const Cubes& cubes) {
   return (halves[0] | halves[1]) != 0;
 }
 
-/// flood26 and flood6 for four cubes.
-inline Cubes flood26(Cubes cells, const Cubes& within) {
-  for (Cubes before = cells ^ 1u; any(before ^ cells);) {
+/// flood26 and flood6 for four cubes; they may stop once all that is wanted is reached.
+inline Cubes flood26(Cubes cells, const Cubes& within, const Cubes& wanted) {
+  for (Cubes before = cells ^ 1u; any(wanted & ~cells) && any(before ^ cells);) {
     before = cells;
     cells = grow26(cells) & within;
   }
   return cells;
 }
-inline Cubes flood6(Cubes cells, const Cubes& within) {
-  for (Cubes before = cells ^ 1u; any(before ^ cells);) {
+inline Cubes flood6(Cubes cells, const Cubes& within, const Cubes& wanted) {
+  for (Cubes before = cells ^ 1u; any(wanted & ~cells) && any(before ^ cells);) {
     before = cells;
     cells = grow6(cells) & within;
   }
@@ -72,8 +70,8 @@ inline Cubes flood6(Cubes cells, const Cubes& within) {
 inline Cubes are_simple(const Cubes& cubes) {
   const Cubes foreground = cubes & kCells26, background = ~cubes & kCells18;
   const Cubes faces = background & kCells6;
-  const Cubes part = flood26(foreground & -foreground, foreground);
-  const Cubes unreached = faces & ~flood6(faces & -faces, background);
+  const Cubes part = flood26(foreground & -foreground, foreground, foreground);
+  const Cubes unreached = faces & ~flood6(faces & -faces, background, faces);
   return reinterpret_cast<Cubes>((foreground != 0u) & (faces != 0u) & (part == foreground) &
                                  (unreached == 0u));
 }

@@ -2,9 +2,10 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "level_peeling.hpp"
 
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <array>
-#include <compare>
 #include <functional>
 #include <queue>
 #include <vector>
@@ -13,50 +14,107 @@
 #include "parallel_deletion.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/skeleton/simple_point.hpp"
+#include "ridgeway/voxel/cube_gather.hpp"
 
 namespace ridgeway::detail {
 namespace {
 
-/// When a voxel is asked first. No two voxels with the same level and sub-field are adjacent.
-struct Turn {
-  std::uint32_t level;
-  std::uint32_t field;
-  VoxelId id;
-  friend auto operator<=>(const Turn&, const Turn&) = default;
+/// The traversable neighbours of a voxel by their levels.
+struct Surroundings {
+  Cube27 higher = 0;
+  Cube27 level = 0;
+
+  /// Those whose first turn comes after the voxel's own. No two voxels with the same level and
+  /// sub-field are adjacent.
+  Cube27 later(VoxelId id) const { return higher | (level & kLaterFields[id % kBlockVoxels]); }
 };
 
-/// By place in a block: the directions in which a neighbour's sub-field is a later one.
-constexpr std::array<Cube27, kBlockVoxels> kLaterFields = [] {
-  std::array<Cube27, kBlockVoxels> later{};
-  for (VoxelId place = 0; place < kBlockVoxels; ++place)
-    for (int d = 0; d < 27; ++d) {
-      const VoxelIndex n = voxel_of({}, static_cast<int>(place)) + offset_of(d);
-      if (sub_field(static_cast<VoxelId>(local_of(n))) > sub_field(place)) later[place] |= 1u << d;
-    }
-  return later;
-}();
+Surroundings look_around(const EsdfMap& esdf, const VoxelMask& traversable, VoxelId id) {
+  const std::uint32_t own = esdf.squared[id];
+  Surroundings around;
+  for (Cube27 cells = cube_around(esdf.layout, traversable, id) & kCells26; cells != 0;
+       cells &= cells - 1) {
+    const Cube27 cell = cells & (~cells + 1);
+    const std::uint32_t level = esdf.squared[esdf.layout.neighbour(id, std::countr_zero(cells))];
+    if (level > own) around.higher |= cell;
+    if (level == own) around.level |= cell;
+  }
+  return around;
+}
 
-/// Voxels that do not go at their first turn even if all their neighbours with earlier turns went.
-VoxelMask find_obstinate(const EsdfMap& esdf, const VoxelMask& traversable, const VoxelMask& keep) {
-  VoxelMask obstinate = keep;
-  parallel_for_each_index(
-      esdf.layout.block_count(),
-      [&](std::size_t block) {
-        const auto slot = static_cast<std::uint32_t>(block);
-        if (traversable.block(slot) == VoxelMask::Block{}) return;
-        const Levels levels = gather_levels(esdf, traversable, slot);
-        for_each_four(traversable, slot, [&](VoxelId first, unsigned members) {
-          const LevelCubes cubes(levels, bordered_place(first));
-          const auto later_fields = load_lanes<Cubes>(&kLaterFields[first % kBlockVoxels]);
-          const Cubes simple = are_simple(cubes.higher | (cubes.level & later_fields));
-          for (; members != 0; members &= members - 1) {
-            const auto x = static_cast<VoxelId>(std::countr_zero(members));
-            if (!simple[x]) obstinate.set(first + x);
-          }
-        });
-      },
-      16);
-  return obstinate;
+/// Surroundings of the voxels that the peeling is likely to ask, gathered in parallel before: a
+/// look at all levels around one voxel waits a dozen times for memory.
+class KnownSurroundings {
+ public:
+  KnownSurroundings(const EsdfMap& esdf, const VoxelMask& traversable, const VoxelMask& obstinate)
+      : esdf_(esdf),
+        traversable_(traversable),
+        known_(esdf.layout),
+        blocks_(esdf.layout.block_count()) {
+    parallel_for_each_index(
+        esdf.layout.block_count(),
+        [&](std::size_t slot) { gather(static_cast<std::uint32_t>(slot), obstinate); }, 16);
+  }
+
+  Surroundings of(VoxelId id) const {
+    if (!known_.test(id)) return look_around(esdf_, traversable_, id);
+    const std::uint32_t slot = id / kBlockVoxels;
+    const std::uint32_t layer = id / 64 % kBlockSide;
+    const std::uint64_t before = known_.block(slot)[layer] & ((std::uint64_t{1} << id % 64) - 1);
+    const InBlock& block = blocks_[slot];
+    return block.around[block.first[layer] + static_cast<std::size_t>(std::popcount(before))];
+  }
+
+ private:
+  /// In one block: of all voxels that are obstinate or beside one that is.
+  void gather(std::uint32_t slot, const VoxelMask& obstinate) {
+    const CubeGather cubes(esdf_.layout, obstinate, slot);
+    if (cubes.is_empty()) return;
+    VoxelMask::Block& known = known_.block(slot);
+    for_each_member(traversable_, slot, [&](VoxelId id) {
+      if (cubes.cube(id) != 0) known_.set(id);
+    });
+    if (known == VoxelMask::Block{}) return;
+    const Levels levels = gather_levels(esdf_, traversable_, slot);
+    InBlock& block = blocks_[slot];
+    std::uint16_t count = 0;
+    for (std::size_t z = 0; z < kBlockSide; ++z) {
+      block.first[z] = count;
+      count = static_cast<std::uint16_t>(count + std::popcount(known[z]));
+    }
+    block.around.reserve(count);
+    for_each_four(known_, slot, [&](VoxelId first, unsigned members) {
+      const LevelCubes by_level(levels, bordered_place(first));
+      for (; members != 0; members &= members - 1) {
+        const auto x = static_cast<std::size_t>(std::countr_zero(members));
+        block.around.push_back({by_level.higher[x], by_level.level[x] & kCells26});
+      }
+    });
+  }
+
+  /// Surroundings of a block's known voxels, ascending, and the first of each layer.
+  struct InBlock {
+    std::vector<Surroundings> around;
+    std::array<std::uint16_t, kBlockSide> first;
+  };
+
+  const EsdfMap& esdf_;
+  const VoxelMask& traversable_;
+  VoxelMask known_;
+  std::vector<InBlock> blocks_;
+};
+
+/// When a voxel is asked first: by its level, sub-field and handle, in one number.
+std::uint64_t turn_of(const EsdfMap& esdf, VoxelId id) {
+  const VoxelId rest = (id >> 1 & 3) | (id >> 4 & 3) << 2 | id >> 7 << 4;  // 29 bits
+  return std::uint64_t{esdf.squared[id]} << 32 | sub_field(id) << 29 | rest;
+}
+std::uint32_t level_of(std::uint64_t turn) { return static_cast<std::uint32_t>(turn >> 32); }
+VoxelId voxel_of_turn(std::uint64_t turn) {
+  const auto place = static_cast<VoxelId>(turn);
+  const VoxelId field = place >> 29;
+  return (field & 1) | (place & 3) << 1 | (field >> 1 & 1) << 3 | (place >> 2 & 3) << 4 |
+         (field >> 2) << 6 | (place & 0x1ffffff0u) << 3;
 }
 
 /// Almost all voxels go at their first turn, in which their neighbours with earlier turns are gone
@@ -64,113 +122,116 @@ VoxelMask find_obstinate(const EsdfMap& esdf, const VoxelMask& traversable, cons
 /// only the fate of those that do not go so, and of all that find one of these beside them.
 class LevelPeeling {
  public:
-  LevelPeeling(const EsdfMap& esdf, const VoxelMask& traversable, const VoxelMask& keep)
+  LevelPeeling(const EsdfMap& esdf, const VoxelMask& traversable, VoxelMask obstinate,
+               const VoxelMask& keep)
       : esdf_(esdf),
-        traversable_(traversable),
         keep_(keep),
-        queued_(find_obstinate(esdf, traversable, keep)),
+        around_(esdf, traversable, obstinate),
+        queued_(std::move(obstinate)),
         left_(esdf.layout) {
-    std::vector<Turn> turns;
-    for (const VoxelId id : queued_.members()) turns.push_back(turn_of(id));
-    turns_ = Queue(std::greater<>(), std::move(turns));
+    for (const VoxelId id : queued_.members()) first_turns_.push_back(turn_of(esdf, id));
+    tbb::parallel_sort(first_turns_.begin(), first_turns_.end());
   }
 
   VoxelMask run() {
-    while (!turns_.empty()) peel(turns_.top().level);
+    while (has_turns()) peel(level_of(next_turn()));
     return std::move(left_);
   }
 
  private:
-  using Queue = std::priority_queue<Turn, std::vector<Turn>, std::greater<>>;
-
-  Turn turn_of(VoxelId id) const { return {esdf_.squared[id], sub_field(id), id}; }
+  bool has_turns() const { return next_ < first_turns_.size() || !more_turns_.empty(); }
+  bool takes_more() const {
+    return next_ == first_turns_.size() ||
+           (!more_turns_.empty() && more_turns_.top() < first_turns_[next_]);
+  }
+  std::uint64_t next_turn() const { return takes_more() ? more_turns_.top() : first_turns_[next_]; }
+  void end_turn() {
+    if (takes_more()) {
+      more_turns_.pop();
+    } else {
+      ++next_;
+    }
+  }
 
   void peel(std::uint32_t level) {
     std::vector<VoxelId> deleted, stayed;
-    while (!turns_.empty() && turns_.top().level == level) {
-      const Turn turn = turns_.top();
-      turns_.pop();
-      if (may_go(turn)) {
-        deleted.push_back(turn.id);
+    while (has_turns() && level_of(next_turn()) == level) {
+      const VoxelId id = voxel_of_turn(next_turn());
+      end_turn();
+      const Cube27 later = around_.of(id).later(id);
+      if (may_go(id, later)) {
+        deleted.push_back(id);
       } else {
-        left_.set(turn.id);
-        stayed.push_back(turn.id);
-        queue_neighbours(turn);
+        left_.set(id);
+        stayed.push_back(id);
+        queue(id, later);
       }
     }
-    const Turn end{level, 8, 0};
     std::vector<VoxelId> work = neighbours_of(esdf_.layout, left_, deleted);
     for (const VoxelId id : stayed)  // a neighbour that went unseen
-      if ((level_cube(id, level) & ~present(id, end)) != 0) work.push_back(id);
+      if ((around_.of(id).level & ~cube_around(esdf_.layout, left_, id)) != 0) work.push_back(id);
     while (!work.empty()) {
-      ask_again(work, end, deleted);
+      ask_again(work, level, deleted);
       work = neighbours_of(esdf_.layout, left_, deleted);
     }
   }
 
   /// A round: sub-field by sub-field.
-  void ask_again(std::vector<VoxelId>& work, const Turn& end, std::vector<VoxelId>& deleted) {
+  void ask_again(std::vector<VoxelId>& work, std::uint32_t level, std::vector<VoxelId>& deleted) {
     std::sort(work.begin(), work.end(), [](VoxelId a, VoxelId b) {
       return std::pair(sub_field(a), a) < std::pair(sub_field(b), b);
     });
     work.erase(std::unique(work.begin(), work.end()), work.end());
     deleted.clear();
     for (const VoxelId id : work) {
-      if (!may_go({end.level, end.field, id})) continue;
+      if (!may_go(id, above(id, level))) continue;
       left_.reset(id);
       deleted.push_back(id);
     }
   }
 
-  bool may_go(const Turn& now) const {
-    return !keep_.test(now.id) && is_simple(present(now.id, now));
+  /// `to_come`: the neighbours whose first turn is still to come.
+  bool may_go(VoxelId id, Cube27 to_come) const {
+    return !keep_.test(id) && is_simple(to_come | cube_around(esdf_.layout, left_, id));
   }
 
-  /// Neighbours that are still there at a time: those that have stayed, and those whose turn is
-  /// still to come.
-  Cube27 present(VoxelId id, const Turn& now) const {
-    Cube27 cube = cube_around(esdf_.layout, left_, id);
-    Cube27 others = cube_around(esdf_.layout, traversable_, id) & kCells26 & ~cube;
-    for (; others != 0; others &= others - 1) {
-      const int d = std::countr_zero(others);
-      if (turn_of(esdf_.layout.neighbour(id, d)) > now) cube |= 1u << d;
-    }
-    return cube;
-  }
-
-  /// Traversable neighbours of a level.
-  Cube27 level_cube(VoxelId id, std::uint32_t level) const {
-    Cube27 cube = cube_around(esdf_.layout, traversable_, id) & kCells26;
-    for (Cube27 cells = cube; cells != 0; cells &= cells - 1) {
+  /// Neighbours above a level that the voxel itself is not above.
+  Cube27 above(VoxelId id, std::uint32_t level) const {
+    Cube27 higher = around_.of(id).higher;
+    if (esdf_.squared[id] == level) return higher;
+    for (Cube27 cells = higher; cells != 0; cells &= cells - 1) {
       const int d = std::countr_zero(cells);
-      if (esdf_.squared[esdf_.layout.neighbour(id, d)] != level) cube &= ~(1u << d);
+      if (esdf_.squared[esdf_.layout.neighbour(id, d)] <= level) higher &= ~(1u << d);
     }
-    return cube;
+    return higher;
   }
 
-  void queue_neighbours(const Turn& now) {
-    Cube27 cells = cube_around(esdf_.layout, traversable_, now.id) & kCells26 &
-                   ~cube_around(esdf_.layout, queued_, now.id);
-    for (; cells != 0; cells &= cells - 1) {
-      const Turn turn = turn_of(esdf_.layout.neighbour(now.id, std::countr_zero(cells)));
-      if (turn < now) continue;
-      queued_.set(turn.id);
-      turns_.push(turn);
+  void queue(VoxelId beside, Cube27 later) {
+    for (Cube27 cells = later & ~cube_around(esdf_.layout, queued_, beside); cells != 0;
+         cells &= cells - 1) {
+      const VoxelId id = esdf_.layout.neighbour(beside, std::countr_zero(cells));
+      queued_.set(id);
+      more_turns_.push(turn_of(esdf_, id));
     }
   }
 
   const EsdfMap& esdf_;
-  const VoxelMask& traversable_;
   const VoxelMask& keep_;
-  VoxelMask queued_;  // those that are, or have been, in turns_
+  const KnownSurroundings around_;
+  VoxelMask queued_;  // those whose turn is, or has been, played
   VoxelMask left_;    // those whose first turn is over and that are still there
-  Queue turns_;
+  std::vector<std::uint64_t> first_turns_;  // ascending; of obstinate voxels
+  std::size_t next_ = 0;
+  std::priority_queue<std::uint64_t, std::vector<std::uint64_t>, std::greater<>> more_turns_;
 };
 
 }  // namespace
 
-VoxelMask peel_levels(const EsdfMap& esdf, const VoxelMask& traversable, const VoxelMask& keep) {
-  return LevelPeeling(esdf, traversable, keep).run();
+VoxelMask peel_levels(const EsdfMap& esdf, const VoxelMask& traversable, VoxelMask obstinate,
+                      const VoxelMask& keep) {
+  for (std::uint32_t slot = 0; slot < keep.block_count(); ++slot)
+    for (std::size_t z = 0; z < kBlockSide; ++z) obstinate.block(slot)[z] |= keep.block(slot)[z];
+  return LevelPeeling(esdf, traversable, std::move(obstinate), keep).run();
 }
 
 }  // namespace ridgeway::detail

@@ -11,6 +11,9 @@ namespace ridgeway::detail {
 /// until only what carries the topology is left. A level and what the ones below have left is
 /// peeled in rounds; in the first round the level's own voxels are asked, later the neighbours of
 /// deleted ones, each round sub-field by sub-field.
-VoxelMask peel_levels(const EsdfMap& esdf, const VoxelMask& traversable, const VoxelMask& keep);
+/// `obstinate`: those that do not go at their first turn even if all their neighbours with earlier
+/// turns went.
+VoxelMask peel_levels(const EsdfMap& esdf, const VoxelMask& traversable, VoxelMask obstinate,
+                      const VoxelMask& keep);
 
 }  // namespace ridgeway::detail

@@ -8,15 +8,11 @@
 
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
+#include "sub_field.hpp"
 
 namespace ridgeway::detail {
 
-inline constexpr std::size_t kParallelFrom = 4096;  // below this a loop is faster alone
-
-/// Which of the eight parity sub-fields a voxel is in; no two voxels of one are 26-adjacent.
-constexpr std::uint32_t sub_field(VoxelId id) {
-  return (id & 1) | (id >> 3 & 1) << 1 | (id >> 6 & 1) << 2;
-}
+inline constexpr std::size_t kParallelFrom = 1024;  // below this a loop is faster alone
 
 /// One round over a work list: its voxels sub-field by sub-field, each deleted if
 /// `may_go(id, cube)` says so of its neighbourhood as it is then. Inside a sub-field the order
@@ -46,7 +42,7 @@ std::vector<VoxelId> delete_round(const BlockLayout& layout, VoxelMask& voxels,
           if (!may_go(field[i], cube_around(layout, voxels, field[i]))) return;
           gone[i] = 1;
         },
-        512);
+        128);
     for (std::size_t i = 0; i < field.size(); ++i)
       if (gone[i]) {
         voxels.reset(field[i]);
@@ -59,10 +55,18 @@ std::vector<VoxelId> delete_round(const BlockLayout& layout, VoxelMask& voxels,
 /// Members of `voxels` 26-adjacent to the given ones, each once, ascending.
 inline std::vector<VoxelId> neighbours_of(const BlockLayout& layout, const VoxelMask& voxels,
                                           const std::vector<VoxelId>& ids) {
+  const auto for_each_neighbour = [&](const auto& body) {
+    for (const VoxelId id : ids)
+      for (Cube27 cube = cube_around(layout, voxels, id) & kCells26; cube != 0; cube &= cube - 1)
+        body(layout.neighbour(id, std::countr_zero(cube)));
+  };
+  if (ids.size() >= kParallelFrom) {  // a mask is then faster than to sort
+    VoxelMask neighbours(layout);
+    for_each_neighbour([&](VoxelId id) { neighbours.set(id); });
+    return neighbours.members();
+  }
   std::vector<VoxelId> result;
-  for (const VoxelId id : ids)
-    for (Cube27 cube = cube_around(layout, voxels, id) & kCells26; cube != 0; cube &= cube - 1)
-      result.push_back(layout.neighbour(id, std::countr_zero(cube)));
+  for_each_neighbour([&](VoxelId id) { result.push_back(id); });
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;

@@ -28,8 +28,8 @@ struct SiteOffset {
 /// Squared distance from a voxel's centre to the closed cube at an offset, as the integer
 /// 4 d^2 / s^2 = sum over the axes of max(2 |k| - 1, 0)^2.
 constexpr std::uint32_t quarter_squared(int k) {
-  const int twice = 2 * (k < 0 ? -k : k) - 1;
-  return twice > 0 ? static_cast<std::uint32_t>(twice) * static_cast<std::uint32_t>(twice) : 0;
+  const int twice = 2 * (k < 0 ? -k : k) - (k != 0);  // no branch: zero is hard to foresee
+  return static_cast<std::uint32_t>(twice) * static_cast<std::uint32_t>(twice);
 }
 constexpr std::uint32_t quarter_squared(const SiteOffset& o) {
   return quarter_squared(o.x) + quarter_squared(o.y) + quarter_squared(o.z);

@@ -41,6 +41,8 @@ struct Basins {
   std::vector<VoxelId> peaks;       ///< by basin, ascending handles
   std::vector<double> dynamics;     ///< by basin: height above its pass to a higher peak, voxels
   std::vector<Pass> passes;         ///< widest first
+  /// Voxels that compute_kernel cannot delete at their first turn, even if all it asks before went.
+  VoxelMask obstinate;
   std::size_t components() const { return peaks.size() - passes.size(); }
 };
 

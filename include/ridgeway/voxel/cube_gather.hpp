@@ -37,6 +37,9 @@ class CubeGather {
       }
   }
 
+  /// Whether neither the block nor its border has a member.
+  bool is_empty() const { return rows_ == std::array<std::uint16_t, 100>{}; }
+
   /// The cube around a voxel of this block; its own bit included.
   Cube27 cube(VoxelId id) const {
     const int x = static_cast<int>(id & 7);

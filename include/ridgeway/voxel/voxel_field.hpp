@@ -2,19 +2,56 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <algorithm>
+#include <memory>
+#include <new>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "ridgeway/common/parallel.hpp"
 #include "ridgeway/voxel/block_layout.hpp"
 
 namespace ridgeway {
+namespace detail {
+
+/// Leaves plain values as the system gives their memory, so that the thread that first writes a
+/// page is the one that waits for it.
+template <typename Value>
+struct UnsetAllocator : std::allocator<Value> {
+  void construct(Value* at) {
+    if constexpr (!std::is_trivially_copyable_v<Value>) ::new (static_cast<void*>(at)) Value();
+  }
+  template <typename... Arguments>
+  void construct(Value* at, Arguments&&... arguments) {
+    ::new (static_cast<void*>(at)) Value(std::forward<Arguments>(arguments)...);
+  }
+};
+
+}  // namespace detail
 
 /// One value for every voxel of a layout's blocks, in the layout's order.
 template <typename Value>
 class VoxelField {
  public:
+  using Values = std::vector<Value, detail::UnsetAllocator<Value>>;
+
   VoxelField() = default;
   explicit VoxelField(const BlockLayout& layout, Value initial = {})
-      : values_(layout.voxel_count(), initial) {}
+      : values_(layout.voxel_count()) {
+    parallel_for_each_index(
+        layout.block_count(),
+        [&](std::size_t slot) {
+          std::fill_n(block(static_cast<std::uint32_t>(slot)), kBlockVoxels, initial);
+        },
+        64);
+  }
+  /// Values as they come: every one must be written before it is read.
+  static VoxelField unset(const BlockLayout& layout) {
+    VoxelField field;
+    field.values_.resize(layout.voxel_count());
+    return field;
+  }
 
   Value& operator[](VoxelId id) { return values_[id]; }
   const Value& operator[](VoxelId id) const { return values_[id]; }
@@ -24,12 +61,12 @@ class VoxelField {
   const Value* block(std::uint32_t slot) const {
     return values_.data() + std::size_t{slot} * kBlockVoxels;
   }
-  std::vector<Value>& values() { return values_; }
-  const std::vector<Value>& values() const { return values_; }
+  Values& values() { return values_; }
+  const Values& values() const { return values_; }
   std::size_t memory_bytes() const { return values_.capacity() * sizeof(Value); }
 
  private:
-  std::vector<Value> values_;
+  Values values_;
 };
 
 }  // namespace ridgeway

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "ridgeway/voxel/block_layout.hpp"
@@ -58,6 +59,26 @@ class VoxelMask {
 
   std::vector<Block> blocks_;
 };
+
+/// The voxels of a block for which holds(place in the block) is true. It should not branch: then
+/// the compiler asks for many of them at once.
+template <typename Holds>
+VoxelMask::Block block_where(const Holds& holds) {
+  VoxelMask::Block block;
+  for (int z = 0; z < kBlockSide; ++z) {
+    std::array<std::uint8_t, 64> ones;
+    for (int i = 0; i < 64; ++i)
+      ones[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(holds(64 * z + i));
+    std::uint64_t& layer = block[static_cast<std::size_t>(z)];
+    layer = 0;
+    for (std::size_t y = 0; y < kBlockSide; ++y) {
+      std::uint64_t row = 0;
+      std::memcpy(&row, &ones[8 * y], sizeof row);
+      layer |= row * 0x0102040810204080u >> 56 << 8 * y;  // the lowest bit of each byte
+    }
+  }
+  return block;
+}
 
 /// The 3x3x3 cube around a voxel, voxels outside the allocated blocks counting as absent. The
 /// voxel's own bit is included.

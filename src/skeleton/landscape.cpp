@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "landscape.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+
+#include "level_gather.hpp"
+#include "ridgeway/common/parallel.hpp"
+#include "ridgeway/voxel/cube_gather.hpp"
+#include "sub_field.hpp"
+
+namespace ridgeway::detail {
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffffu;
+
+/// By place in a block: the directions in which a neighbour's handle is smaller. Blocks are in
+/// (z, y, x) order, and so are the voxels of a block.
+constexpr std::array<Cube27, kBlockVoxels> kSmallerHandles = [] {
+  std::array<Cube27, kBlockVoxels> smaller{};
+  for (int local = 0; local < kBlockVoxels; ++local)
+    for (int d = 0; d < 27; ++d) {
+      const VoxelIndex v = voxel_of({}, local), n = v + offset_of(d);
+      if (block_of(n) != block_of(v) ? block_of(n) < block_of(v) : n < v)
+        smaller[static_cast<std::size_t>(local)] |= 1u << d;
+    }
+  return smaller;
+}();
+
+/// Four voxels' steepest moves of one length to a neighbour that rises at least by `least`: a
+/// diagonal move to one that rises less might dip.
+struct Steepest {
+  Floats slope{};  // -1: there is none
+  Cubes moves{};   // all that are as steep
+
+  /// `first`: the four levels in a gather.
+  template <int squared>
+  static Steepest among(const float* first) {
+    constexpr float kInverse = squared == 1 ? 1.0f : squared == 2 ? 0.70710678f : 0.57735027f;
+    constexpr float kLeast = squared == 1 ? 1.0f : 4.0f * squared;
+    const auto beside = [&](int d) { return load_lanes<Floats>(first + bordered_step(d)); };
+    Floats highest{};
+#pragma GCC unroll 27
+    for (int d = 0; d < 27; ++d)
+      if (squared_length(d) == squared) highest = beside(d) > highest ? beside(d) : highest;
+    Steepest steepest;
+#pragma GCC unroll 27
+    for (int d = 0; d < 27; ++d)
+      if (squared_length(d) == squared)
+        steepest.moves |= reinterpret_cast<Cubes>(beside(d) == highest) & 1u << d;
+    const Floats rise = highest - load_lanes<Floats>(first);
+    steepest.slope = rise >= kLeast ? rise * kInverse : Floats{} - 1.0f;
+    return steepest;
+  }
+};
+
+/// For four voxels the directions of the steepest ways to higher neighbours, among those without a
+/// dip; of equally steep ones the first.
+Cubes steepest_ways(const float* first, const Cubes& higher) {
+  const Steepest all[] = {Steepest::among<1>(first), Steepest::among<2>(first),
+                          Steepest::among<3>(first)};
+  Floats best{};  // level moves across a face are ways too
+  for (const Steepest& s : all) best = s.slope > best ? s.slope : best;
+  Cubes moves = reinterpret_cast<Cubes>(best == 0.0f) & higher & kCells6;
+  for (const Steepest& s : all) moves |= reinterpret_cast<Cubes>(s.slope == best) & s.moves;
+  return moves != 0u ? first_cells(moves) : (moves & 0u) + kCentre;
+}
+
+/// For four voxels whether adding one, from the top down, neither starts a basin nor can join two:
+/// all its higher neighbours hang together by moves across faces, and one of them is across a face.
+Cubes are_regular(const Cubes& higher) {
+  const Cubes faces = higher & kCells6;
+  return reinterpret_cast<Cubes>((faces != 0u) &
+                                 (flood6(faces & -faces, higher, higher) == higher));
+}
+
+/// The ways inside a block, and where they leave it. Between blocks ways go from drain to drain.
+struct BlockWays {
+  std::vector<std::uint16_t> drains;  // places where ways leave the block, and its peaks
+  std::vector<VoxelId> critical;      // ascending
+};
+
+/// Fills in each place's number among the drains that it returns; 0, which is none, where a place
+/// is not traversable.
+std::vector<std::uint16_t> find_drains(const VoxelMask& traversable, std::uint32_t slot,
+                                       const Direction* next, std::uint32_t* drain) {
+  std::array<std::uint16_t, kBlockVoxels> end;  // of the way inside the block
+  for (std::uint16_t i = 0; i < kBlockVoxels; ++i) end[i] = i;
+  for_each_member(traversable, slot, [&](VoxelId id) {
+    const VoxelId place = id % kBlockVoxels;
+    const VoxelIndex to = voxel_of({}, static_cast<int>(place)) + offset_of(next[place]);
+    if (block_of(to) == BlockIndex{}) end[place] = static_cast<std::uint16_t>(local_of(to));
+  });
+  for (bool again = true; again;) {  // each round doubles the steps that are known
+    unsigned changed = 0;
+    for (std::uint16_t& e : end) {
+      const std::uint16_t further = end[e];
+      changed |= e ^ further;
+      e = further;
+    }
+    again = changed != 0;
+  }
+  std::vector<std::uint16_t> drains{0};
+  std::fill_n(drain, kBlockVoxels, 0u);
+  for_each_member(traversable, slot, [&](VoxelId id) {
+    const VoxelId place = id % kBlockVoxels;
+    if (end[place] != place) return;
+    drain[place] = static_cast<std::uint32_t>(drains.size());
+    drains.push_back(static_cast<std::uint16_t>(place));
+  });
+  for (std::size_t place = 0; place < kBlockVoxels; ++place) drain[place] = drain[end[place]];
+  return drains;
+}
+
+/// Numbers the peaks and labels every voxel with its own. `basins.basin` holds the voxels' drains.
+void label_basins(const BlockLayout& layout, const std::vector<BlockWays>& ways, Basins& basins) {
+  std::vector<std::uint32_t> first(ways.size() + 1, 0);  // drain of each block
+  for (std::size_t slot = 0; slot < ways.size(); ++slot)
+    first[slot + 1] = first[slot] + static_cast<std::uint32_t>(ways[slot].drains.size());
+  std::vector<std::uint32_t> label(first.back(), kNone);
+  const auto drain_of = [&](VoxelId id) { return first[id / kBlockVoxels] + basins.basin[id]; };
+  for (std::uint32_t slot = 0; slot < ways.size(); ++slot)
+    for (const VoxelId id : ways[slot].critical)
+      if (basins.next[id] == kCentre) {
+        label[drain_of(id)] = static_cast<std::uint32_t>(basins.peaks.size());
+        basins.peaks.push_back(id);
+      }
+  const auto label_of = [&](std::uint32_t drain) {
+    return std::atomic_ref<std::uint32_t>(label[drain]);
+  };
+  // Threads may walk the same way twice and then write the same label.
+  parallel_for_each_index(
+      ways.size(),
+      [&](std::size_t slot) {
+        std::vector<std::uint32_t> way;
+        for (std::size_t i = 1; i < ways[slot].drains.size(); ++i) {
+          way.assign(1, first[slot] + static_cast<std::uint32_t>(i));
+          VoxelId at = static_cast<VoxelId>(slot * kBlockVoxels) + ways[slot].drains[i];
+          std::uint32_t basin = kNone;
+          while ((basin = label_of(way.back()).load(std::memory_order_relaxed)) == kNone) {
+            const VoxelId to = layout.neighbour(at, basins.next[at]);
+            way.push_back(drain_of(to));
+            at =
+                to / kBlockVoxels * kBlockVoxels + ways[to / kBlockVoxels].drains[basins.basin[to]];
+          }
+          for (const std::uint32_t drain : way)
+            label_of(drain).store(basin, std::memory_order_relaxed);
+        }
+      },
+      16);
+  parallel_for_each_index(
+      ways.size(),
+      [&](std::size_t slot) {
+        std::uint32_t* basin = basins.basin.block(static_cast<std::uint32_t>(slot));
+        for (std::size_t i = 0; i < kBlockVoxels; ++i) basin[i] = label[first[slot] + basin[i]];
+      },
+      16);
+}
+
+}  // namespace
+
+Landscape survey(const EsdfMap& esdf, const VoxelMask& traversable) {
+  Landscape land;
+  Basins& basins = land.basins;
+  basins.next = VoxelField<Direction>::unset(esdf.layout);
+  basins.basin = VoxelField<std::uint32_t>::unset(esdf.layout);
+  basins.obstinate = VoxelMask(esdf.layout);
+  std::vector<BlockWays> ways(esdf.layout.block_count());
+  parallel_for_each_index(
+      esdf.layout.block_count(),
+      [&](std::size_t block) {
+        const auto slot = static_cast<std::uint32_t>(block);
+        std::fill_n(basins.next.block(slot), kBlockVoxels, kNotTraversable);
+        if (traversable.block(slot) == VoxelMask::Block{}) {
+          std::fill_n(basins.basin.block(slot), kBlockVoxels, 0u);
+          ways[slot].drains = {0};
+          return;
+        }
+        const Levels levels = gather_levels(esdf, traversable, slot);
+        Bordered<float> heights;
+        std::copy(levels.begin(), levels.end(), heights.begin());
+        for_each_four(traversable, slot, [&](VoxelId first, unsigned members) {
+          const VoxelId place = first % kBlockVoxels;
+          const LevelCubes cubes(levels, bordered_place(first));
+          const Cubes higher =
+              cubes.higher | (cubes.level & load_lanes<Cubes>(&kSmallerHandles[place]));
+          const Cubes steepest = steepest_ways(&heights[bordered_place(first)], higher);
+          const Cubes regular = are_regular(higher);
+          const Cubes simple =
+              are_simple(cubes.higher | (cubes.level & load_lanes<Cubes>(&kLaterFields[place])));
+          for (; members != 0; members &= members - 1) {
+            const auto x = static_cast<VoxelId>(std::countr_zero(members));
+            basins.next[first + x] = static_cast<Direction>(steepest[x]);
+            if (!regular[x]) ways[slot].critical.push_back(first + x);
+            if (!simple[x]) basins.obstinate.set(first + x);
+          }
+        });
+        ways[slot].drains =
+            find_drains(traversable, slot, basins.next.block(slot), basins.basin.block(slot));
+      },
+      16);
+  label_basins(esdf.layout, ways, basins);
+  for (const BlockWays& of_block : ways)
+    land.critical.insert(land.critical.end(), of_block.critical.begin(), of_block.critical.end());
+  return land;
+}
+
+}  // namespace ridgeway::detail
