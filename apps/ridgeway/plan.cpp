@@ -207,6 +207,8 @@ void add_plan_command(CLI::App& app, const Globals& globals, Command& chosen) {
   command->add_flag("--escape", options->escape,
                     "Start and goal may be too close to an obstacle: leave it the short way first");
   command->add_flag("--raw", options->raw, "Do not shorten the path");
+  command->add_flag("--quick", options->quick,
+                    "Settle for nearly tight where the roadmap knows such a way by heart");
   command->add_option("--time-limit", options->time_limit,
                       "Seconds (default: no limit, 10 where the planner samples)");
   add_sampling_options(*command, *options);

@@ -19,7 +19,7 @@ struct PlanOptions {
   std::optional<double> radius, time_limit;
   std::optional<std::size_t> alternatives;
   double prefer_clearance = 0.0;
-  bool raw = false, escape = false, nearest = false;
+  bool raw = false, quick = false, escape = false, nearest = false;
   int repeat = 1;
   SamplingConfig sampling;  // of planners that sample
   std::optional<std::size_t> iteration_limit;
@@ -32,6 +32,7 @@ inline PlanConfig plan_config(const PlanOptions& options, std::optional<double> 
   PlanConfig config{.planner = options.chosen(),
                     .radius = radius,
                     .shorten = !options.raw,
+                    .quick = options.quick,
                     .prefer_clearance = options.prefer_clearance,
                     .escape = options.escape};
   if (options.time_limit) config.time_limit = *options.time_limit;

@@ -102,8 +102,8 @@ PlanResult plan_between(const Roadmap& roadmap, const Point& start, const Point&
   const bool may_ask_taut = config.shorten && config.planner == Planner::kGraph &&
                             radius <= roadmap.taut.graph.min_clearance * (1.0 + 1e-9);
   detail::TautPath taut;
-  if (may_ask_taut) 
-    taut = detail::plan_taut(roadmap.taut, space, query,
+  if (may_ask_taut)
+    taut = detail::plan_taut(roadmap.taut, esdf, space, query,
                              config.quick && config.prefer_clearance == 0.0, deadline);
   result.seconds.search = taut.search_seconds;
   result.seconds.shorten = taut.shorten_seconds;

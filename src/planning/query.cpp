@@ -13,7 +13,7 @@
 namespace ridgeway::detail {
 namespace {
 
-constexpr double kUnknownStep = 8.0;     // voxels between looks at what the path borders
+constexpr double kUnknownStep = 8.0;      // voxels between looks at what the path borders
 constexpr double kMostUnknownLooks = 32;  // with more between them on long paths
 
 PlanStatus status_of(EndpointStatus status, bool is_start) {

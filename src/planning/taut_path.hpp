@@ -9,13 +9,13 @@ namespace ridgeway::detail {
 
 /// The taut graph's route, pulled tight, or as it is where that has to do.
 struct TautPath {
-  Route waypoints;        ///< empty where there is none
-  KnownStretch known;     ///< of it
-  bool will_do = false;   ///< it hardly became shorter, or is nearly straight: the graph knows the
-                          ///< place, and a search is not likely to find anything shorter
+  Route waypoints;       ///< empty where there is none
+  KnownStretch known;    ///< of it
+  bool will_do = false;  ///< it hardly became shorter, or is nearly straight: the graph knows the
+                         ///< place, and a search is not likely to find anything shorter
   double search_seconds = 0.0, shorten_seconds = 0.0;
 };
-TautPath plan_taut(const TautGraph& taut, const FreeSpace& space, const RouteQuery& query,
-                   bool as_it_is, const Deadline& deadline);
+TautPath plan_taut(const TautGraph& taut, const EsdfMap& esdf, const FreeSpace& space,
+                   const RouteQuery& query, bool as_it_is, const Deadline& deadline);
 
 }  // namespace ridgeway::detail

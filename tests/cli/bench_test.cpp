@@ -70,15 +70,16 @@ TEST_F(CliBench, MazeHasARowForEveryPlanner) {
            "1", "--time-limit", "0.3", "-o", path("out"), "--json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const auto rows = outcome.json()["rows"];
-  ASSERT_EQ(rows.size(), 7u);
+  ASSERT_EQ(rows.size(), 8u);
   for (const auto& row : rows) {
     EXPECT_EQ(row["solved"], row["queries"]) << row["planner"];
     EXPECT_GT(row["single"]["length"], 6.0) << row["planner"];
   }
   EXPECT_EQ(rows[3]["planner"], "esdf");
   EXPECT_EQ(rows[3]["length_over_esdf"]["median"], 1.0);
-  EXPECT_EQ(rows[6]["planner"], "graph");
-  EXPECT_LE(rows[6]["length"]["median"], rows[5]["length"]["median"]);
+  EXPECT_EQ(rows[6]["planner"], "graph_quick");
+  EXPECT_EQ(rows[7]["planner"], "graph");
+  EXPECT_LE(rows[7]["length"]["median"], rows[5]["length"]["median"]);
   for (const char* file : {"maze.json", "maze.csv", "maze.png", "maze.svg"})
     EXPECT_GT(read_whole(folder_ / "out" / file).size(), 100u) << file;
   EXPECT_EQ(file_count(), 5u);  // one picture of all paths; and the folder
