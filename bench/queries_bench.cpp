@@ -9,6 +9,7 @@
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "shorten.hpp"
+#include "taut_search.hpp"
 
 namespace ridgeway {
 namespace {
@@ -67,6 +68,20 @@ void graph_search(benchmark::State& state) {
   });
 }
 
+void taut_search(benchmark::State& state) {
+  const Roadmap& roadmap = pipeline().roadmap;
+  const EsdfMap& esdf = roadmap.esdf;
+  const FreeSpace space(esdf);
+  const auto seen = [&](const Point& place) {
+    return roadmap.taut.seen_from(esdf.layout.find(voxel_at(place, esdf.voxel_size)));
+  };
+  one_by_one(state, "searches", solvable_queries(), [&](const Query& ends) {
+    return detail::search_taut(
+        roadmap.taut.graph, roadmap.taut.landmarks, space,
+        {ends.first, ends.second, kRadius, seen(ends.first), seen(ends.second)});
+  });
+}
+
 void shortening(benchmark::State& state) {
   const Roadmap& roadmap = pipeline().roadmap;
   const FreeSpace space(roadmap.esdf);
@@ -90,8 +105,10 @@ BENCHMARK_CAPTURE(segment_check, free_three_metres, 3.0, true)->Unit(benchmark::
 BENCHMARK_CAPTURE(segment_check, blocked_three_metres, 3.0, false)->Unit(benchmark::kMicrosecond);
 BENCHMARK(attach)->Unit(benchmark::kMicrosecond);
 BENCHMARK(graph_search)->Unit(benchmark::kMicrosecond);
+BENCHMARK(taut_search)->Unit(benchmark::kMicrosecond);
 BENCHMARK(shortening)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(query, graph_raw, PlanConfig{.shorten = false})->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(query, graph_quick, PlanConfig{.quick = true})->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(query, graph_shortened, PlanConfig{})->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(query, diagram, PlanConfig{.planner = Planner::kDiagram, .shorten = false})
     ->Unit(benchmark::kMicrosecond);

@@ -105,6 +105,11 @@ void attach_field(benchmark::State& state) {
   report_rate(state, "voxels", p.roadmap.diagram.voxels.count());
 }
 
+void corner_learning(benchmark::State& state) {
+  const Roadmap& roadmap = pipeline().roadmap;
+  for (auto _ : state) benchmark::DoNotOptimize(build_taut_graph(roadmap));
+}
+
 BENCHMARK(copy_of_the_field)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(load)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(distance_sweeps)->Unit(benchmark::kMillisecond)->UseRealTime();
@@ -116,6 +121,7 @@ BENCHMARK(kernel)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(graph_fitting)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(graph_simplifying)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(attach_field)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(corner_learning)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
 }  // namespace ridgeway
