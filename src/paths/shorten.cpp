@@ -92,7 +92,7 @@ double largest_free_share(const MayBeFree& may_be_free, const IsWorthIt& is_wort
 /// The corners of a path pulled taut, round by round.
 class Tightening {
  public:
-  Tightening(const FreeSpace& space, std::vector<Point> path, double radius,
+  Tightening(const FreeSpace& space, const std::vector<Point>& path, double radius,
              const MayReplace& may_replace)
       : space_(space), radius_(radius), may_replace_(may_replace) {
     for (const Point& p : path) corners_.push_back(corner_at(p));
@@ -263,7 +263,7 @@ std::vector<Point> skip_waypoints(const FreeSpace& space, std::vector<Point> pat
 
 std::vector<Point> draw_corners_in(const FreeSpace& space, std::vector<Point> path, double radius,
                                    const Deadline& deadline, const MayReplace& may_replace) {
-  Tightening tightening(space, std::move(path), radius, may_replace);
+  Tightening tightening(space, path, radius, may_replace);
   for (int round = 0; round < kRounds && !deadline.has_passed(); ++round)
     if (!tightening.run_round(round)) break;
   return tightening.path();

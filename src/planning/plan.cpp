@@ -108,7 +108,7 @@ PlanResult plan_between(const Roadmap& roadmap, const Point& start, const Point&
   result.seconds.search = taut.search_seconds;
   result.seconds.shorten = taut.shorten_seconds;
   if (taut.will_do && config.prefer_clearance == 0.0) {
-    result.waypoints = std::move(taut.waypoints);
+    result.waypoints = taut.waypoints;
     detail::describe(esdf, space, taut.known, result);
     if (detail::is_verified(esdf, space, result, radius)) return finish(PlanStatus::kOk);
   }

@@ -31,8 +31,8 @@ void CornerMerging::add(const SampledPath& path) {
   for (std::size_t i = 0; i < chain.size(); ++i) {
     const Point place = place_of(chain[i]);
     const Point next = i + 1 < chain.size() ? place_of(chain[i + 1]) : place;
-    std::uint32_t own = stand_in(place, last == kNone ? nullptr : &places_[last], next);
-    if (own == kNone) own = insert(chain[i], place);
+    std::uint32_t own = stand_in(place, path.part, last == kNone ? nullptr : &places_[last], next);
+    if (own == kNone) own = insert(chain[i], place, path.part);
     if (last != kNone && own != last) steps_.emplace_back(std::minmax(last, own));
     last = own;
   }
@@ -47,6 +47,7 @@ MergedCorners CornerMerging::merged() const {
   for (std::uint32_t i = 0; i < order.size(); ++i) {
     rank[order[i]] = i;
     result.voxels.push_back(voxels_[order[i]]);
+    result.parts.push_back(parts_[order[i]]);
   }
   for (const auto& [a, b] : steps_) result.steps.emplace_back(std::minmax(rank[a], rank[b]));
   std::sort(result.steps.begin(), result.steps.end());
@@ -80,18 +81,20 @@ VoxelId CornerMerging::voxel_for(const Point& corner) const {
   return best;
 }
 
-std::uint32_t CornerMerging::insert(VoxelId id, const Point& place) {
+std::uint32_t CornerMerging::insert(VoxelId id, const Point& place, std::uint32_t part) {
   std::vector<std::uint32_t>& bucket = buckets_[bucket_of(place)];
   for (const std::uint32_t other : bucket)
     if (voxels_[other] == id) return other;
   bucket.push_back(static_cast<std::uint32_t>(voxels_.size()));
   voxels_.push_back(id);
   places_.push_back(place);
+  parts_.push_back(part);
   return bucket.back();
 }
 
-/// The nearest known corner that a path from `before` (if any) on to `next` may turn at instead.
-std::uint32_t CornerMerging::stand_in(const Point& corner, const Point* before,
+/// The nearest known corner of the same part that a path from `before` (if any) on to `next` may
+/// turn at instead.
+std::uint32_t CornerMerging::stand_in(const Point& corner, std::uint32_t part, const Point* before,
                                       const Point& next) const {
   std::vector<std::pair<double, std::uint32_t>> near;
   const auto [x, y, z] = bucket_of(corner);
@@ -100,7 +103,7 @@ std::uint32_t CornerMerging::stand_in(const Point& corner, const Point* before,
     if (found == buckets_.end()) continue;
     for (const std::uint32_t other : found->second) {
       const double away = (places_[other] - corner).norm();
-      if (away < distance_) near.emplace_back(away, other);
+      if (away < distance_ && parts_[other] == part) near.emplace_back(away, other);
     }
   }
   std::sort(near.begin(), near.end());

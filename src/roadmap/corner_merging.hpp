@@ -15,6 +15,7 @@ namespace ridgeway::detail {
 /// Corners, and which of them follow each other on a path.
 struct MergedCorners {
   std::vector<VoxelId> voxels;                                 ///< ascending
+  std::vector<std::uint32_t> parts;                            ///< by corner, see SampledPath
   std::vector<std::pair<std::uint32_t, std::uint32_t>> steps;  ///< smaller first, ascending
 };
 
@@ -32,14 +33,16 @@ class CornerMerging {
 
   Bucket bucket_of(const Point& p) const;
   VoxelId voxel_for(const Point& corner) const;
-  std::uint32_t insert(VoxelId id, const Point& place);
-  std::uint32_t stand_in(const Point& corner, const Point* before, const Point& next) const;
+  std::uint32_t insert(VoxelId id, const Point& place, std::uint32_t part);
+  std::uint32_t stand_in(const Point& corner, std::uint32_t part, const Point* before,
+                         const Point& next) const;
 
   const EsdfMap& esdf_;
   const FreeSpace space_;
   const double radius_, distance_;
   std::vector<VoxelId> voxels_;
   std::vector<Point> places_;
+  std::vector<std::uint32_t> parts_;
   std::map<Bucket, std::vector<std::uint32_t>> buckets_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> steps_;
 };

@@ -33,8 +33,8 @@ VoxelId random_vertex(const Roadmap& roadmap, Random& random) {
 }
 
 /// Paths over the graph between two voxels, pulled tight.
-std::vector<std::vector<Point>> tight_paths(const Roadmap& roadmap, const FreeSpace& space,
-                                            VoxelId from, VoxelId to) {
+std::vector<SampledPath> tight_paths(const Roadmap& roadmap, const GraphComponents& parts,
+                                     const FreeSpace& space, VoxelId from, VoxelId to) {
   const EsdfMap& esdf = roadmap.esdf;
   const double radius = roadmap.min_clearance;
   const auto centre = [&](VoxelId id) {
@@ -44,7 +44,7 @@ std::vector<std::vector<Point>> tight_paths(const Roadmap& roadmap, const FreeSp
   const AttachWay start = follow_attach(roadmap, from, radius);
   const AttachWay goal = follow_attach(roadmap, to, radius);
   if (!start.reached() || !goal.reached()) return {};
-  std::vector<std::vector<Point>> paths;
+  std::vector<SampledPath> paths;
   std::vector<float> penalty(roadmap.graph.edges.size(), 1.0f);
   for (int k = 0; k < kRoutes; ++k) {
     const std::vector<VertexId> vertices =
@@ -58,7 +58,8 @@ std::vector<std::vector<Point>> tight_paths(const Roadmap& roadmap, const FreeSp
     }
     for (auto id = goal.voxels.rbegin() + 1; id < goal.voxels.rend(); ++id)
       path.push_back(centre(*id));
-    paths.push_back(shorten(space, std::move(path), radius, Deadline::never()));
+    paths.push_back({from, to, parts.label[number(start.vertex)],
+                     shorten(space, std::move(path), radius, Deadline::never())});
   }
   return paths;
 }
@@ -68,15 +69,15 @@ std::vector<std::vector<Point>> tight_paths(const Roadmap& roadmap, const FreeSp
 std::vector<SampledPath> sample_paths(const Roadmap& roadmap, std::size_t first_pair,
                                       std::size_t pairs) {
   const FreeSpace space(roadmap.esdf);
+  const GraphComponents parts = connected_components(roadmap.graph);
   std::vector<std::vector<SampledPath>> by_pair(pairs);
   parallel_for_each_index(pairs, [&](std::size_t i) {
     Random random(first_pair + i);
     // Queries start anywhere, and where the graph has most vertices there is most to go around.
     const VoxelId from = random_voxel(roadmap, random);
     const VoxelId to = i % 2 == 0 ? random_voxel(roadmap, random) : random_vertex(roadmap, random);
-    if (from == kNoVoxel || to == kNoVoxel) return;
-    for (std::vector<Point>& path : tight_paths(roadmap, space, from, to))
-      by_pair[i].push_back({from, to, std::move(path)});
+    if (from != kNoVoxel && to != kNoVoxel)
+      by_pair[i] = tight_paths(roadmap, parts, space, from, to);
   });
   std::vector<SampledPath> paths;
   for (std::vector<SampledPath>& some : by_pair)

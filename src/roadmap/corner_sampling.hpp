@@ -11,6 +11,7 @@ namespace ridgeway::detail {
 /// A tight path between two voxels.
 struct SampledPath {
   VoxelId from = kNoVoxel, to = kNoVoxel;
+  std::uint32_t part = 0;  ///< connected part of the graph that it went over
   std::vector<Point> waypoints;
 };
 
