@@ -111,7 +111,9 @@ class Tightening {
         was_worth_it = true;
         continue;
       }
-      if (!all && !may_go && !corners_[i].moved) {
+      const bool is_due = all || may_go || corners_[i].moved;
+      if (!is_due || most_gain(i) <= least_gain_) {
+        corners_[i].moved = false;
         ++i;
         continue;
       }
@@ -146,6 +148,11 @@ class Tightening {
 
   double length_over(std::size_t i, const Point& p) const {
     return (p - corners_[i - 1].at).norm() + (corners_[i + 1].at - p).norm();
+  }
+
+  /// What going straight would save.
+  double most_gain(std::size_t i) const {
+    return length_over(i, corners_[i].at) - (corners_[i + 1].at - corners_[i - 1].at).norm();
   }
 
   /// False where the segment passes one of the obstacles around a corner too closely.
@@ -261,8 +268,9 @@ std::vector<Point> skip_waypoints(const FreeSpace& space, std::vector<Point> pat
   return path;
 }
 
-std::vector<Point> draw_corners_in(const FreeSpace& space, std::vector<Point> path, double radius,
-                                   const Deadline& deadline, const MayReplace& may_replace) {
+std::vector<Point> draw_corners_in(const FreeSpace& space, const std::vector<Point>& path,
+                                   double radius, const Deadline& deadline,
+                                   const MayReplace& may_replace) {
   Tightening tightening(space, path, radius, may_replace);
   for (int round = 0; round < kRounds && !deadline.has_passed(); ++round)
     if (!tightening.run_round(round)) break;
@@ -272,7 +280,7 @@ std::vector<Point> draw_corners_in(const FreeSpace& space, std::vector<Point> pa
 std::vector<Point> shorten(const FreeSpace& space, std::vector<Point> path, double radius,
                            const Deadline& deadline, const MayReplace& may_replace) {
   path = skip_waypoints(space, std::move(path), radius, may_replace);
-  return draw_corners_in(space, std::move(path), radius, deadline, may_replace);
+  return draw_corners_in(space, path, radius, deadline, may_replace);
 }
 
 }  // namespace ridgeway::detail

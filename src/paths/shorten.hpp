@@ -28,7 +28,8 @@ std::vector<Point> skip_waypoints(const FreeSpace& space, std::vector<Point> pat
 
 /// Its second half: moves each corner along its segments and towards the line between its
 /// neighbours as far as they stay free, until that gains next to nothing.
-std::vector<Point> draw_corners_in(const FreeSpace& space, std::vector<Point> path, double radius,
-                                   const Deadline& deadline, const MayReplace& may_replace = {});
+std::vector<Point> draw_corners_in(const FreeSpace& space, const std::vector<Point>& path,
+                                   double radius, const Deadline& deadline,
+                                   const MayReplace& may_replace = {});
 
 }  // namespace ridgeway::detail

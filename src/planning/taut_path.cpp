@@ -34,6 +34,7 @@ TautPath path_over(const SparseGraph& graph, const RouteQuery& query,
   return path;
 }
 
+/// Moves its corners, and looks past what blocks the straight line where it is not much longer.
 void pull_tight(const EsdfMap& esdf, const FreeSpace& space, const RouteQuery& query,
                 const Deadline& deadline, TautPath& path) {
   const double as_found = length_of(path.waypoints);
@@ -48,7 +49,7 @@ void pull_tight(const EsdfMap& esdf, const FreeSpace& space, const RouteQuery& q
       tight.assign({query.start});
       tight.insert(tight.end(), past.corners.begin(), past.corners.end());
       tight.push_back(query.goal);
-      tight = draw_corners_in(space, std::move(tight), query.radius, deadline);
+      tight = draw_corners_in(space, tight, query.radius, deadline);
     }
     tight = redirect(esdf, space, std::move(tight), query.radius, deadline);
   }

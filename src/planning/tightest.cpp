@@ -130,7 +130,7 @@ Route best_of_alternatives(const FreeSpace& space, RouteResult& found, double ra
     if (!route) break;
     Route candidate = skip_waypoints(space, std::move(*route), radius);
     if (length_of(candidate) * kMostlyDrawnInTo > shortest) continue;
-    candidate = draw_corners_in(space, std::move(candidate), radius, deadline);
+    candidate = draw_corners_in(space, candidate, radius, deadline);
     const double length = length_of(candidate);
     if (length >= shortest) continue;
     shortest = length;
