@@ -27,7 +27,7 @@ constexpr std::size_t kAskedPairs = 100;  // between which new paths show how mu
 constexpr std::size_t kLeastAsked = 20;   // paths
 constexpr double kAboutAsShort = 1.1;     // as the tight path between the places
 constexpr double kKnown = 0.85;           // of the paths: that is enough
-constexpr double kHopeless = 0.65;        // that is too little to go on
+constexpr double kHopeless = 0.75;        // that is too little to go on
 
 /// The widest traversable voxel of every cell, or kNoVoxel.
 std::vector<VoxelId> widest_of_cells(const Roadmap& roadmap, const BlockCells& cells) {
