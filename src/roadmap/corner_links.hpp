@@ -30,13 +30,16 @@ bool may_turn(const Corner& corner, const Point& from);
 template <typename May>
 std::vector<std::uint32_t> nearest_corners(const std::vector<Corner>& corners, const Point& place,
                                            std::size_t most, const May& may) {
-  std::vector<std::pair<double, std::uint32_t>> near;
-  for (std::uint32_t i = 0; i < corners.size(); ++i)
-    if (may(i)) near.emplace_back((corners[i].place - place).squaredNorm(), i);
-  const auto last = near.begin() + static_cast<std::ptrdiff_t>(std::min(most, near.size()));
-  std::partial_sort(near.begin(), last, near.end());
+  std::vector<std::pair<double, std::uint32_t>> near;  // ascending
+  near.reserve(most + 1);
+  for (std::uint32_t i = 0; i < corners.size(); ++i) {
+    const std::pair own((corners[i].place - place).squaredNorm(), i);
+    if ((near.size() == most && own >= near.back()) || !may(i)) continue;
+    near.insert(std::upper_bound(near.begin(), near.end(), own), own);
+    if (near.size() > most) near.pop_back();
+  }
   std::vector<std::uint32_t> result;
-  for (auto it = near.begin(); it != last; ++it) result.push_back(it->second);
+  for (const auto& [distance, i] : near) result.push_back(i);
   return result;
 }
 
