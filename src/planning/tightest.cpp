@@ -24,7 +24,7 @@ constexpr double kVerySuspicious = 1.25;  // worth a finer one
 constexpr double kQuickWeight = 1.2;      // of those searches' heuristic
 constexpr int kQuickExpansions = 3000;    // less than two milliseconds
 constexpr double kLeastInVain = 60.0;     // they give up after so many in a pocket, at least,
-constexpr double kInVain = 500.0;         // and so many for each length that shortening saved
+constexpr double kInVain = 400.0;         // and so many for each length that shortening saved
 constexpr double kLatticeExcess = 1.05;   // by which a lattice path shrinks when it is shortened
 
 /// The nearest voxel with even coordinates that a point can move to.
