@@ -145,6 +145,7 @@ MazeResult run_maze(const MazeExperimentConfig& config, const Progress& progress
                        .roadmap;
   const std::vector<Pair> pairs = random_pairs(world, config);
   std::vector<double> esdf_lengths;
+  esdf_lengths.reserve(pairs.size());
   for (const Pair& pair : pairs)
     esdf_lengths.push_back(on_roadmap(result.roadmap, Planner::kEsdf, false)(pair).length);
   const std::vector<Contender> all = contenders(result.roadmap, config);

@@ -60,11 +60,11 @@ std::vector<Point> subdivide(const std::vector<Point>& path, double step) {
   return result;
 }
 
-double squared_distance(const Point& p, const Point& a, const Point& b) {
+Point nearest_on_segment(const Point& p, const Point& a, const Point& b) {
   const Point along = b - a;
   const double squared = along.squaredNorm();
   const double t = squared > 0.0 ? std::clamp((p - a).dot(along) / squared, 0.0, 1.0) : 0.0;
-  return (p - a - t * along).squaredNorm();
+  return a + t * along;
 }
 
 /// Largest share in [0, 1) found by halving at which both hold; they hold at 0. `may_be_free` is
@@ -159,7 +159,8 @@ class Tightening {
   bool may_be_free(std::size_t i, const Point& a, const Point& b) const {
     for (std::size_t k = i - 1; k <= i + 1; ++k)
       if (corners_[k].obstacle &&
-          squared_distance(*corners_[k].obstacle, a, b) < radius_ * radius_ * (1.0 - kRounding))
+          (nearest_on_segment(*corners_[k].obstacle, a, b) - *corners_[k].obstacle).squaredNorm() <
+              radius_ * radius_ * (1.0 - kRounding))
         return false;
     return true;
   }
@@ -204,13 +205,8 @@ class Tightening {
   /// Moves a corner towards the line between its neighbours, as far as it stays free.
   void draw_in(std::size_t i) {
     const Point old = corners_[i].at, before = corners_[i - 1].at, after = corners_[i + 1].at;
-    const Point along = after - before;
-    const double squared = along.squaredNorm();
-    const double t =
-        squared > 0.0 ? std::clamp((old - before).dot(along) / squared, 0.0, 1.0) : 0.0;
-    const auto place = [&](double share) -> Point {
-      return old + share * (before + t * along - old);
-    };
+    const Point target = nearest_on_segment(old, before, after);
+    const auto place = [&](double share) -> Point { return old + share * (target - old); };
     const double share = largest_free_share(
         [&](double s) {
           return may_be_free(i, before, place(s)) && may_be_free(i, place(s), after);

@@ -19,7 +19,6 @@ using detail::MergedCorners;
 using detail::SampledPath;
 
 constexpr double kMergeDistance = 1.0;    // radii: nearer corners may become one
-constexpr std::size_t kNeighbours = 16;   // a corner is linked to the nearest of those it can see
 constexpr std::size_t kMostSeen = 24;     // corners listed for a cell
 constexpr std::size_t kMostTried = 72;    // looks at corners for it
 constexpr std::size_t kFirstPairs = 250;  // of places to learn from
@@ -128,13 +127,10 @@ class Learning {
         taut_.graph, taut_.landmarks, space_,
         {path.waypoints.front(), path.waypoints.back(), roadmap_.min_clearance, from, to});
     if (route.empty()) return std::numeric_limits<double>::infinity();
-    double length = 0.0;
-    Point last = path.waypoints.front();
-    for (const VertexId v : route) {
-      length += (corners_[number(v)].place - last).norm();
-      last = corners_[number(v)].place;
-    }
-    return length + (path.waypoints.back() - last).norm();
+    std::vector<Point> way{path.waypoints.front()};
+    for (const VertexId v : route) way.push_back(corners_[number(v)].place);
+    way.push_back(path.waypoints.back());
+    return detail::length_of(way);
   }
 
   /// Only corners of the cell's own part: a segment may slip through where moves from voxel to

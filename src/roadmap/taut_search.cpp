@@ -7,6 +7,8 @@
 #include <limits>
 #include <queue>
 
+#include "best_first.hpp"
+
 namespace ridgeway::detail {
 namespace {
 
@@ -19,14 +21,8 @@ enum class Step : std::uint8_t {
   kToGoal,     ///< sees the goal, if that segment is free
 };
 
-struct OpenEntry {
-  double estimate;
-  double cost;
-  VertexId corner;
+struct TautEntry : OpenEntry {
   Step step;
-  bool operator<(const OpenEntry& other) const {  // the queue's top is the best
-    return estimate != other.estimate ? estimate > other.estimate : corner > other.corner;
-  }
 };
 
 struct CornerState {
@@ -58,26 +54,26 @@ class TautSearch {
 
   std::vector<VertexId> run() {
     while (!open_.empty()) {
-      const OpenEntry entry = open_.top();
+      const TautEntry entry = open_.top();
       open_.pop();
-      CornerState& state = states_[number(entry.corner)];
+      CornerState& state = states_[number(entry.vertex)];
       if (entry.step == Step::kToGoal) {
-        if (space_.is_free(place_of(entry.corner), query_.goal, query_.radius))
-          return route_to(entry.corner);
+        if (space_.is_free(place_of(entry.vertex), query_.goal, query_.radius))
+          return route_to(entry.vertex, states_);
         continue;
       }
       if (state.closed || entry.cost > state.cost) continue;
       if (entry.step == Step::kFromStart) {
         if (entry.cost == state.cost ||
-            !space_.is_free(query_.start, place_of(entry.corner), query_.radius))
+            !space_.is_free(query_.start, place_of(entry.vertex), query_.radius))
           continue;
         state.cost = entry.cost;
         state.from = kNoVertex;
       }
       state.closed = true;
       if (state.to_goal < kFar)
-        open_.push({entry.cost + state.to_goal, entry.cost, entry.corner, Step::kToGoal});
-      leave(entry.corner);
+        open_.push({{entry.cost + state.to_goal, entry.cost, entry.vertex}, Step::kToGoal});
+      leave(entry.vertex);
     }
     return {};
   }
@@ -102,14 +98,7 @@ class TautSearch {
     const auto& lengths = landmarks_.lengths[number(v)];
     for (std::size_t k = 0; k < Landmarks::kCount; ++k)
       if (goal_lengths_[k] < kFar) rest = std::max(rest, goal_lengths_[k] - lengths[k]);
-    if (rest < kFar) open_.push({cost + rest, cost, v, step});
-  }
-
-  std::vector<VertexId> route_to(VertexId last) const {
-    std::vector<VertexId> route;
-    for (VertexId v = last; v != kNoVertex; v = states_[number(v)].from) route.push_back(v);
-    std::reverse(route.begin(), route.end());
-    return route;
+    if (rest < kFar) open_.push({{cost + rest, cost, v}, step});
   }
 
   const SparseGraph& graph_;
@@ -118,7 +107,7 @@ class TautSearch {
   const TautQuery& query_;
   std::vector<CornerState> states_;
   std::array<double, Landmarks::kCount> goal_lengths_{};  ///< at least, from each landmark
-  std::priority_queue<OpenEntry> open_;
+  std::priority_queue<TautEntry> open_;
 };
 
 }  // namespace
