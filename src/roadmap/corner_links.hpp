@@ -39,6 +39,7 @@ std::vector<std::uint32_t> nearest_corners(const std::vector<Corner>& corners, c
     if (near.size() > most) near.pop_back();
   }
   std::vector<std::uint32_t> result;
+  result.reserve(near.size());
   for (const auto& [distance, i] : near) result.push_back(i);
   return result;
 }
