@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 #include <set>
 
@@ -23,7 +24,7 @@ struct RandomLayout {
     std::vector<BlockIndex> list;
     list.reserve(61);
     for (int i = 0; i < 60; ++i) list.push_back({near(random), near(random), near(random)});
-    list.push_back({-(1 << 27), 1 << 27, 5});
+    if (seed % 2 == 0) list.push_back({-(1 << 27), 1 << 27, 5});  // else they fill their box
     blocks = {list.begin(), list.end()};
     layout = BlockLayout(list);  // doubles and all
   }
@@ -42,6 +43,10 @@ TEST(BlockLayout, HoldsTheBlocksInOrderAndFindsTheirVoxels) {
         for (int x = -34; x < 34; x += 3)
           ASSERT_EQ(layout.find({x, y, z}) != kNoVoxel,
                     random.blocks.contains(block_of(VoxelIndex{x, y, z})));
+    constexpr int kLow = std::numeric_limits<int>::min(), kHigh = std::numeric_limits<int>::max();
+    for (const BlockIndex& far :
+         {BlockIndex{kLow, 0, 0}, BlockIndex{0, kHigh, 0}, BlockIndex{kHigh, kHigh, kLow}})
+      ASSERT_EQ(layout.find_block(far), BlockLayout::kNoBlock);
   }
 }
 

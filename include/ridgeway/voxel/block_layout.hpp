@@ -31,7 +31,13 @@ class BlockLayout {
   const BlockIndex& block(std::uint32_t slot) const { return blocks_[slot]; }
 
   /// Slot of a block, or kNoBlock.
-  std::uint32_t find_block(const BlockIndex& block) const;
+  std::uint32_t find_block(const BlockIndex& block) const {
+    if (is_spread_) return find_hashed(block);
+    const std::uint32_t x = steps(low_.x, block.x), y = steps(low_.y, block.y),
+                        z = steps(low_.z, block.z);
+    if (x >= extent_[0] || y >= extent_[1] || z >= extent_[2]) return kNoBlock;
+    return table_[x + std::size_t{extent_[0]} * (y + std::size_t{extent_[1]} * z)];
+  }
   /// Slot of the block in one of 27 directions from a block, or kNoBlock.
   std::uint32_t neighbour_block(std::uint32_t slot, int direction) const {
     return neighbours_[slot][static_cast<std::size_t>(direction)];
@@ -75,9 +81,22 @@ class BlockLayout {
   }
 
  private:
+  /// From one number up to another; downwards more than any extent.
+  static std::uint32_t steps(int from, int to) {
+    return static_cast<std::uint32_t>(to) - static_cast<std::uint32_t>(from);
+  }
+  void index_blocks();
+  void hash_blocks();
+  std::uint32_t find_hashed(const BlockIndex& block) const;
+
   std::vector<BlockIndex> blocks_;
   std::vector<std::array<std::uint32_t, 27>> neighbours_;
-  std::vector<std::uint32_t> table_;  // open addressing: slots, kNoBlock where empty
+  // Slots, kNoBlock where there is none: by place in the box around all blocks, or where they are
+  // few in it by hash.
+  std::vector<std::uint32_t> table_;
+  BlockIndex low_;
+  std::array<std::uint32_t, 3> extent_{};
+  bool is_spread_ = false;
 };
 
 /// Finds voxels that are mostly near one another, as along a line: remembers the block it was in.
