@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <optional>
 
 #include "obstacle_scan.hpp"
 
@@ -38,6 +40,40 @@ inline double ball_bound(const EsdfMap& esdf, VoxelFinder& finder, const Vector&
   return distance * distance;
 }
 
+/// What eight numbers at the corners of a unit cube, x fastest, are worth at a place inside.
+inline double interpolate(const std::array<double, 8>& corners, const Vector& t) {
+  const auto between = [](double a, double b, double share) { return a + share * (b - a); };
+  const auto over_face = [&](std::size_t i) {
+    return between(between(corners[i], corners[i + 1], t.x()),
+                   between(corners[i + 2], corners[i + 3], t.x()), t.y());
+  };
+  return between(over_face(0), over_face(4), t.z());
+}
+
+/// The same straight from a block's values, two at a time; nothing where one of them is kNoSite or
+/// as large.
+inline std::optional<double> interpolate(const std::uint32_t* corners, const Vector& t) {
+  using Whole = std::int32_t __attribute__((vector_size(8)));
+  using Real = double __attribute__((vector_size(16)));
+  constexpr int kRow = kBlockSide, kLayer = kBlockSide * kBlockSide;
+  const auto pair_at = [&](int place) {
+    Whole pair;
+    std::memcpy(&pair, corners + place, sizeof(pair));
+    return pair;
+  };
+  const std::array<Whole, 4> pairs{pair_at(0), pair_at(kRow), pair_at(kLayer),
+                                   pair_at(kLayer + kRow)};
+  const Whole any = pairs[0] | pairs[1] | pairs[2] | pairs[3];
+  if ((any[0] | any[1]) < 0) return std::nullopt;  // too large for a signed number
+  const auto real = [&](std::size_t i) { return __builtin_convertvector(pairs[i], Real); };
+  const auto between = [](const Real& a, const Real& b, double share) {
+    return a + share * (b - a);
+  };
+  const Real near = between(real(0), real(1), t.y()), far = between(real(2), real(3), t.y());
+  const Real both = between(near, far, t.z());
+  return both[0] + t.x() * (both[1] - both[0]);
+}
+
 /// Lower bound of D^2 at a point from the eight voxel centres around it: trilinear interpolation
 /// of d^2 less the sum of t (1 - t), since D^2(x) - |x|^2 is concave. Where nothing is known of one
 /// of them, from the ball around the centre of the point's own voxel.
@@ -45,29 +81,24 @@ inline double lower_bound(const EsdfMap& esdf, VoxelFinder& finder, const Vector
   const Vector shifted = p - Vector::Constant(0.5);
   const VoxelIndex base = voxel_holding(shifted);
   const Vector t = shifted - Vector(base.x, base.y, base.z);
-  std::array<double, 8> corners{};
+  const double excess = (t.array() * (1.0 - t.array())).sum();
   const VoxelId first = finder.find(base);
   const auto is_inside = [](int i) { return (i & (kBlockSide - 1)) != kBlockSide - 1; };
-  const bool one_block =
-      first != kNoVoxel && is_inside(base.x) && is_inside(base.y) && is_inside(base.z);
+  if (first != kNoVoxel && is_inside(base.x) && is_inside(base.y) && is_inside(base.z))
+    if (const std::optional<double> quarters = interpolate(&esdf.squared[first], t))
+      return 0.25 * *quarters - excess;
+  std::array<double, 8> corners{};
   for (int i = 0; i < 8; ++i) {
     const int dx = i & 1, dy = i >> 1 & 1, dz = i >> 2;
-    VoxelId id = first + static_cast<VoxelId>(dx + kBlockSide * (dy + kBlockSide * dz));
-    if (!one_block)
-      id = first != kNoVoxel ? esdf.layout.step(first, dx, dy, dz)
-                             : finder.find(base + VoxelIndex{dx, dy, dz});
+    const VoxelId id = first != kNoVoxel ? esdf.layout.step(first, dx, dy, dz)
+                                         : finder.find(base + VoxelIndex{dx, dy, dz});
     if (id != kNoVoxel) {
       corners[static_cast<std::size_t>(i)] = stored(esdf, id, far);
     } else if (esdf.unknown == UnknownPolicy::kIgnore) {
       return ball_bound(esdf, finder, p, far);
     }
   }
-  const auto between = [](double a, double b, double share) { return a + share * (b - a); };
-  const auto over_face = [&](std::size_t i) {
-    return between(between(corners[i], corners[i + 1], t.x()),
-                   between(corners[i + 2], corners[i + 3], t.x()), t.y());
-  };
-  return between(over_face(0), over_face(4), t.z()) - (t.array() * (1.0 - t.array())).sum();
+  return interpolate(corners, t) - excess;
 }
 
 /// What a march along a segment is to find out.
