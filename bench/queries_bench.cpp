@@ -77,7 +77,7 @@ void taut_search(benchmark::State& state) {
   };
   one_by_one(state, "searches", solvable_queries(), [&](const Query& ends) {
     return detail::search_taut(
-        roadmap.taut.graph, roadmap.taut.landmarks, space,
+        roadmap.taut.graph, roadmap.taut.hubs, space,
         {ends.first, ends.second, kRadius, seen(ends.first), seen(ends.second)});
   });
 }

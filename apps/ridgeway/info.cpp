@@ -50,7 +50,8 @@ std::vector<Memory> memory_of(const Roadmap& roadmap) {
           {"attach", roadmap.attach.next.memory_bytes()},
           {"taut", bytes_of(taut.graph.vertices) + bytes_of(taut.graph.edges) +
                        bytes_of(taut.graph.first_link) + bytes_of(taut.graph.links) +
-                       bytes_of(taut.landmarks.lengths) + bytes_of(taut.cell_of_block) +
+                       bytes_of(taut.hubs.first) + bytes_of(taut.hubs.labels) +
+                       bytes_of(taut.hubs.next) + bytes_of(taut.cell_of_block) +
                        bytes_of(taut.first_seen) + bytes_of(taut.seen)},
           {"tree", bytes_of(tree.parent) + bytes_of(tree.clearance) + bytes_of(tree.place)}};
 }

@@ -51,7 +51,7 @@ Roadmap load_roadmap(const std::filesystem::path& path) {
   roadmap.landmarks = place_landmarks(roadmap.graph);
   if (TautGraph& taut = roadmap.taut; !taut.graph.vertices.empty()) {
     index_links(taut.graph);
-    taut.landmarks = place_landmarks(taut.graph);
+    taut.hubs = label_hubs(taut.graph);
   }
   return roadmap;
 }

@@ -98,7 +98,7 @@ class Learning {
     const MergedCorners merged = merging_.merged();
     corners_ = detail::corners_of(roadmap_, merged);
     taut_.graph = detail::link_corners(roadmap_, merged, corners_);
-    taut_.landmarks = place_landmarks(taut_.graph);
+    taut_.hubs = label_hubs(taut_.graph);
   }
 
   /// Of the shorter paths between two places, the share for which there is a route about as short.
@@ -124,7 +124,7 @@ class Learning {
     };
     const std::vector<VertexId> from = seen_from(path.from), to = seen_from(path.to);
     const std::vector<VertexId> route = detail::search_taut(
-        taut_.graph, taut_.landmarks, space_,
+        taut_.graph, taut_.hubs, space_,
         {path.waypoints.front(), path.waypoints.back(), roadmap_.min_clearance, from, to});
     if (route.empty()) return std::numeric_limits<double>::infinity();
     std::vector<Point> way{path.waypoints.front()};

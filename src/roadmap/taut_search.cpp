@@ -3,119 +3,124 @@
 #include "taut_search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
-#include <queue>
-
-#include "best_first.hpp"
 
 namespace ridgeway::detail {
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr float kFar = std::numeric_limits<float>::infinity();
 
-/// What an entry of the queue says of its corner.
-enum class Step : std::uint8_t {
-  kFromStart,  ///< seen from the start, if that segment is free
-  kAlong,      ///< reached over edges
-  kToGoal,     ///< sees the goal, if that segment is free
+/// A corner that may be the first or the last of a route.
+struct Candidate {
+  VertexId corner;
+  float length;  ///< of the segment between it and the start, or the goal
+  bool is_seen = false;
 };
 
-struct TautEntry : OpenEntry {
-  Step step;
+/// The nearest way from a hub over one of the last corners to the goal.
+struct WayOn {
+  float length = kFar;
+  std::uint32_t last = 0;  ///< place among them
 };
 
-struct CornerState {
-  double cost = kFar;
-  double to_goal = kFar;  ///< length of the segment to the goal, where that is worth a look
-  VertexId from = kNoVertex;
-  bool closed = false;
+/// A route by the hub where its halves meet.
+struct Meeting {
+  float length = kFar;
+  std::size_t first = 0, last = 0;  ///< places among the candidates
+  std::uint32_t hub = 0;
 };
 
 class TautSearch {
  public:
-  TautSearch(const SparseGraph& graph, const Landmarks& landmarks, const FreeSpace& space,
+  TautSearch(const SparseGraph& graph, const HubLabels& hubs, const FreeSpace& space,
              const TautQuery& query)
       : graph_(graph),
-        landmarks_(landmarks),
+        hubs_(hubs),
         space_(space),
         query_(query),
-        states_(graph.vertices.size()) {
-    goal_lengths_.fill(kFar);
-    for (const VertexId v : query.seen_from_goal) {
-      const double length = (place_of(v) - query.goal).norm();
-      states_[number(v)].to_goal = length;
-      for (std::size_t k = 0; k < Landmarks::kCount; ++k)
-        goal_lengths_[k] = std::min(goal_lengths_[k], landmarks.lengths[number(v)][k] + length);
-    }
-    for (const VertexId v : query.seen_from_start)
-      push(v, (place_of(v) - query.start).norm(), Step::kFromStart);
-  }
+        first_(candidates(query.seen_from_start, query.start)),
+        last_(candidates(query.seen_from_goal, query.goal)),
+        on_(graph.vertices.size()) {}
 
   std::vector<VertexId> run() {
-    while (!open_.empty()) {
-      const TautEntry entry = open_.top();
-      open_.pop();
-      CornerState& state = states_[number(entry.vertex)];
-      if (entry.step == Step::kToGoal) {
-        if (space_.is_free(place_of(entry.vertex), query_.goal, query_.radius))
-          return route_to(entry.vertex, states_);
-        continue;
+    find_ways_on();
+    for (;;) {
+      const Meeting best = shortest();
+      if (best.length == kFar) return {};
+      if (!sees(first_[best.first], query_.start)) {
+        first_[best.first] = first_.back();
+        first_.pop_back();
+      } else if (!sees(last_[best.last], query_.goal)) {
+        forget_ways_on();
+        last_[best.last] = last_.back();
+        last_.pop_back();
+        find_ways_on();
+      } else {
+        return route_over(best);
       }
-      if (state.closed || entry.cost > state.cost) continue;
-      if (entry.step == Step::kFromStart) {
-        if (entry.cost == state.cost ||
-            !space_.is_free(query_.start, place_of(entry.vertex), query_.radius))
-          continue;
-        state.cost = entry.cost;
-        state.from = kNoVertex;
-      }
-      state.closed = true;
-      if (state.to_goal < kFar)
-        open_.push({{entry.cost + state.to_goal, entry.cost, entry.vertex}, Step::kToGoal});
-      leave(entry.vertex);
     }
-    return {};
   }
 
  private:
-  const Point& place_of(VertexId v) const { return graph_.vertices[number(v)].position; }
-
-  void leave(VertexId corner) {
-    const double cost = states_[number(corner)].cost;
-    for (const Link& link : graph_.links_of(corner)) {
-      const double next = cost + graph_.edges[number(link.edge)].length;
-      CornerState& state = states_[number(link.vertex)];
-      if (next >= state.cost) continue;
-      state.cost = next;
-      state.from = corner;
-      push(link.vertex, next, Step::kAlong);
-    }
+  std::vector<Candidate> candidates(std::span<const VertexId> corners, const Point& end) const {
+    std::vector<Candidate> result;
+    result.reserve(corners.size());
+    for (const VertexId v : corners)
+      result.push_back({v, static_cast<float>((place_of(v) - end).norm())});
+    return result;
   }
 
-  void push(VertexId v, double cost, Step step) {
-    double rest = (place_of(v) - query_.goal).norm();
-    const auto& lengths = landmarks_.lengths[number(v)];
-    for (std::size_t k = 0; k < Landmarks::kCount; ++k)
-      if (goal_lengths_[k] < kFar) rest = std::max(rest, goal_lengths_[k] - lengths[k]);
-    if (rest < kFar) open_.push({{cost + rest, cost, v}, step});
+  const Point& place_of(VertexId v) const { return graph_.vertices[number(v)].position; }
+
+  bool sees(Candidate& candidate, const Point& end) const {
+    candidate.is_seen =
+        candidate.is_seen || space_.is_free(end, place_of(candidate.corner), query_.radius);
+    return candidate.is_seen;
+  }
+
+  void find_ways_on() {
+    for (std::uint32_t i = 0; i < last_.size(); ++i)
+      for (const HubLabel& label : hubs_.of(last_[i].corner))
+        if (const float length = label.length + last_[i].length; length < on_[label.hub].length)
+          on_[label.hub] = {length, i};
+  }
+
+  void forget_ways_on() {
+    for (const Candidate& candidate : last_)
+      for (const HubLabel& label : hubs_.of(candidate.corner)) on_[label.hub] = {};
+  }
+
+  Meeting shortest() const {
+    Meeting best;
+    for (std::size_t i = 0; i < first_.size(); ++i)
+      for (const HubLabel& label : hubs_.of(first_[i].corner)) {
+        const float length = first_[i].length + label.length + on_[label.hub].length;
+        if (length < best.length) best = {length, i, on_[label.hub].last, label.hub};
+      }
+    return best;
+  }
+
+  std::vector<VertexId> route_over(const Meeting& meeting) const {
+    std::vector<VertexId> route = way_to_hub(hubs_, first_[meeting.first].corner, meeting.hub);
+    const std::vector<VertexId> back = way_to_hub(hubs_, last_[meeting.last].corner, meeting.hub);
+    route.insert(route.end(), back.rbegin() + 1, back.rend());
+    return route;
   }
 
   const SparseGraph& graph_;
-  const Landmarks& landmarks_;
+  const HubLabels& hubs_;
   const FreeSpace& space_;
   const TautQuery& query_;
-  std::vector<CornerState> states_;
-  std::array<double, Landmarks::kCount> goal_lengths_{};  ///< at least, from each landmark
-  std::priority_queue<TautEntry> open_;
+  std::vector<Candidate> first_, last_;
+  std::vector<WayOn> on_;  // by hub
 };
 
 }  // namespace
 
-std::vector<VertexId> search_taut(const SparseGraph& graph, const Landmarks& landmarks,
+std::vector<VertexId> search_taut(const SparseGraph& graph, const HubLabels& hubs,
                                   const FreeSpace& space, const TautQuery& query) {
   if (query.seen_from_start.empty() || query.seen_from_goal.empty()) return {};
-  return TautSearch(graph, landmarks, space, query).run();
+  return TautSearch(graph, hubs, space, query).run();
 }
 
 }  // namespace ridgeway::detail

@@ -18,10 +18,10 @@ struct TautQuery {
 };
 
 /// The corners of the shortest route from start to goal over the taut graph, every segment of it
-/// free at the radius. Empty where the graph has none, which says nothing about space. A* that
-/// looks along the segments from the start and to the goal only when they would be next (lazy PRM,
-/// Bohlin and Kavraki 2000).
-std::vector<VertexId> search_taut(const SparseGraph& graph, const Landmarks& landmarks,
+/// free at the radius. Empty where the graph has none, which says nothing about space. Looks
+/// along the segments from the start and to the goal only where a route over them would be the
+/// shortest (lazily, as Bohlin and Kavraki's PRM, 2000).
+std::vector<VertexId> search_taut(const SparseGraph& graph, const HubLabels& hubs,
                                   const FreeSpace& space, const TautQuery& query);
 
 }  // namespace ridgeway::detail

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "ridgeway/roadmap/graph_lengths.hpp"
+#include "ridgeway/roadmap/hub_labels.hpp"
 #include "ridgeway/roadmap/sparse_graph.hpp"
 #include "ridgeway/voxel/block_layout.hpp"
 
@@ -22,8 +22,8 @@ struct Roadmap;
 /// Phillips et al. 2012). It need not reach everywhere: what it does not know, the sparse graph
 /// does.
 struct TautGraph {
-  SparseGraph graph;    ///< its vertices are the corners; free at its min_clearance
-  Landmarks landmarks;  ///< of the graph; not in the file, placed when it is loaded
+  SparseGraph graph;  ///< its vertices are the corners; free at its min_clearance
+  HubLabels hubs;     ///< of the graph; not in the file, found when it is loaded
 
   /// Which corners are worth a look from a place, by cell: cells are cubes of 2 x 2 x 2 blocks.
   std::vector<std::uint32_t> cell_of_block;  ///< by slot; not in the file

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/roadmap/hub_labels.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <queue>
+
+namespace ridgeway {
+namespace {
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kRounding = 1e-12;
+constexpr std::size_t kSampledTrees = 32;  // that show through which vertices most ways pass
+
+/// Dijkstra from one vertex after the other, with memory taken once.
+class ShortestTrees {
+ public:
+  struct Node {
+    double length = kFar;
+    VertexId parent = kNoVertex;
+  };
+
+  explicit ShortestTrees(const SparseGraph& graph) : graph_(graph), nodes_(graph.vertices.size()) {}
+
+  /// Calls reach(vertex, node) for each vertex in the order of its length; goes on from it where
+  /// that returns true.
+  template <typename Reach>
+  void grow(VertexId root, const Reach& reach) {
+    for (const VertexId v : touched_) nodes_[number(v)] = {};
+    touched_.clear();
+    offer(root, 0.0, root);
+    while (!open_.empty()) {
+      const auto [length, vertex] = open_.top();
+      open_.pop();
+      if (length > nodes_[number(vertex)].length) continue;
+      if (!reach(vertex, nodes_[number(vertex)])) continue;
+      for (const Link& link : graph_.links_of(vertex))
+        offer(link.vertex, length + graph_.edges[number(link.edge)].length, vertex);
+    }
+  }
+
+ private:
+  void offer(VertexId v, double length, VertexId parent) {
+    Node& node = nodes_[number(v)];
+    if (length >= node.length) return;
+    if (node.length == kFar) touched_.push_back(v);
+    node = {length, parent};
+    open_.push({length, v});
+  }
+
+  const SparseGraph& graph_;
+  std::vector<Node> nodes_;
+  std::vector<VertexId> touched_;
+  using Entry = std::pair<double, VertexId>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open_;
+};
+
+/// A label in the making.
+struct Way {
+  std::uint32_t hub;
+  VertexId next;
+  double length;
+};
+
+/// All vertices, those first that most shortest ways from some of them pass.
+std::vector<VertexId> by_importance(const SparseGraph& graph, ShortestTrees& trees) {
+  const std::size_t count = graph.vertices.size();
+  std::vector<std::size_t> passed(count, 0), beyond(count);
+  const std::size_t step = std::max<std::size_t>(count / kSampledTrees, 1);
+  for (std::size_t root = 0; root < count; root += step) {
+    std::vector<std::pair<VertexId, VertexId>> tree;  // with parents, roots first
+    trees.grow(VertexId{static_cast<std::uint32_t>(root)}, [&](VertexId v, const auto& node) {
+      tree.emplace_back(v, node.parent);
+      return true;
+    });
+    std::fill(beyond.begin(), beyond.end(), 1);
+    std::reverse(tree.begin(), tree.end());
+    for (const auto& [v, parent] : tree) {
+      passed[number(v)] += beyond[number(v)];
+      if (parent != v) beyond[number(parent)] += beyond[number(v)];
+    }
+  }
+  std::vector<VertexId> order(count);
+  for (std::uint32_t v = 0; v < count; ++v) order[v] = VertexId{v};
+  std::stable_sort(order.begin(), order.end(),
+                   [&](VertexId a, VertexId b) { return passed[number(a)] > passed[number(b)]; });
+  return order;
+}
+
+}  // namespace
+
+HubLabels label_hubs(const SparseGraph& graph) {
+  ShortestTrees trees(graph);
+  const std::vector<VertexId> order = by_importance(graph, trees);
+  std::vector<std::vector<Way>> ways(order.size());
+  std::vector<double> to_root(order.size(), kFar);  // by hub
+  for (std::uint32_t hub = 0; hub < order.size(); ++hub) {
+    const VertexId root = order[hub];
+    for (const Way& way : ways[number(root)]) to_root[way.hub] = way.length;
+    trees.grow(root, [&](VertexId v, const auto& node) {
+      for (const Way& way : ways[number(v)])
+        if (way.length + to_root[way.hub] <= node.length * (1.0 + kRounding) && v != root)
+          return false;
+      ways[number(v)].push_back({hub, node.parent, node.length});
+      return true;
+    });
+    for (const Way& way : ways[number(root)]) to_root[way.hub] = kFar;
+  }
+  HubLabels hubs{{0}, {}, {}};
+  for (const std::vector<Way>& own : ways) {
+    for (const Way& way : own) {
+      hubs.labels.push_back({way.hub, static_cast<float>(way.length)});
+      hubs.next.push_back(way.next);
+    }
+    hubs.first.push_back(static_cast<std::uint32_t>(hubs.labels.size()));
+  }
+  return hubs;
+}
+
+std::vector<VertexId> way_to_hub(const HubLabels& hubs, VertexId from, std::uint32_t hub) {
+  std::vector<VertexId> way{from};
+  for (;;) {
+    const std::span<const HubLabel> labels = hubs.of(way.back());
+    const auto label = std::lower_bound(
+        labels.begin(), labels.end(), hub,
+        [](const HubLabel& own, std::uint32_t wanted) { return own.hub < wanted; });
+    const VertexId next = hubs.next[static_cast<std::size_t>(&*label - hubs.labels.data())];
+    if (next == way.back()) return way;
+    way.push_back(next);
+  }
+}
+
+}  // namespace ridgeway
