@@ -88,9 +88,9 @@ int run_one(const PlanOptions& options, const Roadmap& roadmap, const Globals& g
   const bool write = result.ok() && !options.output.empty();
   if (write) write_plan(result, options.output);
   if (globals.json) {
-    print_json(json_of(answer, query, reason));
+    print_json(json_of(roadmap.esdf, answer, query, reason));
   } else {
-    print_result(answer, query, reason);
+    print_result(roadmap.esdf, answer, query, reason);
     if (write)
       print_row("written to", options.output);
     else
@@ -111,7 +111,7 @@ int run_batch(const PlanOptions& options, const Roadmap& roadmap, const Globals&
     const std::string reason = explain(roadmap, query, result.status, options.file);
     solved += result.ok();
     if (globals.json)
-      results.push_back(json_of(answer, query, reason));
+      results.push_back(json_of(roadmap.esdf, answer, query, reason));
     else
       print_line(result, reason);
   }

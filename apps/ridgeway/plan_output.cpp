@@ -4,6 +4,7 @@
 
 #include "console.hpp"
 #include "ridgeway/io/path_io.hpp"
+#include "ridgeway/planning/unknown_share.hpp"
 
 namespace ridgeway::cli {
 
@@ -17,10 +18,14 @@ void print_escape(const std::string& end, const Escape& escape) {
 
 }  // namespace
 
-Json json_of(const Answer& answer, const Query& query, const std::string& reason) {
+Json json_of(const EsdfMap& esdf, const Answer& answer, const Query& query,
+             const std::string& reason) {
   Json json = Json::parse(plan_json(answer.plan));
   json["radius"] = query.radius;
-  if (!answer.plan.ok()) json["reason"] = reason;
+  if (answer.plan.ok())
+    json["unknown_share"] = unknown_share(esdf, answer.plan.waypoints);
+  else
+    json["reason"] = reason;
   if (!is_sampling(answer.plan.answered_by)) return json;
   json["iterations"] = answer.iterations;
   if (answer.plan.ok())
@@ -28,7 +33,8 @@ Json json_of(const Answer& answer, const Query& query, const std::string& reason
   return json;
 }
 
-void print_result(const Answer& answer, const Query& query, const std::string& reason) {
+void print_result(const EsdfMap& esdf, const Answer& answer, const Query& query,
+                  const std::string& reason) {
   const PlanResult& result = answer.plan;
   if (!result.ok()) {
     print_row("no path", std::string(name_of(result.status)));
@@ -42,7 +48,8 @@ void print_result(const Answer& answer, const Query& query, const std::string& r
             text_of(result.clearance) + " m, robot radius " + text_of(query.radius) + " m");
   print_escape("start", result.escape_start);
   print_escape("goal", result.escape_goal);
-  print_row("beside unknown", text_of(100.0 * result.unknown_share, 0) + " % of the length");
+  print_row("beside unknown",
+            text_of(100.0 * unknown_share(esdf, result.waypoints), 0) + " % of the length");
   print_row("time", seconds_text(s.total) + " (attach " + seconds_text(s.attach) + ", search " +
                         seconds_text(s.search) + ", shorten " + seconds_text(s.shorten) + ")");
   if (is_sampling(result.answered_by))

@@ -16,8 +16,10 @@ using Json = nlohmann::ordered_json;
 using Answer = SamplingResult;
 
 /// `reason`: why there is no path.
-Json json_of(const Answer& answer, const Query& query, const std::string& reason);
-void print_result(const Answer& answer, const Query& query, const std::string& reason);
+Json json_of(const EsdfMap& esdf, const Answer& answer, const Query& query,
+             const std::string& reason);
+void print_result(const EsdfMap& esdf, const Answer& answer, const Query& query,
+                  const std::string& reason);
 /// One of several plans in a line.
 void print_line(const PlanResult& result, const std::string& reason);
 

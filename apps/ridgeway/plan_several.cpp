@@ -39,7 +39,7 @@ int run_alternatives(const PlanOptions& options, const Roadmap& roadmap, const G
                  {"routes", Json::array()}};
     if (!found.ok()) json["reason"] = reason;
     for (const PlanResult& route : found.routes)
-      json["routes"].push_back(json_of({.plan = route}, query, {}));
+      json["routes"].push_back(json_of(roadmap.esdf, {.plan = route}, query, {}));
     print_json(json);
     return found.ok() ? kExitDone : kExitNoPlan;
   }
@@ -69,7 +69,7 @@ int run_goals(const PlanOptions& options, const Roadmap& roadmap, const Globals&
     const std::string reason = explain(roadmap, query, plan.status, options.file);
     solved += plan.ok();
     if (globals.json) {
-      results.push_back(json_of({.plan = plan}, query, reason));
+      results.push_back(json_of(roadmap.esdf, {.plan = plan}, query, reason));
       results.back()["distance"] = plans[i].distance;
     } else {
       print_line(plan, reason);
@@ -93,7 +93,7 @@ int run_nearest(const PlanOptions& options, const Roadmap& roadmap, const Global
   const bool write = plan.ok() && !options.output.empty();
   if (write) write_plan(plan, options.output);
   if (globals.json) {
-    Json json = json_of({.plan = plan}, query, reason);
+    Json json = json_of(roadmap.esdf, {.plan = plan}, query, reason);
     json["goal"] = nearest.goal ? Json(*nearest.goal) : Json(nullptr);
     json["goals"] = Json::array();
     for (const auto& status : nearest.statuses)
@@ -101,7 +101,7 @@ int run_nearest(const PlanOptions& options, const Roadmap& roadmap, const Global
     print_json(json);
   } else {
     if (plan.ok()) print_row("nearest", point_text(query.goal));
-    print_result({.plan = plan}, query, reason);
+    print_result(roadmap.esdf, {.plan = plan}, query, reason);
     if (write)
       print_row("written to", options.output);
     else

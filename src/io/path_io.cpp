@@ -129,7 +129,6 @@ std::string plan_json(const PlanResult& result) {
   };
   add_escape("escape_start", result.escape_start);
   add_escape("escape_goal", result.escape_goal);
-  json["unknown_share"] = result.unknown_share;
   json["waypoints"] = Json::array();
   for (const Point& p : result.waypoints) json["waypoints"].push_back({p.x(), p.y(), p.z()});
   json["seconds"] = {{"attach", result.seconds.attach},

@@ -13,8 +13,7 @@ constexpr int kRounds = 6;
 constexpr int kBisections = 4;
 constexpr int kCheapBisections = 6;
 constexpr double kRounding = 1e-9;
-constexpr double kWorthwhile = 1e-3;  // of the path's length: what a move must gain
-constexpr double kStep = 8.0;         // metres between the places that skipping may choose from
+constexpr double kStep = 8.0;  // metres between the places that skipping may choose from
 
 /// Skips waypoints: from each one goes on to the farthest that can be seen, found by doubling
 /// the stride and then halving it.
@@ -93,25 +92,31 @@ double largest_free_share(const MayBeFree& may_be_free, const IsWorthIt& is_wort
 class Tightening {
  public:
   Tightening(const FreeSpace& space, const std::vector<Point>& path, double radius,
-             const MayReplace& may_replace)
-      : space_(space), radius_(radius), may_replace_(may_replace) {
-    for (const Point& p : path) corners_.push_back(corner_at(p));
-    least_gain_ = kWorthwhile * length_of(path);
+             const MayReplace& may_replace, const DrawingIn& drawing)
+      : space_(space),
+        radius_(radius),
+        may_replace_(may_replace),
+        least_gain_(drawing.worthwhile * length_of(path)) {
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      const bool is_settled = drawing.settled_first < i && i < drawing.settled_last;
+      corners_.push_back({.at = path[i], .is_settled = is_settled, .moved = !is_settled});
+    }
   }
 
-  /// Tries every corner that moved, or has a neighbour that did, and in the first rounds all of
-  /// them: whether it can go, or else one of three moves, by the round. Whether to go on.
+  /// Tries every corner that moved, or has a neighbour that did, and in the first rounds all that
+  /// are not settled: whether it can go, or else one of three moves, by the round. Whether to go
+  /// on.
   bool run_round(int round) {
-    const bool all = round < kMoves;
     bool was_worth_it = round + 1 < kMoves;
     for (std::size_t i = 1; i + 1 < corners_.size();) {
-      const bool may_go = round == 0 || corners_[i - 1].moved || corners_[i + 1].moved;
+      const bool is_new = round < kMoves && !corners_[i].is_settled;
+      const bool may_go = (round == 0 && is_new) || corners_[i - 1].moved || corners_[i + 1].moved;
       if (may_go && can_go(i)) {
         erase(i);
         was_worth_it = true;
         continue;
       }
-      const bool is_due = all || may_go || corners_[i].moved;
+      const bool is_due = is_new || may_go || corners_[i].moved;
       if (!is_due || most_gain(i) <= least_gain_) {
         corners_[i].moved = false;
         ++i;
@@ -140,11 +145,18 @@ class Tightening {
 
   struct Corner {
     Point at;
-    std::optional<Point> obstacle;  ///< a point of the one nearest to it
-    bool moved = true;              ///< since it was last tried
+    bool is_settled = false;
+    bool moved = true;                ///< since it was last tried
+    bool has_looked = false;          ///< for the obstacle
+    std::optional<Point> obstacle{};  ///< a point of the one nearest to it
   };
 
-  Corner corner_at(const Point& p) const { return {p, space_.near_obstacle(p)}; }
+  const std::optional<Point>& obstacle_near(std::size_t i) {
+    Corner& corner = corners_[i];
+    if (!corner.has_looked) corner.obstacle = space_.near_obstacle(corner.at);
+    corner.has_looked = true;
+    return corner.obstacle;
+  }
 
   double length_over(std::size_t i, const Point& p) const {
     return (p - corners_[i - 1].at).norm() + (corners_[i + 1].at - p).norm();
@@ -156,11 +168,11 @@ class Tightening {
   }
 
   /// False where the segment passes one of the obstacles around a corner too closely.
-  bool may_be_free(std::size_t i, const Point& a, const Point& b) const {
+  bool may_be_free(std::size_t i, const Point& a, const Point& b) {
     for (std::size_t k = i - 1; k <= i + 1; ++k)
-      if (corners_[k].obstacle &&
-          (nearest_on_segment(*corners_[k].obstacle, a, b) - *corners_[k].obstacle).squaredNorm() <
-              radius_ * radius_ * (1.0 - kRounding))
+      if (const std::optional<Point>& obstacle = obstacle_near(k);
+          obstacle && (nearest_on_segment(*obstacle, a, b) - *obstacle).squaredNorm() <
+                          radius_ * radius_ * (1.0 - kRounding))
         return false;
     return true;
   }
@@ -172,7 +184,7 @@ class Tightening {
     return may_replace_(old, std::array{old.front(), p..., old.back()});
   }
 
-  bool can_go(std::size_t i) const {
+  bool can_go(std::size_t i) {
     const Point &before = corners_[i - 1].at, &after = corners_[i + 1].at;
     return may_be_free(i, before, after) && space_.is_free(before, after, radius_) && may_become(i);
   }
@@ -199,7 +211,7 @@ class Tightening {
     };
     try_towards(corners_[i - 1].at, corners_[i + 1].at);
     try_towards(corners_[i + 1].at, corners_[i - 1].at);
-    if (best != old) corners_[i] = corner_at(best);
+    if (best != old) corners_[i] = {best};
   }
 
   /// Moves a corner towards the line between its neighbours, as far as it stays free.
@@ -216,7 +228,7 @@ class Tightening {
           return space_.is_clearly_free(before, place(s), radius_) &&
                  space_.is_clearly_free(place(s), after, radius_) && may_become(i, place(s));
         });
-    if (share > 0.0) corners_[i] = corner_at(place(share));
+    if (share > 0.0) corners_[i] = {place(share)};
   }
 
   /// Takes a corner off, between the places farthest from it, by equal shares of its two segments,
@@ -233,22 +245,21 @@ class Tightening {
                              return space_.is_clearly_free(p, q, radius_) && may_become(i, p, q);
                            });
     if (share * saved <= least_gain_) return false;
-    corners_[i] = corner_at(at + share * back);
-    corners_.insert(corners_.begin() + static_cast<std::ptrdiff_t>(i + 1),
-                    corner_at(at + share * on));
+    corners_[i] = {at + share * back};
+    corners_.insert(corners_.begin() + static_cast<std::ptrdiff_t>(i + 1), Corner{at + share * on});
     return true;
   }
 
   const FreeSpace& space_;
   const double radius_;
   const MayReplace& may_replace_;
-  double least_gain_ = 0.0;  ///< metres; moves that gain less are not tried
+  const double least_gain_;  ///< metres; moves that gain less are not tried
   std::vector<Corner> corners_;
 };
 
 }  // namespace
 
-double length_of(const std::vector<Point>& path) {
+double length_of(std::span<const Point> path) {
   double length = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
   return length;
@@ -266,8 +277,8 @@ std::vector<Point> skip_waypoints(const FreeSpace& space, std::vector<Point> pat
 
 std::vector<Point> draw_corners_in(const FreeSpace& space, const std::vector<Point>& path,
                                    double radius, const Deadline& deadline,
-                                   const MayReplace& may_replace) {
-  Tightening tightening(space, path, radius, may_replace);
+                                   const MayReplace& may_replace, const DrawingIn& drawing) {
+  Tightening tightening(space, path, radius, may_replace, drawing);
   for (int round = 0; round < kRounds && !deadline.has_passed(); ++round)
     if (!tightening.run_round(round)) break;
   return tightening.path();

@@ -11,7 +11,7 @@
 
 namespace ridgeway::detail {
 
-double length_of(const std::vector<Point>& path);
+double length_of(std::span<const Point> path);
 
 /// Whether a stretch of a path may become another with the same ends; null: any may.
 using MayReplace = std::function<bool(std::span<const Point>, std::span<const Point>)>;
@@ -26,10 +26,18 @@ std::vector<Point> shorten(const FreeSpace& space, std::vector<Point> path, doub
 std::vector<Point> skip_waypoints(const FreeSpace& space, std::vector<Point> path, double radius,
                                   const MayReplace& may_replace = {});
 
+/// How closely corners are drawn in.
+struct DrawingIn {
+  double worthwhile = 2e-3;  ///< of the path's length: what a move must gain
+  /// Waypoints between which the path is tight: those inside are tried only once others move.
+  std::size_t settled_first = 0, settled_last = 0;
+};
+
 /// Its second half: moves each corner along its segments and towards the line between its
 /// neighbours as far as they stay free, until that gains next to nothing.
 std::vector<Point> draw_corners_in(const FreeSpace& space, const std::vector<Point>& path,
                                    double radius, const Deadline& deadline,
-                                   const MayReplace& may_replace = {});
+                                   const MayReplace& may_replace = {},
+                                   const DrawingIn& drawing = {});
 
 }  // namespace ridgeway::detail

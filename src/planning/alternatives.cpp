@@ -94,7 +94,7 @@ class DistinctRoutes {
 };
 
 /// Pulled tight without leaving its class.
-PlanResult tighten(const EsdfMap& esdf, const FreeSpace& space, detail::Route route, double radius,
+PlanResult tighten(const FreeSpace& space, detail::Route route, double radius,
                    const Deadline& deadline) {
   const auto stays_in_class = [&](std::span<const Point> before, std::span<const Point> after) {
     return detail::deforms_into(space, before, after, radius);
@@ -104,7 +104,7 @@ PlanResult tighten(const EsdfMap& esdf, const FreeSpace& space, detail::Route ro
   PlanResult result;
   result.status = PlanStatus::kOk;
   result.waypoints = std::move(route);
-  detail::describe(esdf, space, {}, result);
+  detail::describe(space, {}, result);
   return result;
 }
 
@@ -133,7 +133,7 @@ Alternatives plan_alternatives(const Roadmap& roadmap, const Point& start, const
     std::optional<detail::Route> route;
     while ((route = others.next()) && routes.may_use(detail::length_of(*route), count)) {
       if (routes.know(*route)) continue;
-      PlanResult tight = tighten(esdf, space, std::move(*route), radius, deadline);
+      PlanResult tight = tighten(space, std::move(*route), radius, deadline);
       if (!meets_itself(tight.waypoints, radius) && detail::is_verified(esdf, space, tight, radius))
         routes.add(std::move(tight));
     }

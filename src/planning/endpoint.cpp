@@ -31,6 +31,9 @@ Endpoint find_endpoint(const EsdfMap& esdf, const Point& point, double radius) {
                                                  : EndpointStatus::kOutsideMap,
             kNoVoxel};
   if (esdf.state[home] == VoxelState::kUnknown) return {EndpointStatus::kUnknown, kNoVoxel};
+  const double off = (point - centre_of(voxel, esdf.voxel_size)).norm();
+  if (esdf.state[home] == VoxelState::kFree && esdf.distance(home) - off >= radius)
+    return {EndpointStatus::kOk, home};  // in the ball that is free around the centre
   const FreeSpace space(esdf);
   if (!space.is_free(point, radius)) return {EndpointStatus::kInCollision, kNoVoxel};
 

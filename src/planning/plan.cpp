@@ -95,7 +95,7 @@ PlanResult plan_between(const Roadmap& roadmap, const Point& start, const Point&
       space.is_free(start, goal, radius)) {  // nothing is shorter
     result.answered_by = config.planner;
     result.waypoints = {start, goal};
-    detail::describe(esdf, space, {}, result);
+    detail::describe(space, {}, result);
     return finish(PlanStatus::kOk);
   }
   const detail::RouteQuery query{ends.from, ends.to, start, goal, radius, config.prefer_clearance};
@@ -103,13 +103,13 @@ PlanResult plan_between(const Roadmap& roadmap, const Point& start, const Point&
                             radius <= roadmap.taut.graph.min_clearance * (1.0 + 1e-9);
   detail::TautPath taut;
   if (may_ask_taut)
-    taut = detail::plan_taut(roadmap.taut, esdf, space, query,
+    taut = detail::plan_taut(roadmap.taut, space, query,
                              config.quick && config.prefer_clearance == 0.0, deadline);
   result.seconds.search = taut.search_seconds;
   result.seconds.shorten = taut.shorten_seconds;
   if (taut.will_do && config.prefer_clearance == 0.0) {
     result.waypoints = taut.waypoints;
-    detail::describe(esdf, space, taut.known, result);
+    detail::describe(space, taut.known, result);
     if (detail::is_verified(esdf, space, result, radius)) return finish(PlanStatus::kOk);
   }
   detail::RouteResult found = detail::find_route(roadmap, query, config.planner, deadline);
@@ -128,12 +128,12 @@ PlanResult plan_between(const Roadmap& roadmap, const Point& start, const Point&
                                       : found.route;
   }
   result.seconds.shorten += seconds_now() - shortening;
-  detail::describe(esdf, space, config.shorten ? KnownStretch{} : found.known, result);
+  detail::describe(space, config.shorten ? KnownStretch{} : found.known, result);
   if (detail::is_verified(esdf, space, result, radius)) return finish(PlanStatus::kOk);
   // What the search found holds move by move, whatever became of it since.
   result.waypoints = std::move(found.route);
   if (!result.waypoints.empty()) {
-    detail::describe(esdf, space, found.known, result);
+    detail::describe(space, found.known, result);
     if (detail::is_verified(esdf, space, result, radius)) return finish(PlanStatus::kOk);
   }
   result.waypoints.clear();
@@ -169,7 +169,7 @@ PlanResult plan_with_escapes(const Roadmap& roadmap, const Point& start, const P
       result.escape_goal = {(*to - goal).norm(), space.clearance(goal, *to)};
     }
     const double clearance = result.clearance;
-    detail::describe(esdf, space, {}, result);
+    detail::describe(space, {}, result);
     result.clearance = clearance;
   }
   result.seconds.total = seconds_now() - began;

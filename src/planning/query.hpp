@@ -29,9 +29,8 @@ struct KnownStretch {
   double clearance = std::numeric_limits<double>::infinity();  ///< smallest, metres
 };
 
-/// Length, clearance and the share that borders the unknown, of the result's waypoints.
-void describe(const EsdfMap& esdf, const FreeSpace& space, const KnownStretch& known,
-              PlanResult& result);
+/// Length and clearance of the result's waypoints.
+void describe(const FreeSpace& space, const KnownStretch& known, PlanResult& result);
 
 /// No path leaves unverified: its clearance, measured along every segment (along the graph's edges
 /// when they were made or loaded), must be the radius, and where unknown space is no obstacle it

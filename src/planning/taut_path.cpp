@@ -3,76 +3,75 @@
 #include "taut_path.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <span>
 
 #include "../paths/shorten.hpp"
 #include "../roadmap/graph_search.hpp"
 #include "../roadmap/taut_search.hpp"
-#include "detour.hpp"
 
 namespace ridgeway::detail {
 namespace {
 
+constexpr double kWorthwhile = 1e-2;      // of a route's length: what a corner's move must gain
 constexpr double kHardly = 1.03;          // shorter by less
 constexpr double kNearlyStraight = 1.03;  // longer than the straight line by less
-constexpr int kDetourCorners = 2;
-constexpr double kWinding = 1.5;  // by more: there is no way straight past what blocks it
 
-/// Waypoints of a route over corners, and what is known of it.
-TautPath path_over(const SparseGraph& graph, const RouteQuery& query,
-                   const std::vector<VertexId>& corners) {
-  TautPath path;
-  path.waypoints.push_back(query.start);
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    path.waypoints.push_back(graph.vertices[number(corners[i])].position);
-    if (i == 0) continue;
+double clearance_over(const SparseGraph& graph, std::span<const VertexId> corners) {
+  double clearance = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < corners.size(); ++i) {
     const EdgeId edge = edge_between(graph, corners[i - 1], corners[i]);
-    path.known.clearance = std::min(path.known.clearance, graph.edges[number(edge)].clearance);
+    clearance = std::min(clearance, graph.edges[number(edge)].clearance);
   }
-  path.waypoints.push_back(query.goal);
-  path.known.first = 1;
-  path.known.last = corners.size();
-  return path;
+  return clearance;
 }
 
-/// Moves its corners, and looks past what blocks the straight line where it is not much longer.
-void pull_tight(const EsdfMap& esdf, const FreeSpace& space, const RouteQuery& query,
-                const Deadline& deadline, TautPath& path) {
-  const double as_found = length_of(path.waypoints);
-  const double straight = (query.goal - query.start).norm();
-  Route tight = draw_corners_in(space, path.waypoints, query.radius, deadline);
-  path.will_do = as_found <= kHardly * length_of(tight);
-  if (const double length = length_of(tight);
-      length > kNearlyStraight * straight && length < kWinding * straight) {
-    const Detour past =
-        find_detour(esdf, space, query.start, query.goal, query.radius, length, kDetourCorners);
-    if (past.found()) {
-      tight.assign({query.start});
-      tight.insert(tight.end(), past.corners.begin(), past.corners.end());
-      tight.push_back(query.goal);
-      tight = draw_corners_in(space, tight, query.radius, deadline);
+/// The first run of waypoints that are those corners still.
+KnownStretch known_part(const SparseGraph& graph, const Route& path,
+                        const std::vector<VertexId>& corners) {
+  const auto is_at = [&](std::size_t waypoint, std::size_t corner) {
+    return path[waypoint] == graph.vertices[number(corners[corner])].position;
+  };
+  for (std::size_t i = 1; i + 1 < path.size(); ++i)
+    for (std::size_t first = 0; first < corners.size(); ++first) {
+      if (!is_at(i, first)) continue;
+      std::size_t count = 1;
+      while (i + count + 1 < path.size() && first + count < corners.size() &&
+             is_at(i + count, first + count))
+        ++count;
+      return {i, i + count - 1, clearance_over(graph, std::span(corners).subspan(first, count))};
     }
-    tight = redirect(esdf, space, std::move(tight), query.radius, deadline);
-  }
-  path.will_do |= length_of(tight) <= kNearlyStraight * straight;
-  if (tight != path.waypoints) path.known = {};
-  path.waypoints = std::move(tight);
+  return {};
 }
 
 }  // namespace
 
-TautPath plan_taut(const TautGraph& taut, const EsdfMap& esdf, const FreeSpace& space,
-                   const RouteQuery& query, bool as_it_is, const Deadline& deadline) {
+TautPath plan_taut(const TautGraph& taut, const FreeSpace& space, const RouteQuery& query,
+                   bool as_it_is, const Deadline& deadline) {
   const double began = seconds_now();
   const std::vector<VertexId> corners =
-      search_taut(taut.graph, taut.landmarks, space,
+      search_taut(taut.graph, taut.hubs, space,
                   {query.start, query.goal, query.radius, taut.seen_from(query.from),
                    taut.seen_from(query.to)});
   const double found = seconds_now();
   TautPath path;
-  if (!corners.empty()) path = path_over(taut.graph, query, corners);
-  path.will_do = as_it_is && !corners.empty();
-  if (!corners.empty() && !as_it_is) pull_tight(esdf, space, query, deadline, path);
   path.search_seconds = found - began;
+  if (corners.empty()) return path;
+  path.waypoints.push_back(query.start);
+  for (const VertexId v : corners)
+    path.waypoints.push_back(taut.graph.vertices[number(v)].position);
+  path.waypoints.push_back(query.goal);
+  path.will_do = as_it_is;
+  if (!as_it_is) {
+    const double as_found = length_of(path.waypoints);
+    // Between corners it is as tight as the paths that they were learnt from.
+    path.waypoints = draw_corners_in(space, path.waypoints, query.radius, deadline, {},
+                                     {kWorthwhile, 1, corners.size()});
+    const double tight = length_of(path.waypoints);
+    path.will_do =
+        as_found <= kHardly * tight || tight <= kNearlyStraight * (query.goal - query.start).norm();
+  }
+  path.known = known_part(taut.graph, path.waypoints, corners);
   path.shorten_seconds = seconds_now() - found;
   return path;
 }

@@ -16,11 +16,10 @@
 namespace ridgeway::detail {
 namespace {
 
-constexpr double kNearlyStraight = 1.03;  // over the straight line: not worth a detour
-constexpr double kStraightEnough = 1.05;  // nor another route
+constexpr double kNearlyStraight =
+    1.03;  // over the straight line: not worth a detour, nor another route
 constexpr double kMostlyDrawnInTo = 0.9;  // of its length when waypoints are skipped
 constexpr double kSuspicious = 1.15;      // over the straight line: worth a second opinion
-constexpr double kVerySuspicious = 1.25;  // worth a finer one
 constexpr double kQuickWeight = 1.2;      // of those searches' heuristic
 constexpr int kQuickExpansions = 3000;    // less than two milliseconds
 constexpr double kLeastInVain = 60.0;     // they give up after so many in a pocket, at least,
@@ -77,8 +76,7 @@ Route ask_again(const EsdfMap& esdf, const FreeSpace& space, Route best, double 
   const double straight = (best.back() - best.front()).norm();
   for (const int stride : {2, 1}) {  // the coarse one is quick, the fine one fits narrow places
     const double shortest = length_of(best);
-    const double suspicious = stride == 2 ? kSuspicious : kVerySuspicious;
-    if (shortest <= suspicious * straight || deadline.has_passed()) break;
+    if (shortest <= kSuspicious * straight || deadline.has_passed()) break;
     const double in_vain = std::max(kInVain * (as_found / shortest - 1.0), kLeastInVain);
     const int most_in_vain = static_cast<int>(std::min<double>(in_vain, kQuickExpansions));
     Route other = search_quickly(esdf, space, best.front(), best.back(), radius, stride, shortest,
@@ -120,7 +118,8 @@ Route cheapest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found,
   return best;
 }
 
-/// The shortest of the route found and its alternatives, each pulled tight.
+/// The shortest of the route found and its alternatives, each pulled tight, up to the first that
+/// is no shorter: few are after that.
 Route best_of_alternatives(const FreeSpace& space, RouteResult& found, double radius, double enough,
                            const Deadline& deadline) {
   Route best = shorten(space, found.route, radius, deadline);
@@ -129,10 +128,10 @@ Route best_of_alternatives(const FreeSpace& space, RouteResult& found, double ra
     std::optional<Route> route = found.next_alternative();
     if (!route) break;
     Route candidate = skip_waypoints(space, std::move(*route), radius);
-    if (length_of(candidate) * kMostlyDrawnInTo > shortest) continue;
+    if (length_of(candidate) * kMostlyDrawnInTo > shortest) break;
     candidate = draw_corners_in(space, candidate, radius, deadline);
     const double length = length_of(candidate);
-    if (length >= shortest) continue;
+    if (length >= shortest) break;
     shortest = length;
     best = std::move(candidate);
   }

@@ -136,7 +136,7 @@ SamplingResult plan_by_sampling(const EsdfMap& esdf, const Point& start, const P
   }
   const auto accept = [&](std::vector<Point> waypoints) {
     plan.waypoints = std::move(waypoints);
-    detail::describe(esdf, space, {}, plan);
+    detail::describe(space, {}, plan);
     return detail::is_verified(esdf, space, plan, config.radius);
   };
   if (config.shorten) {

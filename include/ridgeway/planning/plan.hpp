@@ -96,7 +96,6 @@ struct PlanResult {
   double clearance = 0.0;        ///< smallest distance to an obstacle along the path, metres,
                                  ///< without its escapes
   Escape escape_start, escape_goal;
-  double unknown_share = 0.0;  ///< share of the length whose nearest obstacle is unknown space
   PlanSeconds seconds;
 
   bool ok() const { return status == PlanStatus::kOk; }
