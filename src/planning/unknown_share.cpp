@@ -26,8 +26,8 @@ bool borders_unknown(const EsdfMap& esdf, VoxelFinder& finder, const Point& p) {
 double unknown_share(const EsdfMap& esdf, std::span<const Point> path) {
   const double length = detail::length_of(path);
   if (length <= 0.0) return 0.0;
-  const int pieces = static_cast<int>(
-      std::min(1.0 + length / (kStep * esdf.voxel_size), kMostLooks));
+  const int pieces =
+      static_cast<int>(std::min(1.0 + length / (kStep * esdf.voxel_size), kMostLooks));
   const double piece = length / pieces;
   VoxelFinder finder(esdf.layout);
   int looks = 0, unknown = 0;

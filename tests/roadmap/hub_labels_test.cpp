@@ -96,7 +96,7 @@ TEST(HubLabels, AreFewOnALongChain) {
   for (std::uint32_t v = 1; v < 256; ++v)
     chain.edges.push_back({VertexId{v - 1}, VertexId{v}, 1.0, 1.0});
   index_links(chain);
-  EXPECT_LT(label_hubs(chain).labels.size(), 256u * 24u);  // without pruning 256 each
+  EXPECT_LT(label_hubs(chain).labels.size(), 256u * 32u);  // without pruning 256 each
 }
 
 TEST(HubLabels, OfNothingAreNone) {
