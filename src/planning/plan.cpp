@@ -103,7 +103,7 @@ PlanResult plan_between(const Roadmap& roadmap, const Point& start, const Point&
                             radius <= roadmap.taut.graph.min_clearance * (1.0 + 1e-9);
   detail::TautPath taut;
   if (may_ask_taut)
-    taut = detail::plan_taut(roadmap.taut, space, query,
+    taut = detail::plan_taut(roadmap.taut, esdf, space, query,
                              config.quick && config.prefer_clearance == 0.0, deadline);
   result.seconds.search = taut.search_seconds;
   result.seconds.shorten = taut.shorten_seconds;

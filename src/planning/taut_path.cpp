@@ -9,6 +9,7 @@
 #include "../paths/shorten.hpp"
 #include "../roadmap/graph_search.hpp"
 #include "../roadmap/taut_search.hpp"
+#include "detour.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -16,6 +17,8 @@ namespace {
 constexpr double kWorthwhile = 1e-2;      // of a route's length: what a corner's move must gain
 constexpr double kHardly = 1.03;          // shorter by less
 constexpr double kNearlyStraight = 1.03;  // longer than the straight line by less
+constexpr double kWinding = 1.25;         // by more: there is no way straight past what blocks it
+constexpr int kDetourCorners = 2;
 
 double clearance_over(const SparseGraph& graph, std::span<const VertexId> corners) {
   double clearance = std::numeric_limits<double>::infinity();
@@ -44,10 +47,24 @@ KnownStretch known_part(const SparseGraph& graph, const Route& path,
   return {};
 }
 
+/// Goes straight past what blocks the straight line where that is shorter.
+void look_past_what_blocks(const EsdfMap& esdf, const FreeSpace& space, const RouteQuery& query,
+                           const Deadline& deadline, Route& path) {
+  const double length = length_of(path), straight = (query.goal - query.start).norm();
+  if (length <= kNearlyStraight * straight || length >= kWinding * straight) return;
+  const Detour past =
+      find_detour(esdf, space, query.start, query.goal, query.radius, length, kDetourCorners);
+  if (!past.found()) return;
+  path.assign({query.start});
+  path.insert(path.end(), past.corners.begin(), past.corners.end());
+  path.push_back(query.goal);
+  path = draw_corners_in(space, path, query.radius, deadline);
+}
+
 }  // namespace
 
-TautPath plan_taut(const TautGraph& taut, const FreeSpace& space, const RouteQuery& query,
-                   bool as_it_is, const Deadline& deadline) {
+TautPath plan_taut(const TautGraph& taut, const EsdfMap& esdf, const FreeSpace& space,
+                   const RouteQuery& query, bool as_it_is, const Deadline& deadline) {
   const double began = seconds_now();
   const std::vector<VertexId> corners =
       search_taut(taut.graph, taut.hubs, space,
@@ -67,6 +84,7 @@ TautPath plan_taut(const TautGraph& taut, const FreeSpace& space, const RouteQue
     // Between corners it is as tight as the paths that they were learnt from.
     path.waypoints = draw_corners_in(space, path.waypoints, query.radius, deadline, {},
                                      {kWorthwhile, 1, corners.size()});
+    look_past_what_blocks(esdf, space, query, deadline, path.waypoints);
     const double tight = length_of(path.waypoints);
     path.will_do =
         as_found <= kHardly * tight || tight <= kNearlyStraight * (query.goal - query.start).norm();

@@ -15,7 +15,7 @@ struct TautPath {
                          ///< place, and a search is not likely to find anything shorter
   double search_seconds = 0.0, shorten_seconds = 0.0;
 };
-TautPath plan_taut(const TautGraph& taut, const FreeSpace& space, const RouteQuery& query,
-                   bool as_it_is, const Deadline& deadline);
+TautPath plan_taut(const TautGraph& taut, const EsdfMap& esdf, const FreeSpace& space,
+                   const RouteQuery& query, bool as_it_is, const Deadline& deadline);
 
 }  // namespace ridgeway::detail
