@@ -180,6 +180,9 @@ Defect find_size_defect(const Roadmap& roadmap) {
     return RoadmapDefect{"tree", "does not fit the number of vertices"};
   }
   const TautGraph& taut = roadmap.taut;
+  if (taut.graph.vertices.size() > TautGraph::kMostCorners) {
+    return RoadmapDefect{"corners", "has more of them than are learnt"};
+  }
   const bool has_cells = !taut.first_seen.empty();
   if (has_cells == taut.graph.vertices.empty() ||
       (has_cells &&

@@ -70,14 +70,14 @@ class Learning {
     std::size_t more = kFirstPairs;
     while (pairs_ + more + kAskedPairs <= most_pairs) {
       learn(sample(more));
-      link();
+      if (!link()) break;
       const std::vector<SampledPath> unseen = sample(kAskedPairs);
       const double known = share_known(unseen);
       if (known < kHopeless) break;
       learn(unseen);
       more = pairs_;
       if (known < kKnown) continue;
-      link();
+      if (!link()) break;
       list_seen();
       return std::move(taut_);
     }
@@ -94,11 +94,14 @@ class Learning {
     for (const SampledPath& path : paths) merging_.add(path);
   }
 
-  void link() {
+  /// False where there are too many.
+  bool link() {
     const MergedCorners merged = merging_.merged();
     corners_ = detail::corners_of(roadmap_, merged);
+    if (corners_.size() > TautGraph::kMostCorners) return false;
     taut_.graph = detail::link_corners(roadmap_, merged, corners_);
     taut_.hubs = label_hubs(taut_.graph);
+    return true;
   }
 
   /// Of the shorter paths between two places, the share for which there is a route about as short.

@@ -22,6 +22,9 @@ struct Roadmap;
 /// Phillips et al. 2012). It need not reach everywhere: what it does not know, the sparse graph
 /// does.
 struct TautGraph {
+  /// More are not learnt: hub labels grow with their square, in the worst case.
+  static constexpr std::size_t kMostCorners = 8192;
+
   SparseGraph graph;  ///< its vertices are the corners; free at its min_clearance
   HubLabels hubs;     ///< of the graph; not in the file, found when it is loaded
 
