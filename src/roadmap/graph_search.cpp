@@ -6,10 +6,18 @@
 #include <limits>
 #include <queue>
 
-#include "best_first.hpp"
-
 namespace ridgeway::detail {
 namespace {
+
+/// A vertex to go on from.
+struct OpenEntry {
+  double estimate;  ///< cost, and what is left at least
+  double cost;
+  VertexId vertex;
+  bool operator<(const OpenEntry& other) const {  // the queue's top is the best
+    return estimate != other.estimate ? estimate > other.estimate : vertex > other.vertex;
+  }
+};
 
 struct VertexState {
   double cost = std::numeric_limits<double>::infinity();
@@ -37,7 +45,7 @@ class GraphSearch {
       const auto [estimate, cost, vertex] = open_.top();
       open_.pop();
       if (cost > states_[number(vertex)].cost) continue;  // reached for less since
-      if (vertex == goal_) return route_to(goal_, states_);
+      if (vertex == goal_) return route();
       for (const Link& link : graph_.links_of(vertex)) walk(vertex, link);
     }
     return {};
@@ -70,6 +78,13 @@ class GraphSearch {
                                  length_bound(landmarks_, vertex, goal_));
     const double cost = states_[number(vertex)].cost;
     open_.push({cost + rest, cost, vertex});
+  }
+
+  std::vector<VertexId> route() const {
+    std::vector<VertexId> route;
+    for (VertexId v = goal_; v != kNoVertex; v = states_[number(v)].from) route.push_back(v);
+    std::reverse(route.begin(), route.end());
+    return route;
   }
 
   const SparseGraph& graph_;
