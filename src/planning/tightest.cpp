@@ -16,8 +16,7 @@
 namespace ridgeway::detail {
 namespace {
 
-constexpr double kNearlyStraight =
-    1.03;  // over the straight line: not worth a detour, nor another route
+constexpr double kNearlyStraight = 1.03;  // over the straight line: not worth another way
 constexpr double kMostlyDrawnInTo = 0.9;  // of its length when waypoints are skipped
 constexpr double kSuspicious = 1.15;      // over the straight line: worth a second opinion
 constexpr double kQuickWeight = 1.2;      // of those searches' heuristic
