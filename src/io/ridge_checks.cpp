@@ -183,7 +183,7 @@ Defect find_size_defect(const Roadmap& roadmap) {
   if (taut.graph.vertices.size() > TautGraph::kMostCorners) {
     return RoadmapDefect{"corners", "has more of them than are learnt"};
   }
-  const bool has_cells = !taut.first_seen.empty();
+  const bool has_cells = !taut.empty();
   if (has_cells == taut.graph.vertices.empty() ||
       (has_cells &&
        (taut.cell_of_block.size() != blocks || taut.first_seen.back() != taut.seen.size() ||

@@ -123,7 +123,7 @@ PlanResult plan_between(const Roadmap& roadmap, const Point& start, const Point&
     if (!space.is_free(start, goal, radius)) return finish(PlanStatus::kNoRoute);
     result.waypoints = {start, goal};
   } else {
-    result.waypoints = config.shorten ? detail::tightest(esdf, space, found, query,
+    result.waypoints = config.shorten ? detail::tightest(roadmap, space, found, query,
                                                          std::move(taut.waypoints), deadline)
                                       : found.route;
   }

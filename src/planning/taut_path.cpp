@@ -15,10 +15,12 @@ namespace ridgeway::detail {
 namespace {
 
 constexpr double kWorthwhile = 1e-2;      // of a route's length: what a corner's move must gain
-constexpr double kHardly = 1.03;          // shorter by less
+constexpr double kHardly = 1.1;           // shorter by less: tight but for its ends
+constexpr double kHardlyShort = 1.03;     // the same for a short route: its ends are most of it
 constexpr double kNearlyStraight = 1.03;  // longer than the straight line by less
 constexpr double kWinding = 1.25;         // by more: there is no way straight past what blocks it
 constexpr int kDetourCorners = 2;
+constexpr std::size_t kFewWaypoints = 5;  // of a short route
 
 double clearance_over(const SparseGraph& graph, std::span<const VertexId> corners) {
   double clearance = std::numeric_limits<double>::infinity();
@@ -84,10 +86,11 @@ TautPath plan_taut(const TautGraph& taut, const EsdfMap& esdf, const FreeSpace& 
     // Between corners it is as tight as the paths that they were learnt from.
     path.waypoints = draw_corners_in(space, path.waypoints, query.radius, deadline, {},
                                      {kWorthwhile, 1, corners.size()});
-    look_past_what_blocks(esdf, space, query, deadline, path.waypoints);
+    const bool is_short = path.waypoints.size() <= kFewWaypoints;
+    if (is_short) look_past_what_blocks(esdf, space, query, deadline, path.waypoints);
     const double tight = length_of(path.waypoints);
-    path.will_do =
-        as_found <= kHardly * tight || tight <= kNearlyStraight * (query.goal - query.start).norm();
+    path.will_do = as_found <= (is_short ? kHardlyShort : kHardly) * tight ||
+                   tight <= kNearlyStraight * (query.goal - query.start).norm();
   }
   path.known = known_part(taut.graph, path.waypoints, corners);
   path.shorten_seconds = seconds_now() - found;

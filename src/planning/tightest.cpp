@@ -69,15 +69,18 @@ Route redirect_tight(const EsdfMap& esdf, const FreeSpace& space, const Route& p
 
 /// A tight path, or where that is long a shorter one that quick searches find. `as_found`: the
 /// length of the route that it was made of. Where that is much longer the graph has little to say
-/// on the space around, and searches are worth more.
-Route ask_again(const EsdfMap& esdf, const FreeSpace& space, Route best, double radius,
+/// on the space around, and searches are worth more; but not where corners could be learnt: paths
+/// that turn at few places come out tight without.
+Route ask_again(const Roadmap& roadmap, const FreeSpace& space, Route best, double radius,
                 double as_found, const Deadline& deadline) {
+  const EsdfMap& esdf = roadmap.esdf;
   const double straight = (best.back() - best.front()).norm();
   for (const int stride : {2, 1}) {  // the coarse one is quick, the fine one fits narrow places
     const double shortest = length_of(best);
     if (shortest <= kSuspicious * straight || deadline.has_passed()) break;
-    const double in_vain = std::max(kInVain * (as_found / shortest - 1.0), kLeastInVain);
-    const int most_in_vain = static_cast<int>(std::min<double>(in_vain, kQuickExpansions));
+    const double for_saved = roadmap.taut.empty() ? kInVain * (as_found / shortest - 1.0) : 0.0;
+    const int most_in_vain =
+        static_cast<int>(std::clamp<double>(for_saved, kLeastInVain, kQuickExpansions));
     Route other = search_quickly(esdf, space, best.front(), best.back(), radius, stride, shortest,
                                  most_in_vain, deadline);
     if (!other.empty()) other = shorten(space, std::move(other), radius, deadline);
@@ -87,7 +90,7 @@ Route ask_again(const EsdfMap& esdf, const FreeSpace& space, Route best, double 
 }
 
 /// As tightest(), by cost; short paths count among what it chooses from.
-Route cheapest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found,
+Route cheapest(const Roadmap& roadmap, const FreeSpace& space, RouteResult& found,
                const RouteQuery& query, Route known, const Deadline& deadline) {
   const PathCost cost(space, query.radius, query.prefer_clearance);
   const auto is_kept = [&](std::span<const Point> before, std::span<const Point> after) {
@@ -106,14 +109,14 @@ Route cheapest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found,
   if (!known.empty()) offer(std::move(known));
   for (std::optional<Route> route = found.route; route;) {
     Route tight = shorten(space, *route, query.radius, deadline);
-    tight = redirect_tight(esdf, space, tight, query.radius, deadline);
+    tight = redirect_tight(roadmap.esdf, space, tight, query.radius, deadline);
     offer(tight);
     offer(shorten(space, std::move(*route), query.radius, deadline, is_kept));
     if (shortest.empty() || length_of(tight) < length_of(shortest)) shortest = std::move(tight);
     if (!found.next_alternative || deadline.has_passed()) break;
     route = found.next_alternative();
   }
-  offer(ask_again(esdf, space, std::move(shortest), query.radius, as_found, deadline));
+  offer(ask_again(roadmap, space, std::move(shortest), query.radius, as_found, deadline));
   return best;
 }
 
@@ -139,16 +142,17 @@ Route best_of_alternatives(const FreeSpace& space, RouteResult& found, double ra
 
 }  // namespace
 
-Route tightest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found,
+Route tightest(const Roadmap& roadmap, const FreeSpace& space, RouteResult& found,
                const RouteQuery& query, Route known, const Deadline& deadline) {
   if (query.prefer_clearance > 0.0)
-    return cheapest(esdf, space, found, query, std::move(known), deadline);
+    return cheapest(roadmap, space, found, query, std::move(known), deadline);
   const double as_found = length_of(found.route);
   const double enough = kNearlyStraight * (query.goal - query.start).norm();
   Route best = best_of_alternatives(space, found, query.radius, enough, deadline);
   if (!known.empty() && length_of(known) < length_of(best)) best = std::move(known);
-  if (length_of(best) > enough) best = redirect_tight(esdf, space, best, query.radius, deadline);
-  return ask_again(esdf, space, std::move(best), query.radius, as_found, deadline);
+  if (length_of(best) > enough)
+    best = redirect_tight(roadmap.esdf, space, best, query.radius, deadline);
+  return ask_again(roadmap, space, std::move(best), query.radius, as_found, deadline);
 }
 
 }  // namespace ridgeway::detail

@@ -10,7 +10,7 @@ namespace ridgeway::detail {
 /// as well, and ways past what blocks the line. Returns the shortest of them and of a path known
 /// before, which may be empty. Where clearance is preferred it is pulled only as far as it gets no
 /// costlier, and the cheapest returned.
-Route tightest(const EsdfMap& esdf, const FreeSpace& space, RouteResult& found,
+Route tightest(const Roadmap& roadmap, const FreeSpace& space, RouteResult& found,
                const RouteQuery& query, Route known, const Deadline& deadline);
 
 }  // namespace ridgeway::detail

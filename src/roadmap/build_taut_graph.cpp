@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 #include <algorithm>
-#include <limits>
 
 #include "../paths/shorten.hpp"
 #include "cell_parts.hpp"
 #include "corner_links.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/roadmap/graph_lengths.hpp"
 #include "ridgeway/roadmap/roadmap.hpp"
-#include "taut_search.hpp"
 
 namespace ridgeway {
 namespace {
@@ -78,6 +77,7 @@ class Learning {
       more = pairs_;
       if (known < kKnown) continue;
       if (!link()) break;
+      taut_.hubs = label_hubs(taut_.graph);
       list_seen();
       return std::move(taut_);
     }
@@ -100,7 +100,6 @@ class Learning {
     corners_ = detail::corners_of(roadmap_, merged);
     if (corners_.size() > TautGraph::kMostCorners) return false;
     taut_.graph = detail::link_corners(roadmap_, merged, corners_);
-    taut_.hubs = label_hubs(taut_.graph);
     return true;
   }
 
@@ -112,28 +111,32 @@ class Learning {
       if (asked.empty() || asked.back()->from != path.from) asked.push_back(&path);
     if (asked.size() < kLeastAsked) return 0.0;
     std::vector<char> is_known(asked.size());
-    parallel_for_each_index(asked.size(), [&](std::size_t i) {
-      is_known[i] =
-          route_length(*asked[i]) <= kAboutAsShort * detail::length_of(asked[i]->waypoints);
-    });
+    parallel_for_each_index(asked.size(), [&](std::size_t i) { is_known[i] = knows(*asked[i]); });
     return static_cast<double>(std::count(is_known.begin(), is_known.end(), 1)) /
            static_cast<double>(asked.size());
   }
 
-  double route_length(const SampledPath& path) const {
-    const auto seen_from = [&](VoxelId id) {
-      return look_around(space_, roadmap_.min_clearance, corners_,
-                         place_of(widest_[taut_.cell_of_block[id / kBlockVoxels]]));
-    };
-    const std::vector<VertexId> from = seen_from(path.from), to = seen_from(path.to);
-    const std::vector<VertexId> route = detail::search_taut(
-        taut_.graph, taut_.hubs, space_,
-        {path.waypoints.front(), path.waypoints.back(), roadmap_.min_clearance, from, to});
-    if (route.empty()) return std::numeric_limits<double>::infinity();
-    std::vector<Point> way{path.waypoints.front()};
-    for (const VertexId v : route) way.push_back(corners_[number(v)].place);
-    way.push_back(path.waypoints.back());
-    return detail::length_of(way);
+  /// Whether there is a route about as short as a path.
+  bool knows(const SampledPath& path) const {
+    const double enough = kAboutAsShort * detail::length_of(path.waypoints);
+    const Point &start = path.waypoints.front(), &goal = path.waypoints.back();
+    const double radius = roadmap_.min_clearance;
+    Sources first;
+    for (const VertexId v : seen_from_cell(path.from))
+      if (const Point& corner = corners_[number(v)].place; space_.is_free(start, corner, radius))
+        first.emplace_back(v, (corner - start).norm());
+    const std::vector<double> lengths = lengths_from(taut_.graph, first, radius);
+    const std::vector<VertexId> last = seen_from_cell(path.to);
+    return std::any_of(last.begin(), last.end(), [&](VertexId v) {
+      const Point& corner = corners_[number(v)].place;
+      return lengths[number(v)] + (goal - corner).norm() <= enough &&
+             space_.is_free(corner, goal, radius);
+    });
+  }
+
+  std::vector<VertexId> seen_from_cell(VoxelId voxel) const {
+    const VoxelId widest = widest_[taut_.cell_of_block[voxel / kBlockVoxels]];
+    return look_around(space_, roadmap_.min_clearance, corners_, place_of(widest));
   }
 
   /// Only corners of the cell's own part: a segment may slip through where moves from voxel to

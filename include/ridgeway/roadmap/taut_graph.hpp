@@ -33,8 +33,10 @@ struct TautGraph {
   std::vector<std::uint32_t> first_seen;     ///< cells + 1 entries into `seen`; empty: no graph
   std::vector<VertexId> seen;
 
+  bool empty() const { return first_seen.empty(); }
+
   std::span<const VertexId> seen_from(VoxelId voxel) const {
-    if (first_seen.empty()) return {};
+    if (empty()) return {};
     const std::uint32_t cell = cell_of_block[voxel / kBlockVoxels];
     return std::span(seen).subspan(first_seen[cell], first_seen[cell + 1] - first_seen[cell]);
   }
