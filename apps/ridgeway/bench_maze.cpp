@@ -62,6 +62,7 @@ int run(const Options& options, const Globals& globals) {
   const Json facts = {{"seed", config.seed},
                       {"voxel_size", config.voxel_size},
                       {"radius", config.min_clearance},
+                      {"repeat", config.repeat},
                       {"vertices", result.roadmap.graph.vertices.size()},
                       {"edges", result.roadmap.graph.edges.size()}};
   if (!options.output.empty()) draw_paths(result, options.output);
@@ -87,6 +88,11 @@ void add_bench_maze(CLI::App& bench, const Globals& globals, Command& chosen) {
       ->capture_default_str();
   command->add_option("--long-pairs", config.long_pairs, "Of them, for RRT* with all of its time")
       ->check(CLI::Range(0, 100000))
+      ->capture_default_str();
+  command
+      ->add_option("--repeat", config.repeat,
+                   "Rounds of all planners but that one, for median times")
+      ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   command->add_option("--time-limit", config.time_limit, "Of a planner that samples, seconds")
       ->capture_default_str();

@@ -68,7 +68,8 @@ std::string cell_text(const Json& value) {
   if (value.is_null()) return "-";
   if (!value.is_number_float()) return value.dump();
   const double number = value.get<double>();
-  return text_of(number, std::abs(number) < 0.1 ? 5 : 3);
+  const double size = std::abs(number);
+  return text_of(number, size >= 0.1 ? 3 : size >= 1e-3 ? 5 : 7);  // seconds may be micro
 }
 
 }  // namespace

@@ -91,31 +91,54 @@ std::vector<Pair> random_pairs(const World& world, const MazeExperimentConfig& c
   return pairs;
 }
 
-MazeRow measure(const Contender& contender, const Pair& single, const std::vector<Pair>& pairs,
-                const std::vector<double>& esdf_lengths) {
+/// One query's answer, and how long it took in every round.
+struct Trial {
+  PlanResult answer;
+  std::vector<double> seconds;
+
+  void run(const Plan& plan, const Pair& pair) {
+    answer = plan(pair);
+    seconds.push_back(answer.seconds.total);
+  }
+  double median_seconds() const { return spread_of(seconds).median; }
+};
+
+struct Trials {
+  Trial single;
+  std::vector<Trial> pairs;
+};
+
+void run_round(const Contender& contender, const Pair& single, const std::vector<Pair>& pairs,
+               Trials& trials) {
+  trials.pairs.resize(pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) trials.pairs[i].run(contender.plan, pairs[i]);
+  trials.single.run(contender.plan, single);
+}
+
+MazeRow row_of(const Contender& contender, const Trials& trials,
+               const std::vector<double>& esdf_lengths) {
   MazeRow row;
   row.planner = contender.name;
-  row.queries = pairs.size();
+  row.queries = trials.pairs.size();
   std::vector<double> seconds, lengths, vertices, ratios;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const PlanResult result = contender.plan(pairs[i]);
-    if (!result.ok()) continue;
+  for (std::size_t i = 0; i < trials.pairs.size(); ++i) {
+    const PlanResult& answer = trials.pairs[i].answer;
+    if (!answer.ok()) continue;
     ++row.solved;
-    seconds.push_back(result.seconds.total);
-    lengths.push_back(result.length);
-    vertices.push_back(static_cast<double>(result.waypoints.size()));
-    ratios.push_back(result.length / esdf_lengths[i]);
+    seconds.push_back(trials.pairs[i].median_seconds());
+    lengths.push_back(answer.length);
+    vertices.push_back(static_cast<double>(answer.waypoints.size()));
+    ratios.push_back(answer.length / esdf_lengths[i]);
   }
   row.seconds = spread_of(std::move(seconds));
   row.length = spread_of(std::move(lengths));
   row.vertices = spread_of(std::move(vertices));
   row.length_over_esdf = spread_of(std::move(ratios));
-  const PlanResult result = contender.plan(single);
-  if (result.ok()) {
-    row.single_seconds = result.seconds.total;
-    row.single_length = result.length;
-    row.single_vertices = result.waypoints.size();
-    row.single_path = result.waypoints;
+  if (const PlanResult& answer = trials.single.answer; answer.ok()) {
+    row.single_seconds = trials.single.median_seconds();
+    row.single_length = answer.length;
+    row.single_vertices = answer.waypoints.size();
+    row.single_path = answer.waypoints;
   }
   return row;
 }
@@ -133,6 +156,7 @@ void MazeExperimentConfig::validate() const {
           "min_clearance", min_clearance, "give a radius that fits into the maze's corridors");
   require(min_clearance > 0.0, "min_clearance", min_clearance, "give metres, above 0");
   require(time_limit > 0.0, "time_limit", time_limit, "give seconds, above 0");
+  require(repeat >= 1, "repeat", static_cast<double>(repeat), "give 1 or more");
 }
 
 MazeResult run_maze(const MazeExperimentConfig& config, const Progress& progress) {
@@ -149,13 +173,21 @@ MazeResult run_maze(const MazeExperimentConfig& config, const Progress& progress
   for (const Pair& pair : pairs)
     esdf_lengths.push_back(on_roadmap(result.roadmap, Planner::kEsdf, false)(pair).length);
   const std::vector<Contender> all = contenders(result.roadmap, config);
-  for (const Contender& contender : all) {
-    const auto done = static_cast<double>(result.rows.size()) / static_cast<double>(all.size());
-    if (progress && !progress(contender.name, done)) throw Cancelled();
-    std::vector<Pair> own = pairs;
-    if (contender.is_slow) own.resize(std::min(own.size(), config.long_pairs));
-    result.rows.push_back(measure(contender, corners(config.maze), own, esdf_lengths));
-  }
+  const Pair single = corners(config.maze);
+  std::vector<Pair> few = pairs;
+  few.resize(std::min(few.size(), config.long_pairs));
+  std::vector<Trials> trials(all.size());
+  for (std::size_t round = 0; round < config.repeat; ++round)
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (all[i].is_slow && round > 0) continue;
+      const auto done = static_cast<double>(round * all.size() + i);
+      if (progress &&
+          !progress(all[i].name, done / static_cast<double>(config.repeat * all.size())))
+        throw Cancelled();
+      run_round(all[i], single, all[i].is_slow ? few : pairs, trials[i]);
+    }
+  for (std::size_t i = 0; i < all.size(); ++i)
+    result.rows.push_back(row_of(all[i], trials[i], esdf_lengths));
   return result;
 }
 

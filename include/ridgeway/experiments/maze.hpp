@@ -20,6 +20,7 @@ struct MazeExperimentConfig {
   double min_clearance = 0.4;  ///< and radius of the robot
   std::size_t pairs = 100;     ///< random starts and goals
   std::size_t long_pairs = 3;  ///< of them, for RRT* with all of its time
+  std::size_t repeat = 3;      ///< rounds of all planners, but for that one
   double time_limit = 10.0;    ///< seconds of a planner that samples
   double range = 3.0;          ///< longest motion of a tree: about a cell, best in a maze
   std::uint64_t seed = 1;      ///< of starts, goals and samples
@@ -33,8 +34,9 @@ struct MazeRow {
   std::string planner;  ///< "rrtstar", "rrtstar_10s", "rrtconnect", "esdf", "diagram", "graph_raw",
                         ///< "graph"
   std::size_t queries = 0, solved = 0;  ///< of the random pairs
-  Spread seconds, length, vertices;     ///< of those solved
-  Spread length_over_esdf;              ///< over the path of A* through the ESDF as it found it
+  Spread seconds;                       ///< of those solved, each the median of its rounds
+  Spread length, vertices;
+  Spread length_over_esdf;  ///< over the path of A* through the ESDF as it found it
   double single_seconds = 0.0, single_length = 0.0;  ///< from one corner to the opposite one
   std::size_t single_vertices = 0;
   std::vector<Point> single_path;  ///< empty where there is none
@@ -45,9 +47,10 @@ struct MazeResult {
   std::vector<MazeRow> rows;
 };
 
-/// Plans with every planner on the same maze, one query after the other on one thread. Planners
-/// that sample stop at their first path, which is not shortened, but for RRT* with all of its time;
-/// "graph" is the roadmap with shortening, all others are as they come.
+/// Plans with every planner on the same maze, one query after the other on one thread: all pairs
+/// with one planner, then with the next, in rounds, so that slow phases of the machine fall on all
+/// of them. Planners that sample stop at their first path, which is not shortened, but for RRT*
+/// with all of its time; "graph" is the roadmap with shortening, all others are as they come.
 MazeResult run_maze(const MazeExperimentConfig& config, const Progress& progress = {});
 
 }  // namespace ridgeway

@@ -11,14 +11,21 @@
 
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/voxel/block_layout.hpp"
+#include "ridgeway/voxel/large_pages.hpp"
 
 namespace ridgeway {
 namespace detail {
 
-/// Leaves plain values as the system gives their memory, so that the thread that first writes a
-/// page is the one that waits for it.
+/// Large pages, and plain values as the system gives their memory, so that the thread that first
+/// writes a page is the one that waits for it.
 template <typename Value>
 struct UnsetAllocator : std::allocator<Value> {
+  Value* allocate(std::size_t count) {
+    return static_cast<Value*>(allocate_in_large_pages(count * sizeof(Value)));
+  }
+  void deallocate(Value* memory, std::size_t count) {
+    free_large_pages(memory, count * sizeof(Value));
+  }
   void construct(Value* at) {
     if constexpr (!std::is_trivially_copyable_v<Value>) ::new (static_cast<void*>(at)) Value();
   }

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/experiments/maze.hpp"
+
+#include <gtest/gtest.h>
+
+#include "ridgeway/common/error.hpp"
+
+namespace ridgeway {
+namespace {
+
+MazeExperimentConfig small_config() {
+  MazeExperimentConfig config;
+  config.maze.cells = 3;
+  config.voxel_size = 0.2;
+  config.pairs = 6;
+  config.long_pairs = 1;
+  config.repeat = 3;
+  config.time_limit = 0.5;
+  return config;
+}
+
+TEST(Maze, EveryPlannerAnswersEveryPair) {
+  const MazeExperimentConfig config = small_config();
+  const MazeResult result = run_maze(config);
+  ASSERT_EQ(result.rows.size(), 8u);
+  EXPECT_EQ(result.rows.back().planner, "graph");
+  for (const MazeRow& row : result.rows) {
+    SCOPED_TRACE(row.planner);
+    EXPECT_EQ(row.queries, row.planner == "rrtstar_10s" ? config.long_pairs : config.pairs);
+    EXPECT_EQ(row.solved, row.queries);
+    EXPECT_GT(row.seconds.median, 0.0);
+    ASSERT_GE(row.single_path.size(), 2u);
+    EXPECT_GT(row.single_length, 0.0);
+  }
+}
+
+TEST(Maze, AnswersAreTheSameInEveryRound) {
+  MazeExperimentConfig config = small_config();
+  const MazeResult thrice = run_maze(config);
+  config.repeat = 1;
+  const MazeResult once = run_maze(config);
+  for (std::size_t i = 0; i < once.rows.size(); ++i) {
+    if (once.rows[i].planner == "rrtstar_10s") continue;  // as far as it came in its time
+    SCOPED_TRACE(once.rows[i].planner);
+    EXPECT_EQ(once.rows[i].single_path, thrice.rows[i].single_path);
+    EXPECT_EQ(once.rows[i].length.median, thrice.rows[i].length.median);
+  }
+}
+
+TEST(Maze, RefusesWhatCannotBeRun) {
+  MazeExperimentConfig config = small_config();
+  config.repeat = 0;
+  EXPECT_THROW(run_maze(config), InputError);
+  config = small_config();
+  config.min_clearance = 5.0;
+  EXPECT_THROW(run_maze(config), InputError);
+}
+
+}  // namespace
+}  // namespace ridgeway
