@@ -54,7 +54,7 @@ double FreeSpace::clearance(std::span<const Point> path, double at_most) const {
   };
   // A good bound first: then only the narrowest places are looked at closely.
   double best = at_most / s * (at_most / s);
-  for_each_segment([&](SegmentMarch m) { best = std::min(best, m.upper_bound()); });
+  for_each_segment([&](SegmentMarch m) { best = m.upper_bound(best); });
   if (std::isinf(best)) {  // no site near any of it: farther than max_distance, if that is finite
     if (std::isinf(esdf_.max_distance)) return best;
     best = squared_far(esdf_);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "obstacle_scan.hpp"
@@ -135,10 +136,19 @@ class SegmentMarch {
     return place;
   }
 
-  /// Upper bound of min D^2, from the sites of the voxels on the way; infinite where none has one.
-  double upper_bound() {
-    double best = std::min(at_site(at(0.0)), at_site(at(length_)));
-    for (double t = 4.0; t < length_; t += 8.0) best = std::min(best, at_site(at(t)));
+  /// Upper bound of min D^2, if below `best`, else `best`: from the sites of some voxels on the way
+  /// that may be as near.
+  double upper_bound(double best) {
+    double near = within_voxel_of(best);
+    const auto look = [&](double t) {
+      const double squared = at_site(at(t), near);
+      if (squared >= best) return;
+      best = squared;
+      near = within_voxel_of(best);
+    };
+    look(0.0);
+    look(length_);
+    for (double t = 4.0; t < length_; t += 8.0) look(t);
     return best;
   }
 
@@ -203,12 +213,20 @@ class SegmentMarch {
     return farthest * farthest < limit;
   }
 
-  /// Squared distance from x to the site of its voxel: never too small.
-  double at_site(const Vector& x) {
+  /// Squared distance that the centre of a voxel has at most where one of its places has D^2 of at
+  /// most this.
+  static double within_voxel_of(double squared) {
+    const double distance = std::sqrt(squared) + 0.5 * std::numbers::sqrt3 + 1e-9;
+    return distance * distance;
+  }
+
+  /// Squared distance from x to the site of its voxel: never too small. Infinite where the voxel's
+  /// centre is farther than that from it.
+  double at_site(const Vector& x, double farthest = kInfinity) {
     const VoxelIndex voxel = voxel_holding(x);
     const VoxelId id = finder_.find(voxel);
     if (id == kNoVoxel) return esdf_.unknown == UnknownPolicy::kObstacle ? 0.0 : kInfinity;
-    if (esdf_.squared[id] == kNoSite) return kInfinity;
+    if (esdf_.squared[id] == kNoSite || 0.25 * esdf_.squared[id] > farthest) return kInfinity;
     const SiteOffset& o = esdf_.site[id];
     return squared_distance(x, cube_of(voxel + VoxelIndex{o.x, o.y, o.z}));
   }

@@ -3,6 +3,7 @@
 #include "tightest.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <span>
 
@@ -19,6 +20,7 @@ namespace {
 constexpr double kNearlyStraight = 1.03;  // over the straight line: not worth another way
 constexpr double kMostlyDrawnInTo = 0.9;  // of its length when waypoints are skipped
 constexpr double kSuspicious = 1.15;      // over the straight line: worth a second opinion
+constexpr std::array kStrides{2, 1};      // the coarse is quick, the fine fits narrow places
 constexpr double kQuickWeight = 1.2;      // of those searches' heuristic
 constexpr int kQuickExpansions = 3000;    // less than two milliseconds
 constexpr double kLeastInVain = 60.0;     // they give up after so many in a pocket, at least,
@@ -69,16 +71,17 @@ Route redirect_tight(const EsdfMap& esdf, const FreeSpace& space, const Route& p
 
 /// A tight path, or where that is long a shorter one that quick searches find. `as_found`: the
 /// length of the route that it was made of. Where that is much longer the graph has little to say
-/// on the space around, and searches are worth more; but not where corners could be learnt: paths
-/// that turn at few places come out tight without.
+/// on the space around, and searches are worth more; next to nothing where corners could be learnt:
+/// paths that turn at few places come out tight without.
 Route ask_again(const Roadmap& roadmap, const FreeSpace& space, Route best, double radius,
                 double as_found, const Deadline& deadline) {
   const EsdfMap& esdf = roadmap.esdf;
+  const bool knows_corners = !roadmap.taut.empty();
   const double straight = (best.back() - best.front()).norm();
-  for (const int stride : {2, 1}) {  // the coarse one is quick, the fine one fits narrow places
+  for (const int stride : std::span(kStrides).first(knows_corners ? 1 : 2)) {
     const double shortest = length_of(best);
     if (shortest <= kSuspicious * straight || deadline.has_passed()) break;
-    const double for_saved = roadmap.taut.empty() ? kInVain * (as_found / shortest - 1.0) : 0.0;
+    const double for_saved = knows_corners ? 0.0 : kInVain * (as_found / shortest - 1.0);
     const int most_in_vain =
         static_cast<int>(std::clamp<double>(for_saved, kLeastInVain, kQuickExpansions));
     Route other = search_quickly(esdf, space, best.front(), best.back(), radius, stride, shortest,
