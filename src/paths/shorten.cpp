@@ -96,7 +96,8 @@ class Tightening {
       : space_(space),
         radius_(radius),
         may_replace_(may_replace),
-        least_gain_(drawing.worthwhile * length_of(path)) {
+        least_gain_(drawing.worthwhile * length_of(path)),
+        least_of_going_(drawing.worth_going * length_of(path)) {
     for (std::size_t i = 0; i < path.size(); ++i) {
       const bool is_settled = drawing.settled_first < i && i < drawing.settled_last;
       corners_.push_back({.at = path[i], .is_settled = is_settled, .moved = !is_settled});
@@ -110,7 +111,9 @@ class Tightening {
     bool was_worth_it = round + 1 < kMoves;
     for (std::size_t i = 1; i + 1 < corners_.size();) {
       const bool is_new = round < kMoves && !corners_[i].is_settled;
-      const bool may_go = (round == 0 && is_new) || corners_[i - 1].moved || corners_[i + 1].moved;
+      const bool may_go =
+          ((round == 0 && is_new) || corners_[i - 1].moved || corners_[i + 1].moved) &&
+          most_gain(i) >= least_of_going_;
       if (may_go && can_go(i)) {
         erase(i);
         was_worth_it = true;
@@ -253,7 +256,8 @@ class Tightening {
   const FreeSpace& space_;
   const double radius_;
   const MayReplace& may_replace_;
-  const double least_gain_;  ///< metres; moves that gain less are not tried
+  const double least_gain_;      ///< metres; moves that gain less are not tried
+  const double least_of_going_;  ///< the same for going without a corner
   std::vector<Corner> corners_;
 };
 

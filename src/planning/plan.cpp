@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "../paths/deadline.hpp"
 #include "../paths/shorten.hpp"
@@ -84,7 +85,7 @@ PlanResult plan_between(const Roadmap& roadmap, const Point& start, const Point&
   const auto finish = [&](PlanStatus status) {
     result.status = status;
     result.seconds.total = seconds_now() - began;
-    return result;
+    return std::move(result);
   };
   if (radius < roadmap.min_clearance * (1.0 - 1e-9)) return finish(PlanStatus::kRadiusTooSmall);
   const detail::QueryEnds ends = detail::find_ends(esdf, start, goal, radius);
@@ -108,9 +109,10 @@ PlanResult plan_between(const Roadmap& roadmap, const Point& start, const Point&
   result.seconds.search = taut.search_seconds;
   result.seconds.shorten = taut.shorten_seconds;
   if (taut.will_do && config.prefer_clearance == 0.0) {
-    result.waypoints = taut.waypoints;
+    result.waypoints = std::move(taut.waypoints);
     detail::describe(space, taut.known, result);
     if (detail::is_verified(esdf, space, result, radius)) return finish(PlanStatus::kOk);
+    taut.waypoints.clear();  // of no more use
   }
   detail::RouteResult found = detail::find_route(roadmap, query, config.planner, deadline);
   result.seconds.attach = found.attach_seconds;

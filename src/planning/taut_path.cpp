@@ -14,13 +14,14 @@
 namespace ridgeway::detail {
 namespace {
 
-constexpr double kWorthwhile = 1e-2;      // of a route's length: what a corner's move must gain
+constexpr double kWorthwhile = 1e-2;      // of a route's length: what a corner's move must gain,
+constexpr double kWorthGoing = 2e-3;      // and going without it
 constexpr double kHardly = 1.1;           // shorter by less: tight but for its ends
-constexpr double kHardlyShort = 1.03;     // the same for a short route: its ends are most of it
+constexpr double kHardlyShort = 1.03;     // the same for a short route
 constexpr double kNearlyStraight = 1.03;  // longer than the straight line by less
 constexpr double kWinding = 1.25;         // by more: there is no way straight past what blocks it
 constexpr int kDetourCorners = 2;
-constexpr std::size_t kFewWaypoints = 5;  // of a short route
+constexpr double kShort = 50.0;  // radii: of a route that is little else than its ends
 
 double clearance_over(const SparseGraph& graph, std::span<const VertexId> corners) {
   double clearance = std::numeric_limits<double>::infinity();
@@ -83,10 +84,11 @@ TautPath plan_taut(const TautGraph& taut, const EsdfMap& esdf, const FreeSpace& 
   path.will_do = as_it_is;
   if (!as_it_is) {
     const double as_found = length_of(path.waypoints);
+    const bool is_short = as_found <= kShort * query.radius;
     // Between corners it is as tight as the paths that they were learnt from.
-    path.waypoints = draw_corners_in(space, path.waypoints, query.radius, deadline, {},
-                                     {kWorthwhile, 1, corners.size()});
-    const bool is_short = path.waypoints.size() <= kFewWaypoints;
+    path.waypoints =
+        draw_corners_in(space, path.waypoints, query.radius, deadline, {},
+                        {kWorthwhile, is_short ? 0.0 : kWorthGoing, 1, corners.size()});
     if (is_short) look_past_what_blocks(esdf, space, query, deadline, path.waypoints);
     const double tight = length_of(path.waypoints);
     path.will_do = as_found <= (is_short ? kHardlyShort : kHardly) * tight ||

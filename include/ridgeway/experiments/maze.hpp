@@ -48,9 +48,10 @@ struct MazeResult {
 };
 
 /// Plans with every planner on the same maze, one query after the other on one thread: all pairs
-/// with one planner, then with the next, in rounds, so that slow phases of the machine fall on all
-/// of them. Planners that sample stop at their first path, which is not shortened, but for RRT*
-/// with all of its time; "graph" is the roadmap with shortening, all others are as they come.
+/// with one planner, for at least a tenth of a second, then with the next, in rounds, so that slow
+/// phases of the machine fall on all of them. Planners that sample stop at their first path, which
+/// is not shortened, but for RRT* with all of its time; "graph" is the roadmap with shortening, all
+/// others are as they come.
 MazeResult run_maze(const MazeExperimentConfig& config, const Progress& progress = {});
 
 }  // namespace ridgeway
