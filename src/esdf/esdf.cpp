@@ -227,7 +227,7 @@ VoxelField<SiteOffset> sweep_sites_through_unknown(const EsdfMap& map, double fa
 
 /// Squared distances from the offsets; too far or nothing at all becomes "no site".
 void finish_distances(EsdfMap& map, double farthest) {
-  map.squared = VoxelField<std::uint32_t>::unset(map.layout);
+  map.squared = VoxelField<std::uint32_t>::unset(map.layout, Pages::kLarge);
   const double reach = std::min(farthest, static_cast<double>(kFarthestSite));
   const auto limit = static_cast<std::uint32_t>(squared_threshold(reach, 1.0) * (1.0 + 4e-9));
   parallel_for_each_index(

@@ -138,7 +138,7 @@ void allocate_fields(Roadmap& roadmap) {
   const BlockLayout& layout = esdf.layout;
   tbb::parallel_invoke(
       [&] {
-        esdf.squared = VoxelField<std::uint32_t>(layout);
+        esdf.squared = VoxelField<std::uint32_t>(layout, 0, Pages::kLarge);
         esdf.state = VoxelField<VoxelState>(layout);
         esdf.obstacle = VoxelMask(layout);
       },

@@ -4,29 +4,16 @@
 
 #include <sys/mman.h>
 
-#include <new>
+#include <cstdint>
 
 namespace ridgeway::detail {
-namespace {
 
-constexpr std::size_t kPage = std::size_t{1} << 21;
-constexpr std::size_t kLeast = 2 * kPage;  // less is as well off in pages of the usual size
-constexpr std::align_val_t kAlignment{kPage};
-
-}  // namespace
-
-void* allocate_in_large_pages(std::size_t bytes) {
-  if (bytes < kLeast) return ::operator new(bytes);
-  void* memory = ::operator new(bytes, kAlignment);
-  ::madvise(memory, bytes, MADV_HUGEPAGE);  // advice: all goes on as well where it is not taken
-  return memory;
-}
-
-void free_large_pages(void* memory, std::size_t bytes) {
-  if (bytes < kLeast)
-    ::operator delete(memory);
-  else
-    ::operator delete(memory, kAlignment);
+void ask_for_large_pages(void* memory, std::size_t bytes) {
+  constexpr std::uintptr_t kPage = std::uintptr_t{1} << 21;
+  const auto begin = reinterpret_cast<std::uintptr_t>(memory);
+  const std::uintptr_t first = (begin + kPage - 1) / kPage * kPage;
+  const std::uintptr_t last = (begin + bytes) / kPage * kPage;
+  if (first < last) ::madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
 }
 
 }  // namespace ridgeway::detail

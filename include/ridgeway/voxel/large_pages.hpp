@@ -6,12 +6,8 @@
 
 namespace ridgeway::detail {
 
-/// Memory for an array that is read here and there: from a few megabytes on in pages of 2 MiB where
-/// the system has them, so that addresses are not looked up anew for every line. Throws
-/// std::bad_alloc.
-void* allocate_in_large_pages(std::size_t bytes);
-
-/// Gives it back; `bytes` as asked for.
-void free_large_pages(void* memory, std::size_t bytes);
+/// Asks the system to keep an array, not written yet, in pages of 2 MiB where it has them: what is
+/// read here and there waits less for addresses to be looked up. Only advice.
+void ask_for_large_pages(void* memory, std::size_t bytes);
 
 }  // namespace ridgeway::detail

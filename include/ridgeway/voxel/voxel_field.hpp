@@ -16,16 +16,10 @@
 namespace ridgeway {
 namespace detail {
 
-/// Large pages, and plain values as the system gives their memory, so that the thread that first
-/// writes a page is the one that waits for it.
+/// Leaves plain values as the system gives their memory, so that the thread that first writes a
+/// page is the one that waits for it.
 template <typename Value>
 struct UnsetAllocator : std::allocator<Value> {
-  Value* allocate(std::size_t count) {
-    return static_cast<Value*>(allocate_in_large_pages(count * sizeof(Value)));
-  }
-  void deallocate(Value* memory, std::size_t count) {
-    free_large_pages(memory, count * sizeof(Value));
-  }
   void construct(Value* at) {
     if constexpr (!std::is_trivially_copyable_v<Value>) ::new (static_cast<void*>(at)) Value();
   }
@@ -37,6 +31,9 @@ struct UnsetAllocator : std::allocator<Value> {
 
 }  // namespace detail
 
+/// In what pages memory is asked for: large ones are for what queries read here and there.
+enum class Pages { kUsual, kLarge };
+
 /// One value for every voxel of a layout's blocks, in the layout's order.
 template <typename Value>
 class VoxelField {
@@ -44,8 +41,8 @@ class VoxelField {
   using Values = std::vector<Value, detail::UnsetAllocator<Value>>;
 
   VoxelField() = default;
-  explicit VoxelField(const BlockLayout& layout, Value initial = {})
-      : values_(layout.voxel_count()) {
+  explicit VoxelField(const BlockLayout& layout, Value initial = {}, Pages pages = Pages::kUsual)
+      : VoxelField(unset(layout, pages)) {
     parallel_for_each_index(
         layout.block_count(),
         [&](std::size_t slot) {
@@ -54,9 +51,11 @@ class VoxelField {
         64);
   }
   /// Values as they come: every one must be written before it is read.
-  static VoxelField unset(const BlockLayout& layout) {
+  static VoxelField unset(const BlockLayout& layout, Pages pages = Pages::kUsual) {
     VoxelField field;
     field.values_.resize(layout.voxel_count());
+    if (pages == Pages::kLarge)
+      detail::ask_for_large_pages(field.values_.data(), field.memory_bytes());
     return field;
   }
 
