@@ -22,14 +22,18 @@ constexpr std::int64_t floor_divide(std::int64_t a, std::int64_t b) {
   return quotient - (a % b < 0 ? 1 : 0);
 }
 
+/// What a candidate gives a position at `steps` >= 0 from its own.
+constexpr std::int64_t value_at(const LineCandidate& candidate, std::int64_t steps) {
+  const std::int64_t twice = 2 * steps - (steps > 0 ? 1 : 0);
+  return candidate.cost + twice * twice;
+}
+
 /// Whether candidate `b` is strictly nearer than `a` to a position.
 constexpr bool is_nearer(const LineCandidate& b, const LineCandidate& a, std::int64_t position) {
-  const auto cost = [position](const LineCandidate& c) {
-    const std::int64_t k = position - c.position;
-    const std::int64_t twice = 2 * (k < 0 ? -k : k) - 1;
-    return c.cost + (twice > 0 ? twice * twice : 0);
+  const auto value = [position](const LineCandidate& c) {
+    return value_at(c, position < c.position ? c.position - position : position - c.position);
   };
-  return cost(b) < cost(a);
+  return value(b) < value(a);
 }
 
 /// First position at which candidate `b` is strictly nearer than `a` (a.position < b.position).
@@ -63,11 +67,21 @@ constexpr std::int64_t crossing_of_neighbours(const LineCandidate& a, const Line
 /// to the candidate on the left, which holds the (z, y, x) tie rule through all three sweeps.
 class LineEnvelope {
  public:
+  /// For runs of up to so many positions.
+  explicit LineEnvelope(std::size_t positions) { pieces_.reserve(positions + 2); }
+
   /// Begins a run over the positions first to last.
   void begin(int first, int last) {
     pieces_.clear();
     first_ = first;
     last_ = last;
+  }
+
+  /// Adds a candidate inside the run, where the cost of the next position is known: most that win
+  /// nothing lie between one on the left that reaches past them and the next.
+  void add_before(const LineCandidate& candidate, std::int64_t next_cost) {
+    if (!pieces_.empty() && !wins_before_next(candidate, next_cost)) return;
+    add(candidate);
   }
 
   void add(const LineCandidate& candidate) {
@@ -100,6 +114,18 @@ class LineEnvelope {
   }
 
  private:
+  /// Whether a candidate may win over the last one of the envelope where it wins over the next
+  /// position: that wins from where it lies on, or 8 to a position further for what it costs more.
+  bool wins_before_next(const LineCandidate& candidate, std::int64_t next_cost) const {
+    const LineCandidate& back = pieces_.back().candidate;
+    const std::int64_t behind = candidate.position - back.position;
+    if (behind == 1) return true;  // as cheap to add
+    const std::int64_t rise = next_cost - candidate.cost;
+    const std::int64_t ahead =
+        rise <= 0 ? 0 : std::min<std::int64_t>(1 + (rise >> 3), last_ - candidate.position);
+    return value_at(candidate, ahead) < value_at(back, behind + ahead);
+  }
+
   struct Piece {
     LineCandidate candidate;
     std::int64_t from;  // first position of the run at which this candidate wins

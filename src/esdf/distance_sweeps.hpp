@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include "ridgeway/esdf/esdf_map.hpp"
+
+namespace ridgeway::detail {
+
+/// Of each voxel of a layout: 4 d^2 / s^2 to the nearest obstacle cube, and the way to it.
+/// Obstacles have 0 and {0,0,0}; a voxel without an obstacle in reach has kNoSite and an offset of
+/// no meaning.
+struct NearestSites {
+  VoxelField<std::uint32_t> squared;
+  VoxelField<SiteOffset> offset;
+};
+
+/// Exact distances by one sweep along each axis, x first (method: Felzenszwalb and Huttenlocher,
+/// "Distance Transforms of Sampled Functions", 2012, with the distance to cubes in place of
+/// points); ties go to the site that is smallest in (z, y, x). Distances above kFarthestSite are
+/// too long or missing. `solid_outside`: whether voxels that the layout does not hold are
+/// obstacles.
+NearestSites sweep_distances(const BlockLayout& layout, const VoxelMask& obstacle,
+                             bool solid_outside);
+
+}  // namespace ridgeway::detail
