@@ -19,7 +19,7 @@ namespace {
 constexpr double kState = sizeof(std::declval<EsdfMap&>().state[0]);
 constexpr double kSite = sizeof(std::declval<EsdfMap&>().site[0]);
 constexpr double kSquared = sizeof(std::declval<EsdfMap&>().squared[0]);
-constexpr double kBasin = sizeof(std::declval<Basins&>().basin[0]);
+constexpr double kDrain = sizeof(std::declval<BasinNumbers&>().drain[0]);
 constexpr double kNext = sizeof(std::declval<AttachField&>().next[0]);
 constexpr double kMask = static_cast<double>(sizeof(VoxelMask::Block)) / kBlockVoxels;
 
@@ -30,18 +30,18 @@ StageNumbers least_traffic(const BuildReport& counts) {
   const auto traversable = static_cast<double>(counts.traversable_voxels);
   const auto diagram = static_cast<double>(counts.diagram_voxels);
   StageNumbers bytes;
-  // Obstacles; three sweeps over the sites, the first of which has nothing to read but obstacles;
-  // distances; traversable voxels.
-  const double sweeps = 3.0 * kMask + (3.0 + 2.0) * kSite;
-  bytes.esdf = allocated * (kState + kMask + sweeps + kSite + kSquared +  //
+  // Obstacles; three sweeps that write distances and sites, of which the first reads obstacles, the
+  // others distances; a look for those too far; traversable voxels.
+  const double sweeps = kMask + 2.0 * kSquared + 3.0 * (kSquared + kSite);
+  bytes.esdf = allocated * (kState + kMask + sweeps + kSquared +  //
                             kState + kSquared + kMask);
   // Sites of the traversable voxels. Those of the neighbours beyond are not counted.
   bytes.gvd = 2.0 * allocated * kMask + traversable * kSite;
   bytes.edges = 2.0 * allocated * kMask;
   bytes.thin = 2.0 * allocated * kMask;
-  // Basins: heights to ways and numbers. Kernel: heights once more, to order the deletions.
+  // Basins: heights to ways and drains. Kernel: heights once more, to order the deletions.
   bytes.kernel =
-      2.0 * allocated * kMask + traversable * (kSquared + kNext + kBasin) + traversable * kSquared;
+      2.0 * allocated * kMask + traversable * (kSquared + kNext + kDrain) + traversable * kSquared;
   // The diagram is found in its mask; then it is a list.
   bytes.graph = allocated * kMask + diagram * kSquared;
   bytes.attach = allocated * kMask + diagram * (kSquared + kNext);

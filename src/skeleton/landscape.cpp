@@ -6,6 +6,7 @@
 #include <array>
 #include <atomic>
 
+#include "cube_answers.hpp"
 #include "level_gather.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/voxel/cube_gather.hpp"
@@ -68,30 +69,39 @@ Cubes steepest_ways(const float* first, const Cubes& higher) {
   return moves != 0u ? first_cells(moves) : (moves & 0u) + kCentre;
 }
 
-/// For four voxels whether adding one, from the top down, neither starts a basin nor can join two:
-/// all its higher neighbours hang together by moves across faces, and one of them is across a face.
-Cubes are_regular(const Cubes& higher) {
-  const Cubes faces = higher & kCells6;
-  return reinterpret_cast<Cubes>((faces != 0u) &
-                                 (flood6(faces & -faces, higher, higher) == higher));
-}
-
-/// The ways inside a block, and where they leave it. Between blocks ways go from drain to drain.
+/// Where ways inside a block end, and what its voxels are to its basins.
 struct BlockWays {
   std::vector<std::uint16_t> drains;  // places where ways leave the block, and its peaks
   std::vector<VoxelId> critical;      // ascending
 };
 
-/// Fills in each place's number among the drains that it returns; 0, which is none, where a place
-/// is not traversable.
-std::vector<std::uint16_t> find_drains(const VoxelMask& traversable, std::uint32_t slot,
-                                       const Direction* next, std::uint32_t* drain) {
-  std::array<std::uint16_t, kBlockVoxels> end;  // of the way inside the block
+/// A place in a block with a bit to spare beside each part, which a step out of the block sets.
+constexpr std::uint32_t spaced(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+  return x | y << 4 | z << 8;
+}
+constexpr std::uint32_t kOutside = spaced(8, 8, 8);
+constexpr std::uint32_t spaced(VoxelId place) {
+  return spaced(place & 7, place >> 3 & 7, place >> 6);
+}
+constexpr std::array<std::uint32_t, 27> kSpacedSteps = [] {
+  std::array<std::uint32_t, 27> steps{};
+  for (int d = 0; d < 27; ++d) {
+    const VoxelIndex o = offset_of(d);
+    steps[static_cast<std::size_t>(d)] = static_cast<std::uint32_t>(o.x + 16 * o.y + 256 * o.z);
+  }
+  return steps;
+}();
+
+/// Where each place's way ends as long as it stays in the block.
+std::array<std::uint16_t, kBlockVoxels> ends_in_block(const VoxelMask& traversable,
+                                                      std::uint32_t slot, const Direction* next) {
+  std::array<std::uint16_t, kBlockVoxels> end;
   for (std::uint16_t i = 0; i < kBlockVoxels; ++i) end[i] = i;
   for_each_member(traversable, slot, [&](VoxelId id) {
     const VoxelId place = id % kBlockVoxels;
-    const VoxelIndex to = voxel_of({}, static_cast<int>(place)) + offset_of(next[place]);
-    if (block_of(to) == BlockIndex{}) end[place] = static_cast<std::uint16_t>(local_of(to));
+    const std::uint32_t to = spaced(place) + kSpacedSteps[next[place]];
+    if ((to & kOutside) == 0)
+      end[place] = static_cast<std::uint16_t>((to & 7) | (to >> 4 & 7) << 3 | (to >> 8 & 7) << 6);
   });
   for (bool again = true; again;) {  // each round doubles the steps that are known
     unsigned changed = 0;
@@ -102,59 +112,64 @@ std::vector<std::uint16_t> find_drains(const VoxelMask& traversable, std::uint32
     }
     again = changed != 0;
   }
+  return end;
+}
+
+/// Fills in each place's number among the drains that it returns; 0, which is none, where a place
+/// is not traversable.
+std::vector<std::uint16_t> find_drains(const VoxelMask& traversable, std::uint32_t slot,
+                                       const Direction* next, std::uint16_t* drain) {
+  const std::array<std::uint16_t, kBlockVoxels> end = ends_in_block(traversable, slot, next);
   std::vector<std::uint16_t> drains{0};
-  std::fill_n(drain, kBlockVoxels, 0u);
+  std::fill_n(drain, kBlockVoxels, std::uint16_t{0});
   for_each_member(traversable, slot, [&](VoxelId id) {
     const VoxelId place = id % kBlockVoxels;
     if (end[place] != place) return;
-    drain[place] = static_cast<std::uint32_t>(drains.size());
+    drain[place] = static_cast<std::uint16_t>(drains.size());
     drains.push_back(static_cast<std::uint16_t>(place));
   });
   for (std::size_t place = 0; place < kBlockVoxels; ++place) drain[place] = drain[end[place]];
   return drains;
 }
 
-/// Numbers the peaks and labels every voxel with its own. `basins.basin` holds the voxels' drains.
-void label_basins(const BlockLayout& layout, const std::vector<BlockWays>& ways, Basins& basins) {
-  std::vector<std::uint32_t> first(ways.size() + 1, 0);  // drain of each block
+/// Numbers the peaks and finds the basin of every drain.
+void number_basins(const BlockLayout& layout, const std::vector<BlockWays>& ways, Basins& basins) {
+  BasinNumbers& numbers = basins.basin;
+  numbers.first.assign(ways.size() + 1, 0);
   for (std::size_t slot = 0; slot < ways.size(); ++slot)
-    first[slot + 1] = first[slot] + static_cast<std::uint32_t>(ways[slot].drains.size());
-  std::vector<std::uint32_t> label(first.back(), kNone);
-  const auto drain_of = [&](VoxelId id) { return first[id / kBlockVoxels] + basins.basin[id]; };
+    numbers.first[slot + 1] =
+        numbers.first[slot] + static_cast<std::uint32_t>(ways[slot].drains.size());
+  numbers.basin.assign(numbers.first.back(), kNone);
+  const auto drain_of = [&](VoxelId id) {
+    return numbers.first[id / kBlockVoxels] + numbers.drain[id];
+  };
   for (std::uint32_t slot = 0; slot < ways.size(); ++slot)
     for (const VoxelId id : ways[slot].critical)
       if (basins.next[id] == kCentre) {
-        label[drain_of(id)] = static_cast<std::uint32_t>(basins.peaks.size());
+        numbers.basin[drain_of(id)] = static_cast<std::uint32_t>(basins.peaks.size());
         basins.peaks.push_back(id);
       }
-  const auto label_of = [&](std::uint32_t drain) {
-    return std::atomic_ref<std::uint32_t>(label[drain]);
+  const auto basin_of = [&](std::uint32_t drain) {
+    return std::atomic_ref<std::uint32_t>(numbers.basin[drain]);
   };
-  // Threads may walk the same way twice and then write the same label.
+  // Threads may walk the same way twice and then write the same number.
   parallel_for_each_index(
       ways.size(),
       [&](std::size_t slot) {
         std::vector<std::uint32_t> way;
         for (std::size_t i = 1; i < ways[slot].drains.size(); ++i) {
-          way.assign(1, first[slot] + static_cast<std::uint32_t>(i));
+          way.assign(1, numbers.first[slot] + static_cast<std::uint32_t>(i));
           VoxelId at = static_cast<VoxelId>(slot * kBlockVoxels) + ways[slot].drains[i];
           std::uint32_t basin = kNone;
-          while ((basin = label_of(way.back()).load(std::memory_order_relaxed)) == kNone) {
+          while ((basin = basin_of(way.back()).load(std::memory_order_relaxed)) == kNone) {
             const VoxelId to = layout.neighbour(at, basins.next[at]);
             way.push_back(drain_of(to));
-            at =
-                to / kBlockVoxels * kBlockVoxels + ways[to / kBlockVoxels].drains[basins.basin[to]];
+            at = to / kBlockVoxels * kBlockVoxels +
+                 ways[to / kBlockVoxels].drains[numbers.drain[to]];
           }
           for (const std::uint32_t drain : way)
-            label_of(drain).store(basin, std::memory_order_relaxed);
+            basin_of(drain).store(basin, std::memory_order_relaxed);
         }
-      },
-      16);
-  parallel_for_each_index(
-      ways.size(),
-      [&](std::size_t slot) {
-        std::uint32_t* basin = basins.basin.block(static_cast<std::uint32_t>(slot));
-        for (std::size_t i = 0; i < kBlockVoxels; ++i) basin[i] = label[first[slot] + basin[i]];
       },
       16);
 }
@@ -165,16 +180,17 @@ Landscape survey(const EsdfMap& esdf, const VoxelMask& traversable) {
   Landscape land;
   Basins& basins = land.basins;
   basins.next = VoxelField<Direction>::unset(esdf.layout);
-  basins.basin = VoxelField<std::uint32_t>::unset(esdf.layout);
+  basins.basin.drain = VoxelField<std::uint16_t>::unset(esdf.layout);
   basins.obstinate = VoxelMask(esdf.layout);
   std::vector<BlockWays> ways(esdf.layout.block_count());
+  CubeAnswers answers;
   parallel_for_each_index(
       esdf.layout.block_count(),
       [&](std::size_t block) {
         const auto slot = static_cast<std::uint32_t>(block);
         std::fill_n(basins.next.block(slot), kBlockVoxels, kNotTraversable);
         if (traversable.block(slot) == VoxelMask::Block{}) {
-          std::fill_n(basins.basin.block(slot), kBlockVoxels, 0u);
+          std::fill_n(basins.basin.drain.block(slot), kBlockVoxels, std::uint16_t{0});
           ways[slot].drains = {0};
           return;
         }
@@ -186,22 +202,21 @@ Landscape survey(const EsdfMap& esdf, const VoxelMask& traversable) {
           const LevelCubes cubes(levels, bordered_place(first));
           const Cubes higher =
               cubes.higher | (cubes.level & load_lanes<Cubes>(&kSmallerHandles[place]));
+          const Cubes later =
+              cubes.higher | (cubes.level & load_lanes<Cubes>(&kLaterFields[place]));
           const Cubes steepest = steepest_ways(&heights[bordered_place(first)], higher);
-          const Cubes regular = are_regular(higher);
-          const Cubes simple =
-              are_simple(cubes.higher | (cubes.level & load_lanes<Cubes>(&kLaterFields[place])));
           for (; members != 0; members &= members - 1) {
             const auto x = static_cast<VoxelId>(std::countr_zero(members));
             basins.next[first + x] = static_cast<Direction>(steepest[x]);
-            if (!regular[x]) ways[slot].critical.push_back(first + x);
-            if (!simple[x]) basins.obstinate.set(first + x);
+            if (!answers.of(higher[x]).is_regular) ways[slot].critical.push_back(first + x);
+            if (!answers.of(later[x]).is_simple) basins.obstinate.set(first + x);
           }
         });
         ways[slot].drains =
-            find_drains(traversable, slot, basins.next.block(slot), basins.basin.block(slot));
+            find_drains(traversable, slot, basins.next.block(slot), basins.basin.drain.block(slot));
       },
       16);
-  label_basins(esdf.layout, ways, basins);
+  number_basins(esdf.layout, ways, basins);
   for (const BlockWays& of_block : ways)
     land.critical.insert(land.critical.end(), of_block.critical.begin(), of_block.critical.end());
   return land;

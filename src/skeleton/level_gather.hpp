@@ -44,36 +44,4 @@ struct LevelCubes {
   }
 };
 
-inline bool any(const Cubes& cubes) {
-  std::array<std::uint64_t, 2> halves;
-  std::memcpy(halves.data(), &cubes, sizeof cubes);
-  return (halves[0] | halves[1]) != 0;
-}
-
-/// flood26 and flood6 for four cubes; they may stop once all that is wanted is reached.
-inline Cubes flood26(Cubes cells, const Cubes& within, const Cubes& wanted) {
-  for (Cubes before = cells ^ 1u; any(wanted & ~cells) && any(before ^ cells);) {
-    before = cells;
-    cells = grow26(cells) & within;
-  }
-  return cells;
-}
-inline Cubes flood6(Cubes cells, const Cubes& within, const Cubes& wanted) {
-  for (Cubes before = cells ^ 1u; any(wanted & ~cells) && any(before ^ cells);) {
-    before = cells;
-    cells = grow6(cells) & within;
-  }
-  return cells;
-}
-
-/// is_simple for four cubes.
-inline Cubes are_simple(const Cubes& cubes) {
-  const Cubes foreground = cubes & kCells26, background = ~cubes & kCells18;
-  const Cubes faces = background & kCells6;
-  const Cubes part = flood26(foreground & -foreground, foreground, foreground);
-  const Cubes unreached = faces & ~flood6(faces & -faces, background, faces);
-  return reinterpret_cast<Cubes>((foreground != 0u) & (faces != 0u) & (part == foreground) &
-                                 (unreached == 0u));
-}
-
 }  // namespace ridgeway::detail

@@ -29,6 +29,16 @@ struct NarrowerPass {
   }
 };
 
+/// The number of each traversable voxel's basin. Ways lead to few places where they leave their
+/// block or end, its drains: a voxel names its drain, and a drain its basin.
+struct BasinNumbers {
+  VoxelField<std::uint16_t> drain;   ///< place among those of the block; 0: not traversable
+  std::vector<std::uint32_t> first;  ///< by block, of its drains
+  std::vector<std::uint32_t> basin;  ///< by drain
+
+  std::uint32_t operator[](VoxelId id) const { return basin[first[id / kBlockVoxels] + drain[id]]; }
+};
+
 /// Traversable space as a landscape whose height is the clearance. Each voxel climbs to a peak by
 /// moves that are nowhere narrower than the voxel itself; the passes, widest first, are the
 /// maximum spanning forest of all basins over all legal moves. Together they tell exactly at which
@@ -36,11 +46,11 @@ struct NarrowerPass {
 ///
 /// Heights are ordered by (4 d^2 / s^2, smaller handle first), so there are no ties.
 struct Basins {
-  VoxelField<Direction> next;       ///< towards the peak; kCentre at a peak
-  VoxelField<std::uint32_t> basin;  ///< number of the voxel's basin
-  std::vector<VoxelId> peaks;       ///< by basin, ascending handles
-  std::vector<double> dynamics;     ///< by basin: height above its pass to a higher peak, voxels
-  std::vector<Pass> passes;         ///< widest first
+  VoxelField<Direction> next;    ///< towards the peak; kCentre at a peak
+  BasinNumbers basin;            ///< of the voxel
+  std::vector<VoxelId> peaks;    ///< by basin, ascending handles
+  std::vector<double> dynamics;  ///< by basin: height above its pass to a higher peak, voxels
+  std::vector<Pass> passes;      ///< widest first
   /// Voxels that compute_kernel cannot delete at their first turn, even if all it asks before went.
   VoxelMask obstinate;
   std::size_t components() const { return peaks.size() - passes.size(); }
