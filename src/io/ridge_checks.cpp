@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "ridge_checks.hpp"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
@@ -122,36 +123,52 @@ Defect find_tree_defect(const Roadmap& roadmap) {
   return {};
 }
 
-/// Whether every way out of a block's voxels ends in a traversable voxel.
-bool ways_stay_inside(const Roadmap& roadmap, std::uint32_t slot) {
+/// What one look at the ways of a block tells.
+struct WaysOfBlock {
+  bool stay_inside = true;          // every one leads to a traversable voxel
+  std::vector<VoxelId> descending;  // voxels whose way does not climb
+};
+
+/// Clearance and then handles order the voxels as basins do, so a way that only climbs has an end.
+bool climbs(const EsdfMap& esdf, VoxelId from, VoxelId to) {
+  return std::pair(esdf.squared[to], from) > std::pair(esdf.squared[from], to);
+}
+
+WaysOfBlock look_at_ways(const Roadmap& roadmap, std::uint32_t slot) {
   const BlockLayout& layout = roadmap.esdf.layout;
   const VoxelField<Direction>& next = roadmap.attach.next;
   const VoxelId first = slot * kBlockVoxels;
+  WaysOfBlock ways;
   for (VoxelId id = first; id < first + kBlockVoxels; ++id) {
     const Direction direction = next[id];
     if (direction == AttachField::kNotTraversable || direction == AttachField::kHere) continue;
     const VoxelId to = layout.neighbour(id, direction);
-    if (to == kNoVoxel || next[to] == AttachField::kNotTraversable) return false;
+    if (to == kNoVoxel || next[to] == AttachField::kNotTraversable) {
+      ways.stay_inside = false;
+      return ways;
+    }
+    if (!climbs(roadmap.esdf, id, to)) ways.descending.push_back(id);
   }
-  return true;
+  return ways;
 }
 
-/// Whether every way ends: each voxel is walked from once, up to the first known good one.
-bool ways_end(const Roadmap& roadmap) {
+/// Whether every way ends; a circle goes through a voxel where it does not climb. Each voxel is
+/// walked from once, up to the first known good one.
+bool ways_end(const Roadmap& roadmap, const std::vector<WaysOfBlock>& ways) {
   const BlockLayout& layout = roadmap.esdf.layout;
   const VoxelField<Direction>& next = roadmap.attach.next;
   VoxelMask good(layout);
   std::vector<VoxelId> way;
-  for (VoxelId start = 0; start < next.size(); ++start) {
-    if (next[start] == AttachField::kNotTraversable || good.test(start)) continue;
-    way.clear();
-    for (VoxelId id = start; !good.test(id); id = layout.neighbour(id, next[id])) {
-      way.push_back(id);
-      if (next[id] == AttachField::kHere) break;
-      if (way.size() > next.size()) return false;
+  for (const WaysOfBlock& of_block : ways)
+    for (const VoxelId start : of_block.descending) {
+      way.clear();
+      for (VoxelId id = start; !good.test(id); id = layout.neighbour(id, next[id])) {
+        way.push_back(id);
+        if (next[id] == AttachField::kHere) break;
+        if (way.size() > next.size()) return false;
+      }
+      for (const VoxelId id : way) good.set(id);
     }
-    for (const VoxelId id : way) good.set(id);
-  }
   return true;
 }
 
@@ -208,15 +225,16 @@ Defect find_taut_defect(const Roadmap& roadmap) {
 }
 
 Defect find_attach_defect(const Roadmap& roadmap) {
-  std::atomic<bool> good = true;
+  std::vector<WaysOfBlock> ways(roadmap.esdf.layout.block_count());
   parallel_for_each_index(
-      roadmap.esdf.layout.block_count(),
+      ways.size(),
       [&](std::size_t slot) {
-        if (!ways_stay_inside(roadmap, static_cast<std::uint32_t>(slot))) good = false;
+        ways[slot] = look_at_ways(roadmap, static_cast<std::uint32_t>(slot));
       },
       64);
-  if (!good) return RoadmapDefect{"attach", "leaves traversable space"};
-  if (!ways_end(roadmap)) return RoadmapDefect{"attach", "goes in a circle"};
+  if (!std::all_of(ways.begin(), ways.end(), [](const WaysOfBlock& w) { return w.stay_inside; }))
+    return RoadmapDefect{"attach", "leaves traversable space"};
+  if (!ways_end(roadmap, ways)) return RoadmapDefect{"attach", "goes in a circle"};
   return {};
 }
 

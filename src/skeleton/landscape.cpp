@@ -75,23 +75,6 @@ struct BlockWays {
   std::vector<VoxelId> critical;      // ascending
 };
 
-/// A place in a block with a bit to spare beside each part, which a step out of the block sets.
-constexpr std::uint32_t spaced(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-  return x | y << 4 | z << 8;
-}
-constexpr std::uint32_t kOutside = spaced(8, 8, 8);
-constexpr std::uint32_t spaced(VoxelId place) {
-  return spaced(place & 7, place >> 3 & 7, place >> 6);
-}
-constexpr std::array<std::uint32_t, 27> kSpacedSteps = [] {
-  std::array<std::uint32_t, 27> steps{};
-  for (int d = 0; d < 27; ++d) {
-    const VoxelIndex o = offset_of(d);
-    steps[static_cast<std::size_t>(d)] = static_cast<std::uint32_t>(o.x + 16 * o.y + 256 * o.z);
-  }
-  return steps;
-}();
-
 /// Where each place's way ends as long as it stays in the block.
 std::array<std::uint16_t, kBlockVoxels> ends_in_block(const VoxelMask& traversable,
                                                       std::uint32_t slot, const Direction* next) {
@@ -99,9 +82,8 @@ std::array<std::uint16_t, kBlockVoxels> ends_in_block(const VoxelMask& traversab
   for (std::uint16_t i = 0; i < kBlockVoxels; ++i) end[i] = i;
   for_each_member(traversable, slot, [&](VoxelId id) {
     const VoxelId place = id % kBlockVoxels;
-    const std::uint32_t to = spaced(place) + kSpacedSteps[next[place]];
-    if ((to & kOutside) == 0)
-      end[place] = static_cast<std::uint16_t>((to & 7) | (to >> 4 & 7) << 3 | (to >> 8 & 7) << 6);
+    if (has_neighbour_in_block(place, next[place]))
+      end[place] = static_cast<std::uint16_t>(neighbour_in_block(place, next[place]));
   });
   for (bool again = true; again;) {  // each round doubles the steps that are known
     unsigned changed = 0;

@@ -54,6 +54,7 @@ class BlockLayout {
 
   /// Handle of the 26-neighbour in a direction, or kNoVoxel.
   VoxelId neighbour(VoxelId id, int direction) const {
+    if (has_neighbour_in_block(id, direction)) return neighbour_in_block(id, direction);
     const VoxelIndex o = offset_of(direction);
     return step(id, o.x, o.y, o.z);
   }

@@ -52,6 +52,37 @@ constexpr int squared_length(int direction) {
 }
 
 namespace detail {
+/// By direction: a bit for each place in a block whose neighbour there lies in the block too.
+inline constexpr auto kInBlock = [] {
+  std::array<std::array<std::uint64_t, kBlockSide>, 27> inside{};
+  for (int d = 0; d < 27; ++d)
+    for (int place = 0; place < kBlockVoxels; ++place)
+      if (block_of(voxel_of({}, place) + offset_of(d)) == BlockIndex{})
+        inside[static_cast<std::size_t>(d)][static_cast<std::size_t>(place / 64)] |= 1ull
+                                                                                     << place % 64;
+  return inside;
+}();
+inline constexpr std::array<int, 27> kStepsInBlock = [] {
+  std::array<int, 27> steps{};
+  for (int d = 0; d < 27; ++d) {
+    const VoxelIndex o = offset_of(d);
+    steps[static_cast<std::size_t>(d)] = o.x + kBlockSide * (o.y + kBlockSide * o.z);
+  }
+  return steps;
+}();
+}  // namespace detail
+
+/// Whether the neighbour of a voxel in a direction lies in the same block.
+constexpr bool has_neighbour_in_block(VoxelId id, int direction) {
+  const VoxelId place = id % kBlockVoxels;
+  return detail::kInBlock[static_cast<std::size_t>(direction)][place / 64] >> place % 64 & 1;
+}
+/// That neighbour, where it does.
+constexpr VoxelId neighbour_in_block(VoxelId id, int direction) {
+  return id + static_cast<VoxelId>(detail::kStepsInBlock[static_cast<std::size_t>(direction)]);
+}
+
+namespace detail {
 constexpr Cube27 cells_up_to(int longest) {
   Cube27 cells = 0;
   for (int d = 0; d < 27; ++d)
