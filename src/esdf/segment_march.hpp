@@ -41,38 +41,79 @@ inline double ball_bound(const EsdfMap& esdf, VoxelFinder& finder, const Vector&
   return distance * distance;
 }
 
-/// What eight numbers at the corners of a unit cube, x fastest, are worth at a place inside.
-inline double interpolate(const std::array<double, 8>& corners, const Vector& t) {
-  const auto between = [](double a, double b, double share) { return a + share * (b - a); };
-  const auto over_face = [&](std::size_t i) {
-    return between(between(corners[i], corners[i + 1], t.x()),
-                   between(corners[i + 2], corners[i + 3], t.x()), t.y());
-  };
-  return between(over_face(0), over_face(4), t.z());
-}
+/// The squared distances (4 d^2) of the eight voxel centres around a place, in pairs along x.
+struct CentresAround {
+  using Pair = std::int32_t __attribute__((vector_size(8)));
+  std::array<Pair, 4> pairs;
 
-/// The same straight from a block's values, two at a time; nothing where one of them is kNoSite or
-/// as large.
-inline std::optional<double> interpolate(const std::uint32_t* corners, const Vector& t) {
-  using Whole = std::int32_t __attribute__((vector_size(8)));
-  using Real = double __attribute__((vector_size(16)));
+  /// Whether all are known, and below 2^31.
+  bool are_small() const {
+    const Pair any = pairs[0] | pairs[1] | pairs[2] | pairs[3];
+    return (any[0] | any[1]) >= 0;
+  }
+};
+
+/// Around a cube of eight voxels inside a block, of which the first is given.
+inline CentresAround centres_in_block(const std::uint32_t* squared) {
   constexpr int kRow = kBlockSide, kLayer = kBlockSide * kBlockSide;
-  const auto pair_at = [&](int place) {
-    Whole pair;
-    std::memcpy(&pair, corners + place, sizeof(pair));
+  const auto pair_at = [&](int first) {
+    CentresAround::Pair pair;
+    std::memcpy(&pair, squared + first, sizeof(pair));
     return pair;
   };
-  const std::array<Whole, 4> pairs{pair_at(0), pair_at(kRow), pair_at(kLayer),
-                                   pair_at(kLayer + kRow)};
-  const Whole any = pairs[0] | pairs[1] | pairs[2] | pairs[3];
-  if ((any[0] | any[1]) < 0) return std::nullopt;  // too large for a signed number
-  const auto real = [&](std::size_t i) { return __builtin_convertvector(pairs[i], Real); };
+  return {{pair_at(0), pair_at(kRow), pair_at(kLayer), pair_at(kLayer + kRow)}};
+}
+
+/// Around the cube of eight voxels that begins at `base` and lies in several blocks. Where one is
+/// missing it is solid, or nothing is known if unknown space is no obstacle.
+inline std::optional<CentresAround> centres_across_blocks(const EsdfMap& esdf,
+                                                          const VoxelIndex& base) {
+  static constexpr std::array<std::uint32_t, kBlockVoxels> kSolid{};
+  constexpr int kLast = kBlockSide - 1;
+  const int x = base.x & kLast, y = base.y & kLast, z = base.z & kLast;
+  const int crossed = (x == kLast ? 1 : 0) | (y == kLast ? 2 : 0) | (z == kLast ? 4 : 0);
+  std::array<const std::uint32_t*, 8> blocks;  // by the axes along which they are the next one
+  for (int next = crossed;; next = (next - 1) & crossed) {
+    const std::uint32_t slot =
+        esdf.layout.find_block(block_of(base) + BlockIndex{next & 1, next >> 1 & 1, next >> 2 & 1});
+    if (slot == BlockLayout::kNoBlock && esdf.unknown == UnknownPolicy::kIgnore) return {};
+    blocks[static_cast<std::size_t>(next)] =
+        slot == BlockLayout::kNoBlock ? kSolid.data() : esdf.squared.block(slot);
+    if (next == 0) break;
+  }
+  CentresAround centres;
+  for (int row = 0; row < 4; ++row) {
+    const int place = ((y + (row & 1)) & kLast) << kBlockBits | ((z + (row >> 1)) & kLast)
+                                                                    << (2 * kBlockBits);
+    const auto value = [&](int dx) {
+      const std::uint32_t* block = blocks[static_cast<std::size_t>((2 * row + dx) & crossed)];
+      return static_cast<std::int32_t>(block[place + ((x + dx) & kLast)]);
+    };
+    centres.pairs[static_cast<std::size_t>(row)] = CentresAround::Pair{value(0), value(1)};
+  }
+  return centres;
+}
+
+/// What they are worth at a place inside the cube, in voxels; `far`: where one is not known.
+inline double interpolate(const CentresAround& centres, const Vector& t, double far) {
+  using Real = double __attribute__((vector_size(16)));
+  std::array<Real, 4> rows;
+  if (centres.are_small()) {
+    for (std::size_t i = 0; i < 4; ++i) rows[i] = __builtin_convertvector(centres.pairs[i], Real);
+  } else {
+    const auto known = [far](std::int32_t value) {
+      const auto squared = static_cast<std::uint32_t>(value);
+      return squared == kNoSite ? 4.0 * far : squared;
+    };
+    for (std::size_t i = 0; i < 4; ++i)
+      rows[i] = Real{known(centres.pairs[i][0]), known(centres.pairs[i][1])};
+  }
   const auto between = [](const Real& a, const Real& b, double share) {
     return a + share * (b - a);
   };
-  const Real near = between(real(0), real(1), t.y()), far = between(real(2), real(3), t.y());
-  const Real both = between(near, far, t.z());
-  return both[0] + t.x() * (both[1] - both[0]);
+  const Real both =
+      between(between(rows[0], rows[1], t.y()), between(rows[2], rows[3], t.y()), t.z());
+  return 0.25 * (both[0] + t.x() * (both[1] - both[0]));
 }
 
 /// Lower bound of D^2 at a point from the eight voxel centres around it: trilinear interpolation
@@ -86,20 +127,9 @@ inline double lower_bound(const EsdfMap& esdf, VoxelFinder& finder, const Vector
   const VoxelId first = finder.find(base);
   const auto is_inside = [](int i) { return (i & (kBlockSide - 1)) != kBlockSide - 1; };
   if (first != kNoVoxel && is_inside(base.x) && is_inside(base.y) && is_inside(base.z))
-    if (const std::optional<double> quarters = interpolate(&esdf.squared[first], t))
-      return 0.25 * *quarters - excess;
-  std::array<double, 8> corners{};
-  for (int i = 0; i < 8; ++i) {
-    const int dx = i & 1, dy = i >> 1 & 1, dz = i >> 2;
-    const VoxelId id = first != kNoVoxel ? esdf.layout.step(first, dx, dy, dz)
-                                         : finder.find(base + VoxelIndex{dx, dy, dz});
-    if (id != kNoVoxel) {
-      corners[static_cast<std::size_t>(i)] = stored(esdf, id, far);
-    } else if (esdf.unknown == UnknownPolicy::kIgnore) {
-      return ball_bound(esdf, finder, p, far);
-    }
-  }
-  return interpolate(corners, t) - excess;
+    return interpolate(centres_in_block(&esdf.squared[first]), t, far) - excess;
+  const std::optional<CentresAround> centres = centres_across_blocks(esdf, base);
+  return centres ? interpolate(*centres, t, far) - excess : ball_bound(esdf, finder, p, far);
 }
 
 /// What a march along a segment is to find out.

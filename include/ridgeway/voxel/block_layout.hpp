@@ -108,23 +108,21 @@ class VoxelFinder {
 
   /// Handle of a voxel, or kNoVoxel where its block is not allocated.
   VoxelId find(const VoxelIndex& voxel) {
-    const BlockIndex block = block_of(voxel);
-    if (!has_block_ || block != block_) move_to(block);
-    return slot_ == BlockLayout::kNoBlock ? kNoVoxel : slot_ * kBlockVoxels + local_of(voxel);
+    const std::uint32_t slot = find_block(block_of(voxel));
+    return slot == BlockLayout::kNoBlock ? kNoVoxel : slot * kBlockVoxels + local_of(voxel);
+  }
+
+  /// Slot of a block, or BlockLayout::kNoBlock.
+  std::uint32_t find_block(const BlockIndex& block) {
+    if (!has_block_ || block != block_) {
+      slot_ = layout_.find_block(block);
+      block_ = block;
+      has_block_ = true;
+    }
+    return slot_;
   }
 
  private:
-  void move_to(const BlockIndex& block) {
-    const BlockIndex o = block - block_;
-    const auto is_near = [](int k) { return static_cast<unsigned>(k + 1) < 3; };
-    slot_ =
-        has_block_ && slot_ != BlockLayout::kNoBlock && is_near(o.x) && is_near(o.y) && is_near(o.z)
-            ? layout_.neighbour_block(slot_, kCentre + o.x + 3 * o.y + 9 * o.z)
-            : layout_.find_block(block);
-    block_ = block;
-    has_block_ = true;
-  }
-
   const BlockLayout& layout_;
   BlockIndex block_{};
   std::uint32_t slot_ = BlockLayout::kNoBlock;
