@@ -205,11 +205,10 @@ class SegmentMarch {
   /// behind it. Stops where one of them returns false.
   template <typename OnLow, typename OnClose>
   void march(const double& limit, const OnLow& on_low, const OnClose& on_close) {
-    double t = 0.0, bound = bound_at(0.0);
+    double t = 0.0, bound = bound_at(0.0), slope = 0.0;
     bool is_close = false;
     do {
-      // Two places with this bound may be so far apart.
-      const double step = bound > limit && !is_close ? 2.0 * std::sqrt(bound - limit) : 0.0;
+      const double step = is_close ? 0.0 : likely_step(bound, slope, limit);
       is_close = step <= kCloseStep;
       double end = std::min(t + std::max(step, kCloseStep), length_);
       double bound_ahead = bound_at(end);
@@ -225,6 +224,7 @@ class SegmentMarch {
           bound_ahead = std::max(bound_at(end), limit);
         }
       }
+      slope = (bound_ahead - bound) / (end - t);
       t = end;
       bound = bound_ahead;
       is_close = false;
@@ -267,6 +267,15 @@ class SegmentMarch {
     const double squared = length * length, rise = std::abs(b1 - b0);
     if (rise >= squared) return std::min(b0, b1);
     return 0.5 * (b0 + b1) - 0.25 * squared - 0.25 * rise * rise / squared;
+  }
+
+  /// About as far as bound_between() allows from a place whose bound is above the limit, if the
+  /// bound goes on to fall as it did (`slope`, for each voxel): 2 sqrt(bound - limit) + slope. Less
+  /// by a tenth, as a step too far costs more than one too short.
+  static double likely_step(double bound, double slope, double limit) {
+    if (bound <= limit) return 0.0;
+    const double level = 2.0 * std::sqrt(bound - limit);
+    return std::max(0.9 * level + std::min(slope, 0.0), 0.5 * level);
   }
 
   /// The first x at which that falls to the limit, if it is above at 0; else 0.
