@@ -208,9 +208,10 @@ class SegmentMarch {
     double t = 0.0, bound = bound_at(0.0), slope = 0.0;
     bool is_close = false;
     do {
-      const double step = is_close ? 0.0 : likely_step(bound, slope, limit);
+      // Two places with this bound may be so far apart.
+      const double step = bound > limit && !is_close ? 2.0 * std::sqrt(bound - limit) : 0.0;
       is_close = step <= kCloseStep;
-      double end = std::min(t + std::max(step, kCloseStep), length_);
+      double end = std::min(t + std::max(likely_step(step, slope), kCloseStep), length_);
       double bound_ahead = bound_at(end);
       if (bound_between(bound, bound_ahead, end - t) < limit) {
         if (is_close) {
@@ -269,13 +270,11 @@ class SegmentMarch {
     return 0.5 * (b0 + b1) - 0.25 * squared - 0.25 * rise * rise / squared;
   }
 
-  /// About as far as bound_between() allows from a place whose bound is above the limit, if the
-  /// bound goes on to fall as it did (`slope`, for each voxel): 2 sqrt(bound - limit) + slope. Less
-  /// by a tenth, as a step too far costs more than one too short.
-  static double likely_step(double bound, double slope, double limit) {
-    if (bound <= limit) return 0.0;
-    const double level = 2.0 * std::sqrt(bound - limit);
-    return std::max(0.9 * level + std::min(slope, 0.0), 0.5 * level);
+  /// About as far as bound_between() allows if the bound goes on to fall as it did (`slope`, for
+  /// each voxel), where it would allow a step if it stayed level. Less by a tenth, as a step too
+  /// far costs more than one too short.
+  static double likely_step(double level_step, double slope) {
+    return std::max(0.9 * level_step + std::min(slope, 0.0), 0.5 * level_step);
   }
 
   /// The first x at which that falls to the limit, if it is above at 0; else 0.

@@ -19,7 +19,8 @@ constexpr double kWorthGoing = 2e-3;      // and going without it
 constexpr double kHardly = 1.1;           // shorter by less: tight but for its ends
 constexpr double kHardlyShort = 1.03;     // the same for a short route
 constexpr double kNearlyStraight = 1.03;  // longer than the straight line by less
-constexpr double kWinding = 1.25;         // by more: there is no way straight past what blocks it
+constexpr double kWinding = 1.5;          // by more: there is no way straight past what blocks it
+constexpr double kDoubtful = 1.1;         // by more: a short route may have missed a corner
 constexpr int kDetourCorners = 2;
 constexpr double kShort = 50.0;  // radii: of a route that is little else than its ends
 
@@ -90,9 +91,10 @@ TautPath plan_taut(const TautGraph& taut, const EsdfMap& esdf, const FreeSpace& 
         draw_corners_in(space, path.waypoints, query.radius, deadline, {},
                         {kWorthwhile, is_short ? 0.0 : kWorthGoing, 1, corners.size()});
     if (is_short) look_past_what_blocks(esdf, space, query, deadline, path.waypoints);
-    const double tight = length_of(path.waypoints);
-    path.will_do = as_found <= (is_short ? kHardlyShort : kHardly) * tight ||
-                   tight <= kNearlyStraight * (query.goal - query.start).norm();
+    const double straight = (query.goal - query.start).norm(), tight = length_of(path.waypoints);
+    const bool is_tight = as_found <= (is_short ? kHardlyShort : kHardly) * tight;
+    path.will_do = (is_tight && !(is_short && tight > kDoubtful * straight)) ||
+                   tight <= kNearlyStraight * straight;
   }
   path.known = known_part(taut.graph, path.waypoints, corners);
   path.shorten_seconds = seconds_now() - found;

@@ -19,7 +19,8 @@ namespace {
 
 constexpr double kNearlyStraight = 1.03;  // over the straight line: not worth another way
 constexpr double kMostlyDrawnInTo = 0.9;  // of its length when waypoints are skipped
-constexpr double kSuspicious = 1.15;      // over the straight line: worth a second opinion
+constexpr double kSuspicious = 1.15;      // over the straight line: worth a second opinion,
+constexpr double kUnexpected = 1.1;       // and where that is cheap, as corners are known
 constexpr std::array kStrides{2, 1};      // the coarse is quick, the fine fits narrow places
 constexpr double kQuickWeight = 1.2;      // of those searches' heuristic
 constexpr int kQuickExpansions = 3000;    // less than two milliseconds
@@ -77,10 +78,11 @@ Route ask_again(const Roadmap& roadmap, const FreeSpace& space, Route best, doub
                 double as_found, const Deadline& deadline) {
   const EsdfMap& esdf = roadmap.esdf;
   const bool knows_corners = !roadmap.taut.empty();
-  const double straight = (best.back() - best.front()).norm();
+  const double expected =
+      (knows_corners ? kUnexpected : kSuspicious) * (best.back() - best.front()).norm();
   for (const int stride : std::span(kStrides).first(knows_corners ? 1 : 2)) {
     const double shortest = length_of(best);
-    if (shortest <= kSuspicious * straight || deadline.has_passed()) break;
+    if (shortest <= expected || deadline.has_passed()) break;
     const double for_saved = knows_corners ? 0.0 : kInVain * (as_found / shortest - 1.0);
     const int most_in_vain =
         static_cast<int>(std::clamp<double>(for_saved, kLeastInVain, kQuickExpansions));
