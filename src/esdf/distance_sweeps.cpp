@@ -36,17 +36,16 @@ void for_each_row(const BlockLayout& layout, int axis, const Body& body) {
                           [&](std::size_t i) { body(row_from(layout, starts[i], axis)); });
 }
 
-/// Line `line` (0..63) of voxels of a row along an axis.
+/// Line `line` (0..63) of voxels of a row along y (axis 1) or z (2).
 struct Line {
   const BlockRow& row;
-  const int axis;
   VoxelId base;    // place of the line's first voxel in a block
   VoxelId stride;  // from voxel to voxel
 
-  Line(const BlockRow& blocks, int along, int line)
-      : row(blocks), axis(along), stride(static_cast<VoxelId>(1 << (along * kBlockBits))) {
+  Line(const BlockRow& blocks, int axis, int line)
+      : row(blocks), stride(static_cast<VoxelId>(1 << (axis * kBlockBits))) {
     const auto low = static_cast<VoxelId>(line & 7), high = static_cast<VoxelId>(line >> 3);
-    base = axis == 0 ? low << 3 | high << 6 : axis == 1 ? low | high << 6 : low | high << 3;
+    base = axis == 1 ? low | high << 6 : low | high << 3;
   }
 
   int size() const { return static_cast<int>(row.size()) * kBlockSide; }
