@@ -3,7 +3,7 @@
 #include "bench_data.hpp"
 
 #include "ridgeway/esdf/esdf.hpp"
-#include "ridgeway/io/load_map.hpp"
+#include "ridgeway/formats/load_map.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "ridgeway/sensing/random.hpp"

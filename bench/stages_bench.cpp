@@ -6,7 +6,7 @@
 // `voxels` counts what a stage walks over. Compare ratios within one run.
 #include "bench_data.hpp"
 #include "ridgeway/esdf/esdf.hpp"
-#include "ridgeway/io/load_map.hpp"
+#include "ridgeway/formats/load_map.hpp"
 #include "ridgeway/roadmap/build_graph.hpp"
 #include "ridgeway/roadmap/simplify_graph.hpp"
 #include "ridgeway/skeleton/diagram.hpp"

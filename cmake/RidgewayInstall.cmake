@@ -1,13 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 The Ridgeway authors
 
-# Installation, find_package(ridgeway COMPONENTS core sampling trajectory io), and the Debian
-# packages ridgeway (the program) and ridgeway-dev (headers and static libraries).
+# Installation, find_package(ridgeway COMPONENTS ...), and the Debian packages ridgeway (the program)
+# and ridgeway-dev (headers and static libraries).
 
 include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/ridgeway")
 
-# Core: every module but sampling, trajectory and io, and the umbrella ridgeway::ridgeway.
+# Modules that need libraries of their own are components of their own; core is all others, and the
+# umbrella ridgeway::ridgeway.
+set(components ridge pictures sampling trajectory formats recordings)
+set(core_excludes PATTERN "experiments" EXCLUDE)
+foreach(component IN LISTS components)
+  list(APPEND core_excludes PATTERN "${component}" EXCLUDE)
+endforeach()
 get_property(core_modules GLOBAL PROPERTY RIDGEWAY_MODULES_core)
 install(
   TARGETS ${core_modules} ridgeway
@@ -19,14 +25,9 @@ install(
   DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
   COMPONENT dev
   FILES_MATCHING
-  PATTERN "*.hpp"
-  PATTERN "experiments" EXCLUDE
-  PATTERN "sampling" EXCLUDE
-  PATTERN "trajectory" EXCLUDE
-  PATTERN "io" EXCLUDE)
+  PATTERN "*.hpp" ${core_excludes})
 
-# Components of their own, for the libraries that they need.
-foreach(component sampling trajectory io)
+foreach(component IN LISTS components)
   get_property(modules GLOBAL PROPERTY RIDGEWAY_MODULES_${component})
   if(modules)
     install(

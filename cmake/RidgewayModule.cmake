@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 The Ridgeway authors
 
-# ridgeway_module(<name> [COMPONENT core|sampling|trajectory|io] [SOURCES <file>...]
+# ridgeway_module(<name> [COMPONENT <component>] [SOURCES <file>...]
 #                 [DEPENDS <target>...]
 #                 [PRIVATE_DEPENDS <target>...])
 #
 # The library of one folder: target ridgeway_<name>, alias ridgeway::<name>. Sources are listed one
 # by one, relative to src/<name>. DEPENDS are seen by users of the module's headers, PRIVATE_DEPENDS
-# by its own sources alone. Without sources it is header only.
+# by its own sources alone. Without sources it is header only. COMPONENT: of find_package(ridgeway),
+# `core` unless said.
 function(ridgeway_module name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "COMPONENT" "SOURCES;DEPENDS;PRIVATE_DEPENDS")
   if(arg_UNPARSED_ARGUMENTS)
@@ -23,6 +24,8 @@ function(ridgeway_module name)
     add_library(${target} STATIC ${arg_SOURCES})
     ridgeway_target_defaults(${target})
     target_link_libraries(${target} PRIVATE ${arg_PRIVATE_DEPENDS})
+    # Headers of other rooms that are not installed: "room/header.hpp".
+    target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src")
   else()
     set(visibility INTERFACE)
     add_library(${target} INTERFACE)

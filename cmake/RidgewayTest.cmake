@@ -16,7 +16,8 @@ function(ridgeway_test name)
   endif()
   add_executable(${name}_tests ${arg_SOURCES})
   ridgeway_target_defaults(${name}_tests)
-  target_include_directories(${name}_tests PRIVATE "${PROJECT_SOURCE_DIR}/tests")
+  target_include_directories(${name}_tests PRIVATE "${PROJECT_SOURCE_DIR}/tests"
+                                                    "${PROJECT_SOURCE_DIR}/src")
   target_link_libraries(${name}_tests PRIVATE ${arg_DEPENDS} GTest::gtest_main)
   target_compile_definitions(
     ${name}_tests PRIVATE RIDGEWAY_DATA_DIR="${PROJECT_SOURCE_DIR}/data"

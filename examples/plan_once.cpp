@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "ridgeway/io/load_map.hpp"
+#include "ridgeway/formats/load_map.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 

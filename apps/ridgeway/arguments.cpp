@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/io/atomic_file.hpp"
+#include "ridgeway/files/atomic_file.hpp"
 #include "ridgeway/mapping/map_transform.hpp"
 #include "ridgeway/mapping/voxel_range.hpp"
 

@@ -13,11 +13,11 @@
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/number_text.hpp"
 #include "ridgeway/experiments/grid.hpp"
-#include "ridgeway/io/atomic_file.hpp"
-#include "ridgeway/io/benchmark_map.hpp"
-#include "ridgeway/io/benchmark_scenarios.hpp"
-#include "ridgeway/io/chart.hpp"
-#include "ridgeway/io/read_file.hpp"
+#include "ridgeway/files/atomic_file.hpp"
+#include "ridgeway/files/read_file.hpp"
+#include "ridgeway/formats/benchmark_map.hpp"
+#include "ridgeway/formats/benchmark_scenarios.hpp"
+#include "ridgeway/pictures/chart.hpp"
 
 namespace ridgeway::cli {
 namespace {

@@ -17,9 +17,9 @@
 #include "bench_table.hpp"
 #include "console.hpp"
 #include "ridgeway/experiments/hall.hpp"
-#include "ridgeway/io/chart.hpp"
-#include "ridgeway/io/load_map.hpp"
-#include "ridgeway/io/ridge_file.hpp"
+#include "ridgeway/formats/load_map.hpp"
+#include "ridgeway/pictures/chart.hpp"
+#include "ridgeway/ridge/ridge_file.hpp"
 
 namespace ridgeway::cli {
 namespace {

@@ -9,7 +9,7 @@
 #include "bench_table.hpp"
 #include "console.hpp"
 #include "ridgeway/experiments/maze.hpp"
-#include "ridgeway/io/picture.hpp"
+#include "ridgeway/pictures/picture.hpp"
 
 namespace ridgeway::cli {
 namespace {

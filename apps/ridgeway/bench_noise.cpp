@@ -9,8 +9,8 @@
 #include "bench_table.hpp"
 #include "console.hpp"
 #include "ridgeway/experiments/noise.hpp"
-#include "ridgeway/io/chart.hpp"
-#include "ridgeway/io/picture.hpp"
+#include "ridgeway/pictures/chart.hpp"
+#include "ridgeway/pictures/picture.hpp"
 
 namespace ridgeway::cli {
 namespace {

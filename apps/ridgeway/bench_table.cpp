@@ -14,8 +14,8 @@
 #include "arguments.hpp"
 #include "console.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/io/atomic_file.hpp"
-#include "ridgeway/io/world_file.hpp"
+#include "ridgeway/files/atomic_file.hpp"
+#include "ridgeway/formats/world_file.hpp"
 #include "ridgeway/sensing/world_generators.hpp"
 
 namespace ridgeway::cli {

@@ -14,9 +14,9 @@
 #include "flight_picture.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/experiments/flights.hpp"
-#include "ridgeway/io/chart.hpp"
-#include "ridgeway/io/load_map.hpp"
+#include "ridgeway/formats/load_map.hpp"
 #include "ridgeway/mapping/world_map.hpp"
+#include "ridgeway/pictures/chart.hpp"
 #include "ridgeway/sensing/poses.hpp"
 #include "ridgeway/sensing/world_generators.hpp"
 

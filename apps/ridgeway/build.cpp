@@ -15,8 +15,8 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/io/load_map.hpp"
-#include "ridgeway/io/ridge_file.hpp"
+#include "ridgeway/formats/load_map.hpp"
+#include "ridgeway/ridge/ridge_file.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "source_facts.hpp"
 

@@ -10,8 +10,8 @@
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "console.hpp"
-#include "ridgeway/io/atomic_file.hpp"
-#include "ridgeway/io/ridge_file.hpp"
+#include "ridgeway/files/atomic_file.hpp"
+#include "ridgeway/ridge/ridge_file.hpp"
 
 namespace ridgeway::cli {
 namespace {

@@ -11,12 +11,12 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/io/graph_export.hpp"
-#include "ridgeway/io/mesh_export.hpp"
-#include "ridgeway/io/path_io.hpp"
-#include "ridgeway/io/picture.hpp"
-#include "ridgeway/io/ridge_file.hpp"
-#include "ridgeway/io/tsdf_file.hpp"
+#include "ridgeway/formats/graph_export.hpp"
+#include "ridgeway/formats/mesh_export.hpp"
+#include "ridgeway/formats/path_io.hpp"
+#include "ridgeway/pictures/picture.hpp"
+#include "ridgeway/ridge/ridge_file.hpp"
+#include "ridgeway/ridge/tsdf_file.hpp"
 
 namespace ridgeway::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ridgeway/esdf/free_space.hpp"
-#include "ridgeway/io/picture.hpp"
+#include "ridgeway/pictures/picture.hpp"
 
 namespace ridgeway::cli {
 namespace {

@@ -13,10 +13,10 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/io/depth_sequence.hpp"
-#include "ridgeway/io/scan_sequence.hpp"
-#include "ridgeway/io/tsdf_file.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
+#include "ridgeway/recordings/depth_sequence.hpp"
+#include "ridgeway/recordings/scan_sequence.hpp"
+#include "ridgeway/ridge/tsdf_file.hpp"
 
 namespace ridgeway::cli {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "commands.hpp"
 #include "console.hpp"
-#include "ridgeway/io/ridge_file.hpp"
+#include "ridgeway/ridge/ridge_file.hpp"
 #include "ridgeway/roadmap/components.hpp"
 #include "roadmap_facts.hpp"
 #include "source_facts.hpp"

@@ -19,8 +19,8 @@
 #include "plan_several.hpp"
 #include "query_file.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/io/path_io.hpp"
-#include "ridgeway/io/ridge_file.hpp"
+#include "ridgeway/formats/path_io.hpp"
+#include "ridgeway/ridge/ridge_file.hpp"
 #include "ridgeway/sampling/plan_by_sampling.hpp"
 #include "roadmap_facts.hpp"
 

@@ -3,7 +3,7 @@
 #include "plan_output.hpp"
 
 #include "console.hpp"
-#include "ridgeway/io/path_io.hpp"
+#include "ridgeway/formats/path_io.hpp"
 #include "ridgeway/planning/unknown_share.hpp"
 
 namespace ridgeway::cli {

@@ -5,7 +5,7 @@
 #include "arguments.hpp"
 #include "console.hpp"
 #include "plan_output.hpp"
-#include "ridgeway/io/path_io.hpp"
+#include "ridgeway/formats/path_io.hpp"
 #include "ridgeway/planning/alternatives.hpp"
 #include "ridgeway/planning/many_goals.hpp"
 #include "roadmap_facts.hpp"

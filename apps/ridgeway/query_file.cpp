@@ -12,7 +12,7 @@
 #include "arguments.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/number_text.hpp"
-#include "ridgeway/io/read_file.hpp"
+#include "ridgeway/files/read_file.hpp"
 
 namespace ridgeway::cli {
 namespace {

@@ -9,8 +9,8 @@
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "console.hpp"
-#include "ridgeway/io/depth_sequence.hpp"
-#include "ridgeway/io/world_file.hpp"
+#include "ridgeway/formats/world_file.hpp"
+#include "ridgeway/recordings/depth_sequence.hpp"
 #include "ridgeway/sensing/poses.hpp"
 
 namespace ridgeway::cli {

@@ -9,15 +9,15 @@
 
 #include "console.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/io/benchmark_map.hpp"
-#include "ridgeway/io/load_map.hpp"
-#include "ridgeway/io/octomap.hpp"
-#include "ridgeway/io/pcd.hpp"
-#include "ridgeway/io/ply_cloud.hpp"
-#include "ridgeway/io/point_cloud.hpp"
-#include "ridgeway/io/read_file.hpp"
-#include "ridgeway/io/tsdf_file.hpp"
-#include "ridgeway/io/xyz.hpp"
+#include "ridgeway/files/read_file.hpp"
+#include "ridgeway/formats/benchmark_map.hpp"
+#include "ridgeway/formats/load_map.hpp"
+#include "ridgeway/formats/octomap.hpp"
+#include "ridgeway/formats/pcd.hpp"
+#include "ridgeway/formats/ply_cloud.hpp"
+#include "ridgeway/formats/point_cloud.hpp"
+#include "ridgeway/formats/xyz.hpp"
+#include "ridgeway/ridge/tsdf_file.hpp"
 
 namespace ridgeway::cli {
 namespace {

@@ -15,10 +15,10 @@
 #include "console.hpp"
 #include "flight_picture.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/io/path_io.hpp"
-#include "ridgeway/io/ridge_file.hpp"
-#include "ridgeway/io/trajectory_io.hpp"
+#include "ridgeway/formats/path_io.hpp"
+#include "ridgeway/formats/trajectory_io.hpp"
 #include "ridgeway/planning/plan.hpp"
+#include "ridgeway/ridge/ridge_file.hpp"
 #include "ridgeway/trajectory/plan_trajectory.hpp"
 #include "roadmap_facts.hpp"
 

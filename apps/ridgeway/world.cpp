@@ -9,7 +9,7 @@
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "console.hpp"
-#include "ridgeway/io/world_file.hpp"
+#include "ridgeway/formats/world_file.hpp"
 #include "ridgeway/sensing/world_generators.hpp"
 
 namespace ridgeway::cli {

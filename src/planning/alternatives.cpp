@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "../paths/deadline.hpp"
-#include "../paths/shorten.hpp"
 #include "deformation.hpp"
+#include "paths/deadline.hpp"
+#include "paths/shorten.hpp"
 #include "query.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/free_space.hpp"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "../paths/shorten.hpp"
+#include "paths/shorten.hpp"
 
 namespace ridgeway::detail {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "../paths/deadline.hpp"
+#include "paths/deadline.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 
 namespace ridgeway::detail {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "../paths/deadline.hpp"
+#include "paths/deadline.hpp"
 #include "ridgeway/esdf/esdf_map.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
 

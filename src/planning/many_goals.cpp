@@ -6,12 +6,12 @@
 #include <numeric>
 #include <tuple>
 
-#include "../paths/shorten.hpp"
-#include "../roadmap/attach_way.hpp"
-#include "../roadmap/graph_search.hpp"
 #include "endpoint.hpp"
+#include "paths/shorten.hpp"
 #include "query.hpp"
 #include "ridgeway/common/error.hpp"
+#include "roadmap/attach_way.hpp"
+#include "roadmap/graph_search.hpp"
 #include "voxel_route.hpp"
 
 namespace ridgeway {

@@ -8,10 +8,10 @@
 #include <string>
 #include <utility>
 
-#include "../paths/deadline.hpp"
-#include "../paths/shorten.hpp"
 #include "endpoint.hpp"
 #include "escape.hpp"
+#include "paths/deadline.hpp"
+#include "paths/shorten.hpp"
 #include "query.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/number_text.hpp"

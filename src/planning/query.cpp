@@ -6,8 +6,8 @@
 #include <cmath>
 #include <span>
 
-#include "../paths/shorten.hpp"
 #include "endpoint.hpp"
+#include "paths/shorten.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/number_text.hpp"
 

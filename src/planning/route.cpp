@@ -7,14 +7,14 @@
 #include <memory>
 #include <span>
 
-#include "../paths/shorten.hpp"
-#include "../roadmap/attach_way.hpp"
-#include "../roadmap/graph_search.hpp"
 #include "any_angle_search.hpp"
 #include "endpoint.hpp"
 #include "path_cost.hpp"
+#include "paths/shorten.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/roadmap/build_graph.hpp"
+#include "roadmap/attach_way.hpp"
+#include "roadmap/graph_search.hpp"
 #include "voxel_route.hpp"
 
 namespace ridgeway::detail {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "../paths/deadline.hpp"
 #include "lattice_search.hpp"
+#include "paths/deadline.hpp"
 #include "query.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 

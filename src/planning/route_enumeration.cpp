@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 
-#include "../paths/shorten.hpp"
-#include "../roadmap/attach_way.hpp"
-#include "../roadmap/graph_search.hpp"
 #include "deformation.hpp"
+#include "paths/shorten.hpp"
+#include "roadmap/attach_way.hpp"
+#include "roadmap/graph_search.hpp"
 #include "voxel_route.hpp"
 
 namespace ridgeway::detail {

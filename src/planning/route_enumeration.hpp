@@ -9,7 +9,7 @@
 #include <queue>
 #include <vector>
 
-#include "../paths/deadline.hpp"
+#include "paths/deadline.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/roadmap/roadmap.hpp"
 #include "route.hpp"

@@ -6,10 +6,10 @@
 #include <limits>
 #include <span>
 
-#include "../paths/shorten.hpp"
-#include "../roadmap/graph_search.hpp"
-#include "../roadmap/taut_search.hpp"
 #include "detour.hpp"
+#include "paths/shorten.hpp"
+#include "roadmap/graph_search.hpp"
+#include "roadmap/taut_search.hpp"
 
 namespace ridgeway::detail {
 namespace {

@@ -7,10 +7,10 @@
 #include <limits>
 #include <span>
 
-#include "../paths/shorten.hpp"
 #include "detour.hpp"
 #include "endpoint.hpp"
 #include "path_cost.hpp"
+#include "paths/shorten.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "voxel_route.hpp"
 

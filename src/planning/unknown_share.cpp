@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "../paths/shorten.hpp"
+#include "paths/shorten.hpp"
 
 namespace ridgeway {
 namespace {

@@ -2,9 +2,9 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include <algorithm>
 
-#include "../paths/shorten.hpp"
 #include "cell_parts.hpp"
 #include "corner_links.hpp"
+#include "paths/shorten.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/roadmap/graph_lengths.hpp"

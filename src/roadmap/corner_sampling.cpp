@@ -4,9 +4,9 @@
 
 #include <utility>
 
-#include "../paths/shorten.hpp"
 #include "attach_way.hpp"
 #include "graph_search.hpp"
+#include "paths/shorten.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/sensing/random.hpp"
 

@@ -11,10 +11,10 @@
 #include <cmath>
 #include <string>
 
-#include "../paths/deadline.hpp"
-#include "../paths/shorten.hpp"
-#include "../planning/query.hpp"
 #include "ompl_problem.hpp"
+#include "paths/deadline.hpp"
+#include "paths/shorten.hpp"
+#include "planning/query.hpp"
 #include "prm_star.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/number_text.hpp"

@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "program.hpp"
-#include "ridgeway/io/depth_sequence.hpp"
-#include "ridgeway/io/ply_cloud.hpp"
-#include "ridgeway/io/tsdf_file.hpp"
-#include "ridgeway/io/world_file.hpp"
+#include "ridgeway/formats/ply_cloud.hpp"
+#include "ridgeway/formats/world_file.hpp"
+#include "ridgeway/recordings/depth_sequence.hpp"
+#include "ridgeway/ridge/tsdf_file.hpp"
 
 namespace ridgeway {
 namespace {

@@ -17,5 +17,17 @@ run(
 run("${CMAKE_COMMAND}" --build "${WORK_DIR}/build")
 run("${WORK_DIR}/build/consumer_core" "${VERSION}")
 run("${WORK_DIR}/build/consumer_trajectory")
-run("${WORK_DIR}/build/consumer_io")
+run("${WORK_DIR}/build/consumer_ridge")
+run("${WORK_DIR}/build/consumer_recordings")
 run("${WORK_DIR}/build/consumer_sampling")
+
+# A program that loads a roadmap and plans needs oneTBB and zstd (Eigen is headers alone), and what
+# any C++ program needs.
+execute_process(
+  COMMAND readelf --dynamic "${WORK_DIR}/build/consumer_ridge"
+  OUTPUT_VARIABLE dynamic COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL "NEEDED[^\n]*" needed "${dynamic}")
+list(FILTER needed EXCLUDE REGEX "\\[(libtbb|libzstd|libstdc\\+\\+|libm|libgcc_s|libc|ld-linux[^.]*|lib[a-z]*san)\\.so")
+if(needed OR NOT dynamic MATCHES "libzstd\\.so" OR NOT dynamic MATCHES "libtbb\\.so")
+  message(FATAL_ERROR "a program that loads a .ridge and plans links more or less than it needs: ${needed}")
+endif()

@@ -9,7 +9,7 @@
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/esdf.hpp"
-#include "ridgeway/io/world_file.hpp"
+#include "ridgeway/formats/world_file.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
 #include "ridgeway/sensing/poses.hpp"
 

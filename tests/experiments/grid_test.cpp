@@ -8,9 +8,9 @@
 #include <cmath>
 
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/io/benchmark_map.hpp"
-#include "ridgeway/io/benchmark_scenarios.hpp"
-#include "ridgeway/io/read_file.hpp"
+#include "ridgeway/files/read_file.hpp"
+#include "ridgeway/formats/benchmark_map.hpp"
+#include "ridgeway/formats/benchmark_scenarios.hpp"
 
 namespace ridgeway {
 namespace {

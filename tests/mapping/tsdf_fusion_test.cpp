@@ -9,7 +9,7 @@
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/io/world_file.hpp"
+#include "ridgeway/formats/world_file.hpp"
 #include "ridgeway/sensing/poses.hpp"
 #include "ridgeway/sensing/random.hpp"
 #include "support/map_errors.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "../src/planning/any_angle_search.hpp"
+#include "planning/any_angle_search.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/planning/plan.hpp"

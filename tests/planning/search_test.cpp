@@ -2,10 +2,10 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include <gtest/gtest.h>
 
-#include "../src/planning/lattice_search.hpp"
-#include "../src/roadmap/graph_search.hpp"
+#include "planning/lattice_search.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
+#include "roadmap/graph_search.hpp"
 #include "support/dijkstra.hpp"
 #include "support/places.hpp"
 #include "support/random_maps.hpp"

@@ -7,10 +7,10 @@
 #include <limits>
 #include <random>
 
-#include "../src/roadmap/taut_search.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
+#include "roadmap/taut_search.hpp"
 #include "support/dijkstra.hpp"
 #include "support/pillars.hpp"
 #include "support/places.hpp"

@@ -12,7 +12,7 @@
 
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/esdf/free_space.hpp"
-#include "ridgeway/io/load_map.hpp"
+#include "ridgeway/formats/load_map.hpp"
 #include "ridgeway/skeleton/diagram.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
 #include "ridgeway/skeleton/kernel.hpp"

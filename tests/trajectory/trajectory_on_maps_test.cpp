@@ -11,7 +11,7 @@
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/experiments/flight_judge.hpp"
-#include "ridgeway/io/load_map.hpp"
+#include "ridgeway/formats/load_map.hpp"
 #include "ridgeway/mapping/world_map.hpp"
 #include "ridgeway/planning/check.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "ridgeway/formats/point_cloud.hpp"
+
+namespace ridgeway {
+
+/// Does a file begin like a .ply file?
+bool is_ply(std::string_view bytes);
+
+/// The vertices of a .ply file, ascii or binary in either byte order: properties x, y and z of the
+/// element `vertex`, among any other properties and elements, lists too. Faces are counted and
+/// ignored. Throws InputError naming file and byte.
+PointCloud read_ply(std::string_view bytes, const std::string& name);
+
+}  // namespace ridgeway

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "ridgeway/formats/point_cloud.hpp"
+
+namespace ridgeway {
+
+/// A cloud as a range sensor recorded it from one place.
+struct Scan {
+  std::filesystem::path cloud;  ///< .xyz, .ply or .pcd, in the sensor's frame, its origin at 0
+  Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity();
+};
+
+struct ScanSequence {
+  std::string layout;  ///< "scans" or "registration"
+  std::vector<Scan> scans;
+  std::size_t without_pose = 0;  ///< scans whose pose is not finite, passed over
+};
+
+/// Whether open_scans() knows the layout of a folder.
+bool holds_scans(const std::filesystem::path& folder);
+
+/// Opens a folder of scans with known poses, in one of two layouts:
+///
+/// - poses.txt, a line for each scan: "cloud tx ty tz qx qy qz qw", the name of its file and the
+///   pose of the sensor in the world (metres; rotation as a quaternion, as TUM trajectories have
+///   it). Comments begin with "#"; names have no blanks. Scans whose pose is not finite are passed
+///   over and counted.
+/// - registration_metrics.json of a registration of scans to one of them, "reference". For each
+///   name S in "scans" the cloud is S_raw.xyz, and for all but the reference R
+///   "registration_to_R" has "transform_source_to_R" (R there without underscores), the rows of a
+///   4 x 4 matrix from the frame of the scan to that of R, which is the world.
+///
+/// Throws InputError, with the file and the line or the key, for what is missing or wrong: clouds
+/// that are not there or named twice, quaternions and matrices that are no rotations, a
+/// registration that says that it was not accepted.
+ScanSequence open_scans(const std::filesystem::path& folder);
+
+/// The points of a scan. Throws InputError, naming the file, where they cannot be read.
+PointCloud read_scan(const Scan& scan);
+
+}  // namespace ridgeway

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/formats/load_map.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <functional>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/files/read_file.hpp"
+#include "ridgeway/formats/benchmark_map.hpp"
+#include "ridgeway/formats/octomap.hpp"
+#include "ridgeway/formats/pcd.hpp"
+#include "ridgeway/formats/ply_cloud.hpp"
+#include "ridgeway/formats/point_cloud.hpp"
+#include "ridgeway/formats/xyz.hpp"
+#include "ridgeway/mapping/map_edits.hpp"
+#include "ridgeway/mapping/map_transform.hpp"
+#include "ridgeway/mapping/memory_limit.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
+#include "ridgeway/ridge/tsdf_file.hpp"
+
+namespace ridgeway {
+namespace {
+
+/// A file that holds voxels, ready to be read into place.
+struct VoxelSource {
+  double voxel_size;
+  std::function<OccupancyMap(const VoxelPlacement&)> read;
+};
+
+void tell(LoadNotes* notes, std::string note) {
+  if (notes != nullptr) notes->notes.push_back(std::move(note));
+}
+
+OccupancyMap without_specks(OccupancyMap map, const LoadConfig& config, LoadNotes* notes) {
+  if (config.isolated_below <= 1) return map;
+  const std::size_t before = count_voxels(map).occupied;
+  map = remove_isolated(std::move(map), config.isolated_below);
+  tell(notes, std::to_string(before - count_voxels(map).occupied) +
+                  " occupied voxels in clusters of fewer than " +
+                  std::to_string(config.isolated_below) + " were taken as free");
+  return map;
+}
+
+/// The edits that every kind of file ends with.
+OccupancyMap finished(OccupancyMap map, const LoadConfig& config, const std::string& name,
+                      LoadNotes* notes) {
+  map = without_specks(std::move(map), config, notes);
+  if (config.bounds) map = crop(std::move(map), *config.bounds);
+  require_memory_for_blocks(map.layout.block_count(), kPipelineBytesPerVoxel, name);
+  map = add_no_fly(std::move(map), config.exclude);
+  const auto& states = map.state.values();
+  if (std::find(states.begin(), states.end(), VoxelState::kFree) != states.end()) return map;
+  throw InputError(name, "has no free voxel left within the bounds and outside the no-fly boxes",
+                   "check --bounds, --exclude and --voxel-size");
+}
+
+/// The part of the source's lattice that bounds, seen back through a transform, can reach.
+VoxelRange reach_before(const Eigen::Isometry3d& T_map_file, const Box& bounds, double voxel_size) {
+  if (!bounds.min.allFinite() || !bounds.max.allFinite()) return kAllVoxels;
+  const Eigen::AlignedBox3d box =
+      Eigen::AlignedBox3d(bounds.min, bounds.max).transformed(T_map_file.inverse());
+  return voxels_overlapping({box.min(), box.max()}, voxel_size);
+}
+
+/// Only what can come to lie within the bounds is read: large files with small bounds fit.
+OccupancyMap load_voxels(const VoxelSource& source, const LoadConfig& config,
+                         const std::string& name, LoadNotes* notes) {
+  const double voxel_size = config.voxel_size.value_or(source.voxel_size);
+  if (voxel_size < source.voxel_size * (1.0 - 1e-6)) {
+    std::ostringstream what;
+    what << voxel_size << " m is finer than the " << source.voxel_size << " m of " << name;
+    throw InputError("voxel_size", what.str(), "leave it out, or give a larger one");
+  }
+  const auto motion = find_lattice_transform(config.transform, source.voxel_size);
+  const bool edited = config.bounds || !motion || voxel_size > source.voxel_size * (1.0 + 1e-6);
+
+  VoxelPlacement placement{.motion = motion.value_or(LatticeTransform{}),
+                           .bytes_per_voxel = edited ? kMapBytesPerVoxel : kPipelineBytesPerVoxel};
+  if (config.bounds) {
+    // What lies around decides on the voxels at the border: their specks, their coarse voxels.
+    const Eigen::Vector3d margin =
+        Eigen::Vector3d::Constant((4.0 + config.isolated_below) * voxel_size);
+    const Box around = {config.bounds->min - margin, config.bounds->max + margin};
+    placement.clip = motion ? voxels_overlapping(around, source.voxel_size)
+                            : reach_before(config.transform, around, source.voxel_size);
+  }
+  OccupancyMap map = source.read(placement);
+  if (motion) {
+    map = resample(std::move(map), voxel_size);
+  } else {
+    map = transform_map(map, config.transform, voxel_size);
+    tell(notes,
+         "the transform is not made of quarter turns and whole voxels: obstacles and unknown space "
+         "grew by up to a voxel's diagonal");
+  }
+  return finished(std::move(map), config, name, notes);
+}
+
+OccupancyMap load_cloud(const PointCloud& cloud, const LoadConfig& config, const std::string& name,
+                        LoadNotes* notes) {
+  if (cloud.points.empty()) {
+    throw InputError(name,
+                     cloud.skipped > 0 ? "has no point with finite coordinates" : "has no points",
+                     "record or write the cloud again");
+  }
+  const std::string span = "its points span " + describe(extent(cloud, config.transform));
+  if (!config.voxel_size)
+    throw InputError(name, "is a point cloud, which has no voxel size",
+                     "give --voxel-size; " + span);
+  if (!config.bounds) {
+    throw InputError(name, "is a point cloud, in which the free space is not recorded",
+                     "give --bounds; " + span);
+  }
+  if (cloud.skipped > 0) {
+    tell(notes, std::to_string(cloud.skipped) + " of " +
+                    std::to_string(cloud.skipped + cloud.points.size()) +
+                    " points were skipped: a coordinate is not finite");
+  }
+  if (cloud.ignored_faces > 0) {
+    tell(notes, std::to_string(cloud.ignored_faces) +
+                    " faces were ignored: only the vertices of the mesh are taken as obstacles");
+  }
+  tell(notes,
+       "the cloud does not record free space: everything within bounds that is not occupied is "
+       "taken as free");
+  OccupancyMap map = map_from_points(cloud,
+                                     {.voxel_size = *config.voxel_size,
+                                      .bounds = *config.bounds,
+                                      .margin = config.isolated_below,
+                                      .T_map_cloud = config.transform},
+                                     name);
+  return finished(std::move(map), config, name, notes);
+}
+
+OccupancyMap load_benchmark_map(std::string_view bytes, const LoadConfig& config,
+                                const std::string& name, LoadNotes* notes) {
+  if (!config.voxel_size) tell(notes, "the file records no voxel size: a cell is taken as 1 m");
+  const double cell = config.voxel_size.value_or(1.0);
+  const VoxelSource source = {cell, [&](const VoxelPlacement& placement) {
+                                return read_benchmark_map(bytes, name, cell, placement);
+                              }};
+  return load_voxels(source, config, name, notes);
+}
+
+OccupancyMap load_fused_map(const std::filesystem::path& file, const LoadConfig& config,
+                            LoadNotes* notes) {
+  const OccupancyMap fused = occupancy_of(load_tsdf(file));
+  const std::string name = file.string();
+  const VoxelSource source = {
+      fused.voxel_size, [&](const VoxelPlacement& placement) {
+        OccupancyBuilder builder(
+            fused.voxel_size,
+            {.clip = placement.clip, .bytes_per_voxel = placement.bytes_per_voxel, .name = name});
+        for (VoxelId id = 0; id < fused.layout.voxel_count(); ++id) {
+          const VoxelIndex voxel = fused.layout.index_of(id);
+          if (fused.state[id] != VoxelState::kUnknown)
+            builder.set(placement.motion({voxel, voxel}).min, fused.state[id]);
+        }
+        return std::move(builder).finish();
+      }};
+  return load_voxels(source, config, name, notes);
+}
+
+/// Text that begins with a number, or with column names, after comments.
+bool looks_like_xyz(std::string_view bytes) {
+  const std::string_view head = bytes.substr(0, 4096);
+  if (head.find('\0') != std::string_view::npos) return false;
+  for (std::size_t at = 0; at < head.size();) {
+    at = head.find_first_not_of(" \t\r\n,;", at);
+    if (at == std::string_view::npos) return false;
+    if (head[at] != '#' && head.substr(at, 2) != "//") {
+      const unsigned char c = static_cast<unsigned char>(head[at]);
+      return std::isdigit(c) != 0 || c == '-' || c == '+' || c == '.';
+    }
+    at = std::min(head.find('\n', at), head.size());
+  }
+  return false;
+}
+
+bool is_named_as_text(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension == ".xyz" || extension == ".txt" || extension == ".csv" || extension == ".asc";
+}
+
+}  // namespace
+
+void LoadConfig::validate() const {
+  if (voxel_size) validate_voxel_size(*voxel_size, "voxel_size");
+  if (bounds) validate_box(*bounds, "bounds");
+  for (std::size_t i = 0; i < exclude.size(); ++i)
+    validate_box(exclude[i], "exclude box " + std::to_string(i + 1));
+  validate_transform(transform);
+  if (isolated_below < 0) {
+    throw InputError("isolated_below", "is " + std::to_string(isolated_below),
+                     "give a number of voxels, 0 to keep all");
+  }
+}
+
+OccupancyMap load_map(const std::filesystem::path& file, const LoadConfig& config,
+                      LoadNotes* notes) {
+  config.validate();
+  if (is_tsdf_file(file)) return load_fused_map(file, config, notes);
+  const std::string bytes = read_file(file), name = file.string();
+  if (is_octomap(bytes)) {
+    const VoxelSource source = {
+        read_octomap_header(bytes, name).voxel_size,
+        [&](const VoxelPlacement& placement) { return read_octomap(bytes, name, placement); }};
+    return load_voxels(source, config, name, notes);
+  }
+  if (is_pcd(bytes)) return load_cloud(read_pcd(bytes, name), config, name, notes);
+  if (is_ply(bytes)) return load_cloud(read_ply(bytes, name), config, name, notes);
+  if (is_benchmark_map(bytes)) return load_benchmark_map(bytes, config, name, notes);
+  if (looks_like_xyz(bytes) || is_named_as_text(file))
+    return load_cloud(read_xyz(bytes, name), config, name, notes);
+  throw InputError(name, "is in no map format that is known here",
+                   "give an OctoMap .bt or .ot, a point cloud .pcd, .ply or .xyz, or a .3dmap");
+}
+
+}  // namespace ridgeway

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/formats/point_cloud.hpp"
+
+#include <sstream>
+#include <utility>
+
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/common/number_text.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
+
+namespace ridgeway {
+namespace {
+
+std::string describe(const Point& p) {
+  std::ostringstream text;
+  text << p.x() << ',' << p.y() << ',' << p.z();
+  return text.str();
+}
+
+VoxelRange checked_range(const Box& bounds, double voxel_size) {
+  validate_box(bounds, "bounds");
+  const double reach = kMaxVoxelIndex * voxel_size;
+  if (!(bounds.min.cwiseAbs().maxCoeff() < reach && bounds.max.cwiseAbs().maxCoeff() < reach)) {
+    throw InputError("bounds", "reach farther than 1e9 voxels from the origin",
+                     "give finite bounds around the space that is known");
+  }
+  const VoxelRange range = voxels_inside(bounds, voxel_size);
+  if (range.empty()) {
+    throw InputError("bounds", "hold no whole voxel of " + number_text(voxel_size) + " m",
+                     "give larger bounds or a smaller --voxel-size");
+  }
+  return range;
+}
+
+}  // namespace
+
+std::string describe(const Box& box) { return describe(box.min) + " to " + describe(box.max); }
+
+Box extent(const PointCloud& cloud, const Eigen::Isometry3d& T_map_cloud) {
+  if (cloud.points.empty()) return {};
+  Eigen::AlignedBox3d box;
+  for (const Point& point : cloud.points) box.extend(T_map_cloud * point);
+  return {box.min(), box.max()};
+}
+
+OccupancyMap map_from_points(const PointCloud& cloud, const CloudMapConfig& config,
+                             const std::string& name) {
+  validate_voxel_size(config.voxel_size, "voxel_size");
+  const VoxelRange known = checked_range(config.bounds, config.voxel_size);
+  OccupancyBuilder builder(config.voxel_size, {.clip = grown(known, config.margin), .name = name});
+  builder.fill(known, VoxelState::kFree);
+  const double reach = kMaxVoxelIndex * config.voxel_size;
+  std::size_t inside = 0;
+  for (const Point& point_cloud : cloud.points) {
+    const Point point = config.T_map_cloud * point_cloud;
+    if (!(point.cwiseAbs().maxCoeff() < reach)) {
+      throw InputError(name, "has a point at " + describe(point) + ", beyond 1e9 voxels",
+                       "check the units of the cloud and --voxel-size");
+    }
+    const VoxelIndex voxel = voxel_at(point, config.voxel_size);
+    inside += known.contains(voxel) ? 1 : 0;
+    builder.set(voxel, VoxelState::kOccupied);
+  }
+  if (inside == 0) {
+    throw InputError(name, "has no point within the bounds " + describe(config.bounds),
+                     "its points span " + describe(extent(cloud, config.T_map_cloud)));
+  }
+  return std::move(builder).finish();
+}
+
+}  // namespace ridgeway

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/pictures/picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "canvas.hpp"
+#include "chart.hpp"
+#include "floor_raster.hpp"
+#include "map_layers.hpp"
+#include "picture_frame.hpp"
+#include "ridgeway/common/error.hpp"
+
+namespace ridgeway {
+namespace {
+
+void trace(Canvas& canvas, std::span<const Point> path, const MapFrame& frame) {
+  for (const Point& p : path) cairo_line_to(canvas.cairo(), frame.x(p), frame.y(p));
+}
+
+double length_of(std::span<const Point> path) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
+  return length;
+}
+
+/// A path as it is drawn.
+struct PathLayer {
+  std::span<const Point> waypoints;
+  std::string label;
+  PathStroke stroke;
+  bool halo = false;  ///< stands out from what is below
+};
+
+/// Those that there are, the uppermost last.
+std::vector<PathLayer> path_layers(std::span<const Point> path, const PictureConfig& config) {
+  std::vector<PathLayer> layers;
+  const auto add = [&](PathLayer layer) {
+    if (!layer.waypoints.empty()) layers.push_back(std::move(layer));
+  };
+  add({config.raw_path, config.raw_path_label, {ink::kRawPath, 2.5, {7.0, 5.0}}});
+  for (std::size_t i = 0; i < config.paths.size(); ++i) {
+    const NamedPath& other = config.paths[i];
+    PathStroke stroke{kSeriesColours[i], 4.0, {}};
+    if (i % 2 == 1) stroke.dashes = {10.0, 9.0};  // neighbours differ by more than their colour
+    add({other.waypoints, other.name + ", " + short_number(length_of(other.waypoints), 1) + " m",
+         std::move(stroke)});
+  }
+  add({path, config.path_label, {ink::kPath, 5.0, {}}, true});
+  return layers;
+}
+
+void draw_paths(Canvas& canvas, const std::vector<PathLayer>& layers, const MapFrame& frame) {
+  const double u = frame.unit;
+  for (const PathLayer& layer : layers) {
+    trace(canvas, layer.waypoints, frame);
+    if (layer.halo) {
+      canvas.set_line((layer.stroke.width + 4.0) * u);
+      canvas.set_colour(ink::kHalo, 0.85);
+      cairo_stroke_preserve(canvas.cairo());
+    }
+    set_stroke(canvas, layer.stroke, u);
+    cairo_stroke(canvas.cairo());
+  }
+}
+
+/// The path whose ends are marked.
+std::span<const Point> marked_path(std::span<const Point> path, const PictureConfig& config) {
+  for (const NamedPath& other : config.paths)
+    if (path.empty()) path = other.waypoints;
+  return path;
+}
+
+void draw_ends(Canvas& canvas, std::span<const Point> path, const MapFrame& frame) {
+  if (path.empty()) return;
+  draw_start(canvas, frame.x(path.front()), frame.y(path.front()), frame.unit);
+  draw_goal(canvas, frame.x(path.back()), frame.y(path.back()), frame.unit);
+}
+
+std::string title_of(const Roadmap& roadmap, const PictureConfig& config) {
+  if (!config.title.empty()) return config.title;
+  const std::string name = std::filesystem::path(roadmap.source).filename().string();
+  return name.empty() ? "Map" : name;
+}
+
+std::string subtitle_of(const Roadmap& roadmap, std::span<const Point> path,
+                        const FloorRaster& raster) {
+  const std::string gap = "  \u00b7  ";
+  std::string text = "voxels of " + short_number(roadmap.esdf.voxel_size, 4) + " m" + gap +
+                     grouped(roadmap.graph.vertices.size()) + " vertices, " +
+                     grouped(roadmap.graph.edges.size()) + " edges";
+  if (!path.empty()) text += gap + "path of " + short_number(length_of(path), 2) + " m";
+  return text + gap + "walls at heights " + short_number(raster.band.low, 2) + " to " +
+         short_number(raster.band.high, 2) + " m";
+}
+
+std::vector<LegendItem> legend_items(bool diagram, const Range& range,
+                                     const std::vector<PathLayer>& layers, bool ends,
+                                     const PictureConfig& config) {
+  using Mark = LegendItem::Mark;
+  std::vector<LegendItem> items = {
+      {Mark::kFree, "free"}, {Mark::kWall, "occupied"}, {Mark::kUnknown, "unknown"}};
+  if (config.graph) items.push_back({Mark::kGraph, "graph"});
+  if (diagram) {
+    const bool height = config.diagram_colour == DiagramColour::kHeight;
+    items.push_back({Mark::kDiagram,
+                     std::string("diagram, ") + (height ? "height " : "clearance ") +
+                         short_number(range.low, 1) + " to " + short_number(range.high, 1) + " m"});
+  }
+  for (auto layer = layers.rbegin(); layer != layers.rend(); ++layer)
+    items.push_back({Mark::kPath, layer->label, layer->stroke});
+  if (ends) {
+    items.push_back({Mark::kStart, "start"});
+    items.push_back({Mark::kGoal, "goal"});
+  }
+  return items;
+}
+
+/// The page: title above, map, then scale bar and legend side by side.
+struct Page {
+  MapFrame frame;
+  LegendLayout legend;
+  double legend_left = 0.0, legend_top = 0.0, charts_top = 0.0;
+  int height = 0;
+};
+
+constexpr double kMargin = 36.0, kLeft = 78.0, kTitle = 96.0, kAxis = 46.0, kScaleBar = 300.0;
+
+Page lay_out_page(const FloorRaster& raster, double voxel_size, std::span<const LegendItem> items,
+                  const PictureConfig& config) {
+  Page page;
+  MapFrame& frame = page.frame;
+  frame.unit = config.width / 1600.0;
+  const double u = frame.unit;
+  const double across = raster.width(voxel_size), down = raster.height(voxel_size);
+  const double room = config.width - (kLeft + kMargin) * u;
+  frame.scale = std::min(room / across, 1.2 * config.width / down);
+  frame.width = across * frame.scale;
+  frame.height = std::max(down * frame.scale, u);
+  frame.left = kLeft * u + 0.5 * (room - frame.width);
+  frame.top = kTitle * u;
+  frame.min = raster.min_corner(voxel_size);
+
+  Canvas measure("page.svg", 8, 8);
+  page.legend_left = (kLeft + kScaleBar) * u;
+  page.legend = lay_out_legend(measure, items, config.width - page.legend_left - kMargin * u, u);
+  page.legend_top = frame.top + frame.height + kAxis * u;
+  const double rows = std::max(1.6, static_cast<double>(page.legend.rows.size()));
+  page.charts_top = page.legend_top + (rows + 0.2) * legend_row_height(u);
+  page.height =
+      static_cast<int>(std::ceil(page.legend_top + rows * legend_row_height(u) +
+                                 charts_height(config.charts.size(), u) + 0.5 * kMargin * u));
+  return page;
+}
+
+void draw_title(Canvas& canvas, const std::string& title, const std::string& subtitle,
+                const PictureConfig& config, double unit) {
+  const double room = config.width - (kLeft + kMargin) * unit;
+  canvas.set_colour(ink::kText);
+  canvas.set_font(28.0 * unit, true);
+  canvas.draw_text(kLeft * unit, 46.0 * unit, canvas.fitted(title, room));
+  canvas.set_colour(ink::kFaint);
+  canvas.set_font(17.0 * unit);
+  canvas.draw_text(kLeft * unit, 76.0 * unit, canvas.fitted(subtitle, room));
+}
+
+}  // namespace
+
+void PictureConfig::validate() const {
+  if (width < 400 || width > 16000) {
+    throw InputError("width", std::to_string(width) + " is outside 400 to 16000",
+                     "give the picture's width in pixels");
+  }
+  if (band && !(band->low <= band->high)) {
+    throw InputError("band", "is empty", "give the lower height first");
+  }
+  if (paths.size() > kSeriesColours.size()) {
+    throw InputError("paths", "are " + std::to_string(paths.size()),
+                     "draw at most eight into one picture");
+  }
+  validate_charts(charts);
+}
+
+void draw_floor_plan(const Roadmap& roadmap, std::span<const Point> path,
+                     const std::filesystem::path& out, const PictureConfig& config) {
+  config.validate();
+  check_picture_extension(out);
+  const double voxel_size = roadmap.esdf.voxel_size;
+  const FloorRaster raster = make_floor_raster(roadmap.esdf, config.band, config.width);
+  std::vector<DiagramDot> dots;
+  if (config.diagram) dots = diagram_dots(roadmap, config.diagram_colour);
+  const Range range = middle_range(dots);
+  const std::vector<PathLayer> layers = path_layers(path, config);
+  const std::span<const Point> marked = marked_path(path, config);
+  const std::vector<LegendItem> items =
+      legend_items(!dots.empty(), range, layers, !marked.empty(), config);
+  const Page page = lay_out_page(raster, voxel_size, items, config);
+  const MapFrame& frame = page.frame;
+
+  Canvas canvas(out, config.width, page.height);
+  draw_raster(canvas, raster, frame);
+  draw_diagram(canvas, dots, range, voxel_size, frame);
+  if (config.graph) draw_graph(canvas, roadmap.graph, frame);
+  draw_border(canvas, frame);
+  draw_paths(canvas, layers, frame);
+  draw_ends(canvas, marked, frame);
+  draw_title(canvas, title_of(roadmap, config), subtitle_of(roadmap, path, raster), config,
+             frame.unit);
+  draw_scale_bar(canvas, frame, kLeft * frame.unit, page.legend_top,
+                 (kScaleBar - 80.0) * frame.unit);
+  draw_legend(canvas, items, page.legend, page.legend_left, page.legend_top, frame.unit);
+  draw_charts(canvas, config.charts, kLeft * frame.unit, page.charts_top,
+              config.width - (kLeft + kMargin) * frame.unit, frame.unit);
+  canvas.finish();
+}
+
+}  // namespace ridgeway

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/recordings/depth_sequence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <system_error>
+#include <tuple>
+
+#include "depth_layouts.hpp"
+#include "pose_text.hpp"
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/recordings/depth_png.hpp"
+
+namespace ridgeway {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kSevenScenesImage = ".depth.png", kSevenScenesPose = ".pose.txt";
+constexpr double kSevenScenesUnits = 1000.0;  // of an image, a metre
+
+// --- TUM RGB-D
+
+struct StampedImage {
+  double time;
+  fs::path image;
+};
+struct StampedPose {
+  double time;
+  Eigen::Isometry3d T_world_camera;
+};
+
+/// In the order of time.
+std::vector<StampedImage> read_image_list(const fs::path& file) {
+  const char* remedy = "give lines of: timestamp filename";
+  std::vector<StampedImage> images;
+  for_each_row(file, [&](const TextRow& row) {
+    const double time = row.number(0, remedy);
+    if (!std::isfinite(time)) row.refuse("has a time that is not finite", remedy);
+    if (row.words.size() < 2) row.refuse("names no image", remedy);
+    images.push_back({time, file.parent_path() / row.words[1]});
+  });
+  std::stable_sort(images.begin(), images.end(),
+                   [](const auto& a, const auto& b) { return a.time < b.time; });
+  return images;
+}
+
+std::vector<StampedPose> read_trajectory(const fs::path& file) {
+  const char* remedy = "give lines of: timestamp tx ty tz qx qy qz qw";
+  std::vector<StampedPose> poses;
+  for_each_row(file, [&](const TextRow& row) {
+    const double time = row.number(0, remedy);
+    const auto pose = pose_in_row(row, 1, remedy);
+    if (pose && std::isfinite(time)) poses.push_back({time, *pose});
+  });
+  return poses;
+}
+
+/// For each image the place of the pose nearest in time, each pose once, nearest pairs first. The
+/// nearest pair of those left are always neighbours in time.
+class Association {
+ public:
+  Association(const std::vector<StampedImage>& images, const std::vector<StampedPose>& poses,
+              double longest_gap)
+      : longest_gap_(longest_gap), pose_of_(images.size()) {
+    for (std::size_t i = 0; i < images.size(); ++i) stamps_.push_back({images[i].time, false, i});
+    for (std::size_t k = 0; k < poses.size(); ++k) stamps_.push_back({poses[k].time, true, k});
+    std::sort(stamps_.begin(), stamps_.end(), [](const Stamp& a, const Stamp& b) {
+      return std::tie(a.time, a.is_pose, a.place) < std::tie(b.time, b.is_pose, b.place);
+    });
+    const std::size_t count = stamps_.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      stamps_[i].previous = i == 0 ? kNone : i - 1;
+      stamps_[i].next = i + 1 == count ? kNone : i + 1;
+    }
+    for (std::size_t i = 0; i < count; ++i) offer(i, stamps_[i].next);
+    while (!pairs_.empty()) {
+      const Pair nearest = pairs_.top();
+      pairs_.pop();
+      take(nearest);
+    }
+  }
+
+  const std::optional<std::size_t>& pose_of(std::size_t image) const { return pose_of_[image]; }
+
+ private:
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  struct Stamp {
+    double time;
+    bool is_pose;
+    std::size_t place;  // among the images, or the poses
+    std::size_t previous = kNone, next = kNone;
+    bool is_taken = false;
+  };
+  struct Pair {
+    double gap;
+    std::size_t left, right;
+    bool operator>(const Pair& other) const {
+      return std::tie(gap, left) > std::tie(other.gap, other.left);
+    }
+  };
+
+  void offer(std::size_t left, std::size_t right) {
+    if (left == kNone || right == kNone || stamps_[left].is_pose == stamps_[right].is_pose) return;
+    const double gap = stamps_[right].time - stamps_[left].time;
+    if (gap <= longest_gap_) pairs_.push({gap, left, right});
+  }
+
+  void take(const Pair& pair) {
+    Stamp &left = stamps_[pair.left], &right = stamps_[pair.right];
+    if (left.is_taken || right.is_taken) return;
+    left.is_taken = right.is_taken = true;
+    pose_of_[left.is_pose ? right.place : left.place] = left.is_pose ? left.place : right.place;
+    if (left.previous != kNone) stamps_[left.previous].next = right.next;
+    if (right.next != kNone) stamps_[right.next].previous = left.previous;
+    offer(left.previous, right.next);
+  }
+
+  double longest_gap_;
+  std::vector<std::optional<std::size_t>> pose_of_;
+  std::vector<Stamp> stamps_;
+  std::priority_queue<Pair, std::vector<Pair>, std::greater<>> pairs_;
+};
+
+DepthSequence open_tum(const fs::path& folder, const SequenceConfig& config) {
+  DepthSequence sequence;
+  sequence.layout = "tum";
+  sequence.units_per_metre = kTumUnits;
+  const std::vector<StampedImage> images = read_image_list(folder / kTumImages);
+  const std::vector<StampedPose> poses = read_trajectory(folder / kTumPoses);
+  const Association association(images, poses, config.longest_gap);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    if (const auto pose = association.pose_of(i))
+      sequence.frames.push_back({images[i].image, poses[*pose].T_world_camera});
+    else
+      ++sequence.without_pose;
+  }
+  return sequence;
+}
+
+// --- 7-Scenes and 3DMatch
+
+/// In the order of their names.
+std::vector<fs::path> seven_scenes_images(const fs::path& folder) {
+  std::vector<fs::path> images;
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error))
+    if (entry->path().filename().string().ends_with(kSevenScenesImage))
+      images.push_back(entry->path());
+  if (error)
+    throw InputError(folder.string(), "cannot be read: " + error.message(),
+                     "check its permissions");
+  std::sort(images.begin(), images.end());
+  return images;
+}
+
+/// The pose of a file of 4 x 4 numbers; nothing where tracking was lost.
+std::optional<Eigen::Isometry3d> read_pose(const fs::path& file) {
+  const char* remedy = "give a 4 x 4 matrix, camera to world, with a rotation in it";
+  const std::vector<double> v = read_numbers(file, 16, remedy);
+  const Eigen::Matrix4d matrix =
+      Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(v.data());
+  if (!matrix.allFinite()) return std::nullopt;
+  const auto pose = pose_of_matrix(matrix);
+  if (!pose) throw InputError(file.string(), "is no pose", remedy);
+  return pose;
+}
+
+DepthSequence open_seven_scenes(const fs::path& folder) {
+  DepthSequence sequence;
+  sequence.layout = "7-scenes";
+  sequence.units_per_metre = kSevenScenesUnits;
+  for (const fs::path& image : seven_scenes_images(folder)) {
+    std::string name = image.filename().string();
+    name.replace(name.size() - kSevenScenesImage.size(), kSevenScenesImage.size(),
+                 kSevenScenesPose);
+    const auto pose = is_there(folder / name) ? read_pose(folder / name) : std::nullopt;
+    if (pose)
+      sequence.frames.push_back({image, *pose});
+    else
+      ++sequence.without_pose;
+  }
+  return sequence;
+}
+
+/// 3DMatch packs the images into a folder of their own.
+fs::path image_folder(const fs::path& folder) {
+  std::error_code error;
+  return fs::is_directory(folder / "data", error) ? folder / "data" : folder;
+}
+
+// --- both
+
+/// The first image that can be read: recordings have images that cannot.
+DepthImage first_readable(const DepthSequence& sequence, const fs::path& folder) {
+  std::optional<InputError> first_problem;
+  for (const DepthFrame& frame : sequence.frames) {
+    try {
+      return read_frame(sequence, frame);
+    } catch (const InputError& error) {
+      if (!first_problem) first_problem = error;
+    }
+  }
+  throw first_problem->within(folder.string() + " has no image that can be read, the first:");
+}
+
+PinholeCamera camera_of(const DepthImage& image, const fs::path& folder,
+                        const DepthSequence& sequence, const SequenceConfig& config) {
+  const auto camera = [&](double fx, double fy, double cx, double cy) {
+    return PinholeCamera{image.width, image.height, fx, fy, cx, cy};
+  };
+  if (config.intrinsics) {
+    const Eigen::Vector4d& k = *config.intrinsics;
+    return camera(k[0], k[1], k[2], k[3]);
+  }
+  for (const fs::path& file : {folder / kIntrinsicsFile, folder.parent_path() / kIntrinsicsFile}) {
+    if (!is_there(file)) continue;
+    const auto v = read_numbers(file, 9, "give a 3 x 3 matrix: fx 0 cx, 0 fy cy, 0 0 1");
+    const PinholeCamera read = camera(v[0], v[4], v[2], v[5]);
+    try {
+      read.validate();
+    } catch (const InputError& error) {
+      throw error.within(file.string());
+    }
+    return read;
+  }
+  if (image.width != 640 || image.height != 480)
+    throw InputError(folder.string(),
+                     "has no " + std::string(kIntrinsicsFile) + ", and its images are " +
+                         std::to_string(image.width) + " x " + std::to_string(image.height),
+                     "give the intrinsics: the layout's are for 640 x 480");
+  return sequence.layout == "tum" ? camera(525.0, 525.0, 319.5, 239.5)
+                                  : camera(585.0, 585.0, 320.0, 240.0);
+}
+
+}  // namespace
+
+bool holds_depth_images(const fs::path& folder) {
+  std::error_code error;
+  return fs::is_directory(folder, error) &&
+         (is_there(folder / kTumImages) || !seven_scenes_images(image_folder(folder)).empty());
+}
+
+DepthSequence open_sequence(const fs::path& folder, const SequenceConfig& config) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error))
+    throw InputError(folder.string(), "is no folder", "give the folder of a recording");
+  const bool is_tum = is_there(folder / kTumImages);
+  const fs::path inner = is_tum ? folder : image_folder(folder);
+  DepthSequence sequence = is_tum ? open_tum(folder, config) : open_seven_scenes(inner);
+  if (sequence.frames.empty())
+    throw InputError(folder.string(),
+                     sequence.without_pose > 0 ? "has no image with a pose" : "holds no recording",
+                     "give depth.txt, groundtruth.txt and the images (TUM), or frame-*.depth.png "
+                     "and frame-*.pose.txt (7-Scenes)");
+  sequence.camera = camera_of(first_readable(sequence, folder), inner, sequence, config);
+  sequence.camera.validate();
+  return sequence;
+}
+
+DepthImage read_frame(const DepthSequence& sequence, const DepthFrame& frame) {
+  return read_depth_png(frame.image, sequence.units_per_metre);
+}
+
+}  // namespace ridgeway

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <unistd.h>
+
+#include <sstream>
+#include <system_error>
+
+#include "depth_layouts.hpp"
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/common/number_text.hpp"
+#include "ridgeway/files/atomic_file.hpp"
+#include "ridgeway/recordings/depth_png.hpp"
+#include "ridgeway/recordings/depth_sequence.hpp"
+
+namespace ridgeway {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kFrameSeconds = 0.1;  // between simulated images
+
+}  // namespace
+
+SequenceWriter::SequenceWriter(const fs::path& folder, const PinholeCamera& camera)
+    : camera_(camera) {
+  camera.validate();
+  std::error_code error;
+  folder_ = fs::weakly_canonical(fs::absolute(folder, error), error);  // "run/.", and links
+  if (!folder_.has_filename()) folder_ = folder_.parent_path();        // "run/"
+  if (error || !folder_.has_filename())
+    throw InputError("'" + folder.string() + "'", "is no folder that can be made",
+                     "give a new folder");
+  if (fs::exists(folder_, error) &&
+      !(fs::is_directory(folder_, error) && fs::is_empty(folder_, error)))
+    throw InputError(folder_.string(), "exists and is not empty", "give a new folder");
+  temporary_ = folder_;
+  temporary_ += '.';
+  temporary_ += std::to_string(::getpid()) + ".tmp";
+  fs::create_directories(temporary_ / "depth", error);
+  if (error)
+    throw InputError(folder_.string(), "cannot be made: " + error.message(),
+                     "choose a folder that you may write to");
+}
+
+SequenceWriter::~SequenceWriter() {
+  std::error_code ignored;
+  if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
+}
+
+void SequenceWriter::add(const DepthImage& image, const Eigen::Isometry3d& T_world_camera) {
+  std::ostringstream name;
+  name << "depth/";
+  name.width(6);
+  name.fill('0');
+  name << count_ << ".png";
+  write_depth_png(image, temporary_ / name.str(), kTumUnits);
+  const std::string time = number_text(count_ * kFrameSeconds);
+  const Eigen::Quaterniond q(T_world_camera.linear());
+  const Point& t = T_world_camera.translation();
+  images_ += time + " " + name.str() + "\n";
+  poses_ += time;
+  for (const double value : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()})
+    poses_.append(" ").append(number_text(value));
+  poses_ += "\n";
+  ++count_;
+}
+
+void SequenceWriter::finish() {
+  const auto row = [](double a, double b, double c) {
+    return number_text(a) + " " + number_text(b) + " " + number_text(c) + "\n";
+  };
+  const std::string intrinsics =
+      row(camera_.fx, 0.0, camera_.cx) + row(0.0, camera_.fy, camera_.cy) + row(0.0, 0.0, 1.0);
+  write_text_file(temporary_ / kIntrinsicsFile, intrinsics);
+  write_text_file(temporary_ / kTumImages, images_);
+  write_text_file(temporary_ / kTumPoses, poses_);
+  std::error_code error;
+  fs::rename(temporary_, folder_, error);
+  if (error)
+    throw InputError(folder_.string(), "cannot be written: " + error.message(),
+                     "give a new folder");
+  temporary_.clear();
+}
+
+}  // namespace ridgeway

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <array>
+
+#include "files/little_endian.hpp"
+#include "ridge_sections.hpp"
+
+namespace ridgeway {
+namespace {
+
+constexpr std::size_t kBlockBytes = 12;
+constexpr std::size_t kVertexBytes = 20;
+constexpr std::size_t kEdgeBytes = 24;
+constexpr std::size_t kTreeBytes = 24;
+constexpr std::size_t kNumberBytes = 4;
+constexpr std::uint64_t kMostSeen = 0xffffffffu;  // what an entry of first_seen can hold
+
+/// Appends one number of every item, item after item: alike bytes stand together.
+template <typename Items, typename NumberOf>
+void append_plane(std::vector<std::byte>& bytes, const Items& items, const NumberOf& number_of) {
+  for (const auto& item : items) append_number(bytes, number_of(item));
+}
+
+template <typename Items, typename Number, typename Item>
+void append_plane(std::vector<std::byte>& bytes, const Items& items, Number Item::*member) {
+  append_plane(bytes, items, [member](const Item& item) { return item.*member; });
+}
+
+/// Hands out the planes of a section in the order in which they were appended.
+class Planes {
+ public:
+  Planes(const RidgeReader& reader, const char* name, std::uint32_t type, std::size_t count,
+         std::size_t item_bytes)
+      : bytes_(reader.read_all(reader.get_section(name, type), count * item_bytes)),
+        count_(count) {}
+
+  /// Calls put(i, number) for every item.
+  template <typename Number, typename Put>
+  void take(const Put& put) {
+    for (std::size_t i = 0; i < count_; ++i) put(i, number_at<Number>(bytes_, offset_, i));
+    offset_ += count_ * sizeof(Number);
+  }
+
+ private:
+  std::vector<std::byte> bytes_;
+  std::size_t count_;
+  std::size_t offset_ = 0;
+};
+
+std::vector<std::byte> block_bytes(const BlockLayout& layout) {
+  std::vector<std::byte> bytes;
+  for (const auto axis : {&BlockIndex::x, &BlockIndex::y, &BlockIndex::z}) {
+    std::uint32_t previous = 0;
+    for (const BlockIndex& block : layout.blocks()) {
+      const auto value = static_cast<std::uint32_t>(block.*axis);
+      append_number(bytes, value - previous);
+      previous = value;
+    }
+  }
+  return bytes;
+}
+
+std::vector<std::byte> vertex_bytes(const SparseGraph& graph) {
+  std::vector<std::byte> bytes;
+  append_plane(bytes, graph.vertices, [](const Vertex& v) { return v.voxel.x; });
+  append_plane(bytes, graph.vertices, [](const Vertex& v) { return v.voxel.y; });
+  append_plane(bytes, graph.vertices, [](const Vertex& v) { return v.voxel.z; });
+  append_plane(bytes, graph.vertices, &Vertex::clearance);
+  return bytes;
+}
+
+std::vector<std::byte> edge_bytes(const SparseGraph& graph) {
+  std::vector<std::byte> bytes;
+  append_plane(bytes, graph.edges,
+               [](const Edge& e) { return static_cast<std::uint32_t>(e.from); });
+  append_plane(bytes, graph.edges, [](const Edge& e) { return static_cast<std::uint32_t>(e.to); });
+  append_plane(bytes, graph.edges, &Edge::length);
+  append_plane(bytes, graph.edges, &Edge::clearance);
+  return bytes;
+}
+
+std::vector<std::byte> tree_bytes(const ClearanceTree& tree) {
+  std::vector<std::byte> bytes;
+  append_plane(bytes, tree.parent, [](VertexId v) { return static_cast<std::uint32_t>(v); });
+  append_plane(bytes, tree.clearance, [](double c) { return c; });
+  append_plane(bytes, tree.place, &VoxelIndex::x);
+  append_plane(bytes, tree.place, &VoxelIndex::y);
+  append_plane(bytes, tree.place, &VoxelIndex::z);
+  return bytes;
+}
+
+std::vector<std::byte> cell_bytes(const TautGraph& taut) {
+  std::vector<std::byte> bytes;
+  for (std::size_t cell = 1; cell < taut.first_seen.size(); ++cell)
+    append_number(bytes, taut.first_seen[cell] - taut.first_seen[cell - 1]);
+  return bytes;
+}
+
+std::vector<std::byte> seen_bytes(const TautGraph& taut) {
+  std::vector<std::byte> bytes;
+  append_plane(bytes, taut.seen, [](VertexId v) { return static_cast<std::uint32_t>(v); });
+  return bytes;
+}
+
+void load_vertices(const RidgeReader& reader, const char* name, const RidgeHeader& header,
+                   std::uint32_t count, SparseGraph& graph) {
+  Planes vertices(reader, name, kVerticesType, count, kVertexBytes);
+  graph.vertices.resize(count);
+  for (const auto axis : {&VoxelIndex::x, &VoxelIndex::y, &VoxelIndex::z}) {
+    vertices.take<int>([&](std::size_t i, int k) { graph.vertices[i].voxel.*axis = k; });
+  }
+  vertices.take<double>([&](std::size_t i, double c) { graph.vertices[i].clearance = c; });
+  for (Vertex& v : graph.vertices) v.position = centre_of(v.voxel, header.voxel_size);
+}
+
+void load_edges(const RidgeReader& reader, const char* name, std::uint32_t count,
+                SparseGraph& graph) {
+  Planes edges(reader, name, kEdgesType, count, kEdgeBytes);
+  graph.edges.resize(count);
+  edges.take<std::uint32_t>(
+      [&](std::size_t i, std::uint32_t v) { graph.edges[i].from = VertexId{v}; });
+  edges.take<std::uint32_t>(
+      [&](std::size_t i, std::uint32_t v) { graph.edges[i].to = VertexId{v}; });
+  edges.take<double>([&](std::size_t i, double d) { graph.edges[i].length = d; });
+  edges.take<double>([&](std::size_t i, double c) { graph.edges[i].clearance = c; });
+}
+
+/// Files of before there was a taut graph have none.
+void load_taut(const RidgeReader& reader, const RidgeHeader& header, const BlockLayout& layout,
+               TautGraph& taut) {
+  if (header.corners == 0) return;
+  taut.graph.min_clearance = header.min_clearance;
+  load_vertices(reader, "corners", header, header.corners, taut.graph);
+  load_edges(reader, "taut_edges", header.taut_edges, taut.graph);
+  BlockCells cells = number_cells(layout);
+  taut.cell_of_block = std::move(cells.cell_of_block);
+  taut.first_seen.push_back(0);
+  std::uint64_t seen = 0;
+  Planes counts(reader, "cells", kNumbersType, cells.count, kNumberBytes);
+  counts.take<std::uint32_t>([&](std::size_t, std::uint32_t count) {
+    seen += count;
+    if (seen > kMostSeen) reader.damaged("cells", "counts more corners than there can be");
+    taut.first_seen.push_back(static_cast<std::uint32_t>(seen));
+  });
+  Planes corners(reader, "seen", kNumbersType, seen, kNumberBytes);
+  taut.seen.resize(seen);
+  corners.take<std::uint32_t>([&](std::size_t i, std::uint32_t v) { taut.seen[i] = VertexId{v}; });
+}
+
+}  // namespace
+
+RidgeSectionSource blocks_section(const BlockLayout& layout) {
+  return plain_section("blocks", kBlocksType, block_bytes(layout));
+}
+
+std::vector<RidgeSectionSource> list_sections(const Roadmap& roadmap) {
+  return {blocks_section(roadmap.esdf.layout),
+          plain_section("vertices", kVerticesType, vertex_bytes(roadmap.graph)),
+          plain_section("edges", kEdgesType, edge_bytes(roadmap.graph)),
+          plain_section("tree", kTreeType, tree_bytes(roadmap.tree)),
+          plain_section("corners", kVerticesType, vertex_bytes(roadmap.taut.graph)),
+          plain_section("taut_edges", kEdgesType, edge_bytes(roadmap.taut.graph)),
+          plain_section("cells", kNumbersType, cell_bytes(roadmap.taut)),
+          plain_section("seen", kNumbersType, seen_bytes(roadmap.taut))};
+}
+
+BlockLayout load_blocks(const RidgeReader& reader, std::uint32_t count) {
+  Planes planes(reader, "blocks", kBlocksType, count, kBlockBytes);
+  std::vector<BlockIndex> blocks(count);
+  for (const auto axis : {&BlockIndex::x, &BlockIndex::y, &BlockIndex::z}) {
+    std::uint32_t value = 0;
+    planes.take<std::uint32_t>([&](std::size_t i, std::uint32_t difference) {
+      value += difference;
+      blocks[i].*axis = static_cast<int>(value);
+    });
+  }
+  constexpr int kFarthest = 1 << 26;  // half of what a voxel index can name
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    for (const int part : {blocks[i].x, blocks[i].y, blocks[i].z}) {
+      if (part < -kFarthest || part > kFarthest) reader.damaged("blocks", "has one out of range");
+    }
+    if (i > 0 && !(blocks[i - 1] < blocks[i])) reader.damaged("blocks", "is not in order");
+  }
+  return BlockLayout(std::move(blocks));
+}
+
+void load_graph(const RidgeReader& reader, const RidgeHeader& header, Roadmap& roadmap) {
+  load_vertices(reader, "vertices", header, header.vertices, roadmap.graph);
+  load_edges(reader, "edges", header.edges, roadmap.graph);
+  load_taut(reader, header, roadmap.esdf.layout, roadmap.taut);
+
+  ClearanceTree& tree = roadmap.tree;
+  Planes nodes(reader, "tree", kTreeType, header.vertices, kTreeBytes);
+  tree.parent.resize(header.vertices);
+  tree.clearance.resize(header.vertices);
+  tree.place.resize(header.vertices);
+  nodes.take<std::uint32_t>([&](std::size_t i, std::uint32_t v) { tree.parent[i] = VertexId{v}; });
+  nodes.take<double>([&](std::size_t i, double c) { tree.clearance[i] = c; });
+  for (const auto axis : {&VoxelIndex::x, &VoxelIndex::y, &VoxelIndex::z}) {
+    nodes.take<int>([&](std::size_t i, int k) { tree.place[i].*axis = k; });
+  }
+}
+
+}  // namespace ridgeway

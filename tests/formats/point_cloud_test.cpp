@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/formats/point_cloud.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/formats/pcd.hpp"
+#include "ridgeway/formats/ply_cloud.hpp"
+#include "ridgeway/formats/xyz.hpp"
+#include "support/map_file_writers.hpp"
+
+namespace ridgeway {
+namespace {
+
+using testing::CloudPoint;
+
+std::vector<CloudPoint> some_points(std::size_t count) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> metres(-40.0, 40.0);
+  std::vector<CloudPoint> points;
+  for (std::size_t i = 0; i < count; ++i) {
+    // x is stored as float
+    points.push_back(
+        {static_cast<float>(metres(random)), metres(random), std::round(metres(random))});
+  }
+  return points;
+}
+
+struct Encoded {
+  const char* name;
+  PointCloud (*read)(std::string_view, const std::string&);
+  std::string bytes;
+};
+
+std::vector<Encoded> all_encodings(const std::vector<CloudPoint>& points) {
+  return {{"pcd ascii", read_pcd, testing::write_pcd(points, "ascii")},
+          {"pcd binary", read_pcd, testing::write_pcd(points, "binary")},
+          {"pcd binary_compressed", read_pcd, testing::write_pcd(points, "binary_compressed")},
+          {"ply ascii", read_ply, testing::write_ply(points, "ascii")},
+          {"ply little", read_ply, testing::write_ply(points, "binary_little_endian")},
+          {"ply big", read_ply, testing::write_ply(points, "binary_big_endian")},
+          {"xyz", read_xyz, testing::write_xyz(points)}};
+}
+
+TEST(PointCloudFiles, EveryEncodingGivesThePointsBack) {
+  const auto points = some_points(500);
+  for (const auto& [name, read, bytes] : all_encodings(points)) {
+    const PointCloud cloud = read(bytes, name);
+    ASSERT_EQ(cloud.points.size(), points.size()) << name;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        ASSERT_EQ(cloud.points[i][static_cast<int>(axis)], points[i][axis]) << name;
+    EXPECT_EQ(cloud.skipped, 0u);
+  }
+}
+
+TEST(PointCloudFiles, PointsThatAreNoNumbersAreSkippedAndCounted) {
+  auto points = some_points(20);
+  points[3][0] = std::nan("");
+  points[7][1] = std::numeric_limits<double>::infinity();
+  points[8] = {std::nan(""), std::nan(""), -std::numeric_limits<double>::infinity()};
+  for (const auto& [name, read, bytes] : all_encodings(points)) {
+    const PointCloud cloud = read(bytes, name);
+    EXPECT_EQ(cloud.points.size(), 17u) << name;
+    EXPECT_EQ(cloud.skipped, 3u) << name;
+  }
+}
+
+TEST(PointCloudFiles, WindowsLineEndsAreFine) {
+  for (const auto& [name, read, bytes] : all_encodings(some_points(9))) {
+    if (bytes.find('\0') != std::string::npos) continue;  // text only
+    std::string windows;
+    for (const char c : bytes) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
+    EXPECT_EQ(read(windows, name).points.size(), 9u) << name;
+  }
+}
+
+TEST(Pcd, IntegerCoordinatesAndOldHeadersAreRead) {
+  std::string file =
+      "VERSION .5\nFIELDS y x z\nSIZE 2 1 4\nTYPE I U I\nWIDTH 1\nHEIGHT 1\nDATA binary\n";
+  testing::append(file, std::int16_t{-300});
+  testing::append(file, std::uint8_t{200});
+  testing::append(file, std::int32_t{-70000});
+  const PointCloud cloud = read_pcd(file, "old.pcd");
+  ASSERT_EQ(cloud.points.size(), 1u);
+  EXPECT_EQ(cloud.points[0], Point(200, -300, -70000));
+}
+
+TEST(Pcd, HeadersThatLieAreRefused) {
+  const std::string good = testing::write_pcd(some_points(3), "binary");
+  const std::vector<std::pair<std::string, std::string>> lies = {
+      {"POINTS 3", "POINTS 4"},
+      {"WIDTH 3", "WIDTH 3000000000000"},
+      {"WIDTH 3\nHEIGHT 1", "WIDTH 2000000000\nHEIGHT 2000000000"},
+      {"FIELDS intensity z", "FIELDS intensity q"},
+      {"SIZE 1 8", "SIZE 1 7"},
+      {"SIZE 1 8", "SIZE 1 -8"},
+      {"COUNT 1 1 3", "COUNT 1 1 99999999999"},
+      {"TYPE U F", "TYPE U G"},
+      {"DATA binary", "DATA binary_squeezed"},
+      {"VERSION 0.7", "VERSION"},
+      {"VERSION 0.7", "COLOUR red"}};
+  for (const auto& [truth, lie] : lies) {
+    std::string bad = good;
+    bad.replace(bad.find(truth), truth.size(), lie);
+    EXPECT_THROW(read_pcd(bad, "lie.pcd"), InputError) << lie;
+  }
+  std::string huge = good;
+  huge.replace(huge.find("WIDTH 3"), 7, "WIDTH 1000000000");
+  huge.replace(huge.find("POINTS 3"), 8, "POINTS 1000000000");
+  for (const char* data : {"ascii", "binary", "binary_compressed"}) {
+    std::string bad = huge;
+    bad.replace(bad.find("DATA binary"), 11, std::string("DATA ") + data);
+    EXPECT_THROW(read_pcd(bad, "huge.pcd"), InputError) << data;
+  }
+}
+
+TEST(Ply, HeadersThatLieAreRefused) {
+  for (const char* format : {"ascii", "binary_little_endian"}) {
+    const std::string good = testing::write_ply(some_points(3), format);
+    const std::vector<std::pair<std::string, std::string>> lies = {
+        {"element vertex 3", "element vertex 4"},
+        {"element vertex 3", "element vertex 99999999999999999"},
+        {"element vertex 3", "element vertex -3"},
+        {"element camera 2\nproperty float focal\n", "element camera 99999999999999999\n"},
+        {"element camera 2", "element camera 18446744073709551615"},
+        {"element vertex", "element vortex"},
+        {"property float x", "property quad x"},
+        {"float64 z", "float64 w"},
+        {"element face 1", "element face 2"},
+        {"element face 1", "element face 0"},
+        {"element face", "element vertex"},
+        {"1.0\n", "1.0\nproperty float x\n"},
+        {"format", "former"}};
+    for (const auto& [truth, lie] : lies) {
+      std::string bad = good;
+      bad.replace(bad.find(truth), truth.size(), lie);
+      EXPECT_THROW(read_ply(bad, "lie.ply"), InputError) << lie;
+    }
+  }
+}
+
+TEST(Xyz, SeparatorsCommentsAndFurtherColumnsAreRead) {
+  const PointCloud cloud = read_xyz(
+      "x,y,z\n# comment\n\n1 2 3\n\t4\t5\t6\t7\n7,8,9,255\n// more\n 1e1 ; +1.5;-.25\n-0 0 0",
+      "a.xyz");
+  ASSERT_EQ(cloud.points.size(), 5u);
+  EXPECT_EQ(cloud.points[1], Point(4, 5, 6));
+  EXPECT_EQ(cloud.points[2], Point(7, 8, 9));
+  EXPECT_EQ(cloud.points[3], Point(10, 1.5, -0.25));
+}
+
+TEST(Xyz, BadLinesAreNamedByNumber) {
+  for (const char* text :
+       {"1 2 3\n4 5\n", "1 2 3\n4 5 six\n", "1 2 3\n4 5 6m\n", "1 2 3\nx y z\n"}) {
+    try {
+      read_xyz(text, "bad.xyz");
+      FAIL() << text;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("bad.xyz: line 2"), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
+TEST(MapFromPoints, VoxelsWithPointsAreOccupiedAndTheRestOfTheBoundsFree) {
+  const auto points = some_points(2000);
+  PointCloud cloud;
+  for (const auto& [x, y, z] : points) cloud.add(x, y, z);
+  const OccupancyMap map = map_from_points(
+      cloud, {.voxel_size = 0.5, .bounds = {Point::Constant(-10), Point::Constant(10)}}, "cloud");
+  std::size_t inside = 0;
+  for (const Point& p : cloud.points) {
+    const bool within = p.minCoeff() >= -10.0 && p.maxCoeff() < 10.0;
+    inside += within ? 1 : 0;
+    EXPECT_EQ(map.at(voxel_at(p, 0.5)), within ? VoxelState::kOccupied : VoxelState::kUnknown);
+  }
+  EXPECT_GT(inside, 10u);
+  EXPECT_EQ(count_voxels(map).known(), 64000u);
+  EXPECT_LE(count_voxels(map).occupied, inside);
+}
+
+TEST(MapFromPoints, RefusesPointsBeyondTheLattice) {
+  PointCloud cloud;
+  cloud.add(0, 0, 0);
+  cloud.add(0, 0, 3e8);
+  const CloudMapConfig config{.voxel_size = 0.1,
+                              .bounds = {Point::Constant(-1), Point::Constant(1)}};
+  EXPECT_THROW(map_from_points(cloud, config, "far"), InputError);
+}
+
+}  // namespace
+}  // namespace ridgeway

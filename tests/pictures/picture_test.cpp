@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/pictures/picture.hpp"
+
+#include <cairo.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+
+#include "ridgeway/common/error.hpp"
+#include "support/synthetic_roadmap.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace ridgeway {
+namespace {
+
+using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+
+Surface open_png(const std::filesystem::path& path) {
+  return {cairo_image_surface_create_from_png(path.c_str()), &cairo_surface_destroy};
+}
+
+/// Pixels of a colour, 0xrrggbb, give or take the rounding.
+std::size_t count_pixels(cairo_surface_t* image, std::uint32_t colour) {
+  const int width = cairo_image_surface_get_width(image);
+  const int height = cairo_image_surface_get_height(image);
+  const unsigned char* data = cairo_image_surface_get_data(image);
+  std::size_t count = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      std::uint32_t pixel = 0;
+      std::memcpy(&pixel, data + y * cairo_image_surface_get_stride(image) + 4 * x, 4);
+      bool same = true;
+      for (const int shift : {0, 8, 16}) {
+        const int a = pixel >> shift & 255, b = colour >> shift & 255;
+        same = same && std::abs(a - b) <= 1;
+      }
+      count += same;
+    }
+  }
+  return count;
+}
+
+std::vector<Point> diagonal(const Roadmap& roadmap) {
+  return {roadmap.graph.vertices.front().position, roadmap.graph.vertices.back().position};
+}
+
+TEST(Picture, PngShowsMapAndPath) {
+  const TemporaryFolder folder;
+  const Roadmap roadmap = synthetic_roadmap();
+  for (const int width : {400, 1600}) {
+    PictureConfig config;
+    config.width = width;
+    draw_floor_plan(roadmap, diagonal(roadmap), folder / "plan.png", config);
+    EXPECT_EQ(read_whole(folder / "plan.png").substr(0, 8), "\x89PNG\r\n\x1a\n");
+    const Surface image = open_png(folder / "plan.png");
+    ASSERT_EQ(cairo_surface_status(image.get()), CAIRO_STATUS_SUCCESS);
+    EXPECT_EQ(cairo_image_surface_get_width(image.get()), width);
+    const int height = cairo_image_surface_get_height(image.get());  // 73 x 49 voxels, and text
+    EXPECT_GT(height, 0.66 * width);
+    EXPECT_LT(height, 0.95 * width);
+    EXPECT_GT(count_pixels(image.get(), 0xd62628), 30u);    // path
+    EXPECT_GT(count_pixels(image.get(), 0x292e36), 1000u);  // walls
+    EXPECT_GT(count_pixels(image.get(), 0xe8ebee), 100u);   // unknown
+  }
+}
+
+TEST(Picture, ChartsGoBelowTheMap) {
+  const TemporaryFolder folder;
+  const Roadmap roadmap = synthetic_roadmap();
+  const auto height = [&](const PictureConfig& config) {
+    draw_floor_plan(roadmap, {}, folder / "plan.png", config);
+    return cairo_image_surface_get_height(open_png(folder / "plan.png").get());
+  };
+  PictureConfig config;
+  const int without = height(config);
+  config.charts = {{"speed (m/s)", {0.0, 1.0, 2.0, 3.0}, {0.0, 2.0, HUGE_VAL, 1.0}, 2.0, "limit"},
+                   {"empty", {}, {}, std::nullopt, ""}};
+  EXPECT_GT(height(config), without + 200);
+  EXPECT_GT(count_pixels(open_png(folder / "plan.png").get(), 0xd62628), 200u);  // the curve
+  config.charts[0].values.pop_back();
+  EXPECT_THROW(height(config), InputError);
+}
+
+TEST(Picture, WithoutPathNothingIsRed) {
+  const TemporaryFolder folder;
+  draw_floor_plan(synthetic_roadmap(), {}, folder / "plan.png");
+  EXPECT_EQ(count_pixels(open_png(folder / "plan.png").get(), 0xd62628), 0u);
+}
+
+TEST(Picture, EveryPathToCompareHasItsColourAndALineInTheLegend) {
+  const TemporaryFolder folder;
+  const Roadmap roadmap = synthetic_roadmap();
+  PictureConfig config;
+  config.diagram = config.graph = false;
+  const auto height = [&] {
+    draw_floor_plan(roadmap, {}, folder / "plan.png", config);
+    return cairo_image_surface_get_height(open_png(folder / "plan.png").get());
+  };
+  const int without = height();
+  const std::vector<Point> ends = diagonal(roadmap);
+  for (int i = 0; i < 8; ++i)  // side by side
+    config.paths.push_back({"planner " + std::to_string(i),
+                            {ends[0] + Point(0.1 * i, 0, 0), ends[1] + Point(0.1 * i, 0, 0)}});
+  EXPECT_GT(height(), without);  // more rows of the legend, below the map
+  const Surface image = open_png(folder / "plan.png");
+  for (const std::uint32_t colour :
+       {0x295c94u, 0xd65e00u, 0x008c73u, 0xa64d99u, 0xe69e00u, 0x57b3e8u, 0x735233u, 0x404047u})
+    EXPECT_GT(count_pixels(image.get(), colour), 1000u) << std::hex << colour;  // legend: 200
+  config.paths.push_back({"one too many", ends});
+  EXPECT_THROW(height(), InputError);
+}
+
+TEST(Picture, SvgIsOneDocument) {
+  const TemporaryFolder folder;
+  const Roadmap roadmap = synthetic_roadmap();
+  draw_floor_plan(roadmap, diagonal(roadmap), folder / "plan.svg");
+  const std::string svg = read_whole(folder / "plan.svg");
+  EXPECT_EQ(svg.substr(0, 5), "<?xml");
+  EXPECT_NE(svg.find("</svg>"), std::string::npos);
+}
+
+TEST(Picture, SamePictureEveryTime) {
+  const TemporaryFolder folder;
+  const Roadmap roadmap = synthetic_roadmap();
+  draw_floor_plan(roadmap, diagonal(roadmap), folder / "a.png");
+  draw_floor_plan(roadmap, diagonal(roadmap), folder / "b.png");
+  EXPECT_TRUE(read_whole(folder / "a.png") == read_whole(folder / "b.png"));
+}
+
+TEST(Picture, AnyTitleAndTallMapsAreFine) {
+  const TemporaryFolder folder;
+  SyntheticConfig tall;
+  tall.rooms_x = 1;
+  tall.rooms_y = 12;
+  Roadmap roadmap = synthetic_roadmap(tall);
+  PictureConfig config;
+  config.width = 500;
+  config.title = std::string("\xff\xfe \n \xc3") + std::string(500, 'w') + "\xc3\xa4";
+  config.diagram_colour = DiagramColour::kHeight;
+  config.raw_path = diagonal(roadmap);
+  draw_floor_plan(roadmap, diagonal(roadmap), folder / "plan.png", config);
+  EXPECT_LT(cairo_image_surface_get_height(open_png(folder / "plan.png").get()), 1.6 * 500);
+}
+
+TEST(Picture, BandsChooseTheHeights) {
+  const TemporaryFolder folder;
+  const Roadmap roadmap = synthetic_roadmap();
+  PictureConfig floor;
+  floor.diagram = floor.graph = false;
+  floor.band = HeightBand{-0.3, -0.2};  // the floor itself: all occupied
+  draw_floor_plan(roadmap, {}, folder / "floor.png", floor);
+  PictureConfig rooms = floor;
+  rooms.band.reset();
+  draw_floor_plan(roadmap, {}, folder / "rooms.png", rooms);
+  EXPECT_GT(count_pixels(open_png(folder / "floor.png").get(), 0x292e36),
+            5 * count_pixels(open_png(folder / "rooms.png").get(), 0x292e36));
+}
+
+TEST(Picture, BadRequestsAreRefused) {
+  const TemporaryFolder folder;
+  const Roadmap roadmap = synthetic_roadmap();
+  EXPECT_THROW(draw_floor_plan(roadmap, {}, folder / "plan.jpg"), InputError);
+  EXPECT_THROW(draw_floor_plan(roadmap, {}, folder / "none/plan.png"), InputError);
+  EXPECT_THROW(draw_floor_plan({}, {}, folder / "plan.png"), InputError);
+  PictureConfig config;
+  config.width = 10;
+  EXPECT_THROW(draw_floor_plan(roadmap, {}, folder / "plan.png", config), InputError);
+  config.width = 800;
+  config.band = HeightBand{2.0, 1.0};
+  EXPECT_THROW(draw_floor_plan(roadmap, {}, folder / "plan.png", config), InputError);
+  EXPECT_TRUE(folder.is_empty());
+}
+
+}  // namespace
+}  // namespace ridgeway
