@@ -16,6 +16,9 @@ function(ridgeway_test name)
   endif()
   add_executable(${name}_tests ${arg_SOURCES})
   ridgeway_target_defaults(${name}_tests)
+  set_target_properties(${name}_tests PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+  ridgeway_precompile(
+    ${name}_tests tests HEADERS ${ridgeway_common_headers} <gtest/gtest.h> DEPENDS Eigen3::Eigen TBB::tbb GTest::gtest)
   target_include_directories(${name}_tests PRIVATE "${PROJECT_SOURCE_DIR}/tests"
                                                     "${PROJECT_SOURCE_DIR}/src")
   target_link_libraries(${name}_tests PRIVATE ${arg_DEPENDS} GTest::gtest_main)
