@@ -4,8 +4,8 @@
 
 #include <cmath>
 #include <limits>
-#include <queue>
 
+#include "best_first_search.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/roadmap/roadmap.hpp"
@@ -65,45 +65,36 @@ std::vector<Pair> visible_pairs(const FreeSpace& space, double radius,
 class Spanner {
  public:
   explicit Spanner(const std::vector<Corner>& corners)
-      : corners_(corners), links_(corners.size()), lengths_(corners.size(), kFar) {}
+      : corners_(corners),
+        links_(corners.size()),
+        search_(corners.size(), std::numeric_limits<double>::infinity()) {}
 
   bool add(const Pair& pair, double length) {
-    if (shortest_way(pair, kStretch * length)) return false;
+    if (has_way(pair, kStretch * length)) return false;
     links_[pair.first].emplace_back(pair.second, length);
     links_[pair.second].emplace_back(pair.first, length);
     return true;
   }
 
  private:
-  static constexpr double kFar = std::numeric_limits<double>::infinity();
-
-  bool shortest_way(const Pair& pair, double most) {
-    using Entry = std::pair<double, std::uint32_t>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-    std::vector<std::uint32_t> touched;
+  /// Whether a way no longer than `most` leads from one to the other.
+  bool has_way(const Pair& pair, double most) {
     const Point& goal = corners_[pair.second].place;
-    const auto reach = [&](std::uint32_t v, double length) {
-      if (length >= lengths_[v] || length + (corners_[v].place - goal).norm() > most) return;
-      lengths_[v] = length;
-      touched.push_back(v);
-      open.emplace(length, v);
-    };
-    reach(pair.first, 0.0);
-    bool found = false;
-    while (!open.empty() && !found) {
-      const auto [length, v] = open.top();
-      open.pop();
-      found = v == pair.second;
-      if (length > lengths_[v]) continue;
-      for (const auto& [next, own] : links_[v]) reach(next, length + own);
-    }
-    for (const std::uint32_t v : touched) lengths_[v] = kFar;
-    return found;
+    search_.restart();
+    search_.offer(pair.first, 0.0, pair.first);
+    search_.run([&](std::uint32_t v) {
+      for (const auto& [next, own] : links_[v])
+        if (const double length = search_.cost(v) + own;
+            length + (corners_[next].place - goal).norm() <= most)
+          search_.offer(next, length, v);
+      return !search_.is_reached(pair.second);
+    });
+    return search_.is_reached(pair.second);
   }
 
   const std::vector<Corner>& corners_;
   std::vector<std::vector<std::pair<std::uint32_t, double>>> links_;
-  std::vector<double> lengths_;
+  BestFirstSearch<std::uint32_t, double> search_;
 };
 
 }  // namespace

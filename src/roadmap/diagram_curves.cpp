@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <queue>
+#include <tuple>
 
+#include "best_first_search.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 
@@ -52,39 +53,37 @@ DiagramCurves index_diagram(const EsdfMap& esdf, const VoxelMask& diagram, doubl
 }
 
 DiagramFlood flood_from(const DiagramCurves& curves, std::span<const DiagramNumber> vertices) {
-  struct Entry {
+  struct Way {
     double width;
     float distance;
-    DiagramNumber voxel, from;
-    bool operator<(const Entry& other) const {  // the queue's top is widest, then nearest
-      if (width != other.width) return width < other.width;
-      if (distance != other.distance) return distance > other.distance;
-      return voxel != other.voxel ? voxel > other.voxel : from > other.from;
+    DiagramNumber from;
+    bool operator<(const Way& other) const {  // the widest is best, then the shortest
+      return std::tuple(-width, distance, from) <
+             std::tuple(-other.width, other.distance, other.from);
     }
   };
+  BestFirstSearch<DiagramNumber, Way> search(curves.size(), {-1.0, 0.0f, kNowhere});
   DiagramFlood flood;
   flood.vertex.assign(curves.size(), kNowhere);
   flood.toward.assign(curves.size(), kNowhere);
   flood.width.assign(curves.size(), 0.0);
   flood.distance.assign(curves.size(), 0.0f);
-  std::priority_queue<Entry> queue;
   for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-    flood.vertex[vertices[i]] = i;
-    queue.push({static_cast<double>(curves.squared[vertices[i]]), 0.0f, vertices[i], vertices[i]});
+    const DiagramNumber v = vertices[i];
+    flood.vertex[v] = i;
+    search.offer(v, {static_cast<double>(curves.squared[v]), 0.0f, v}, v);
   }
-  while (!queue.empty()) {
-    const Entry entry = queue.top();
-    queue.pop();
-    if (flood.toward[entry.voxel] != kNowhere) continue;
-    flood.toward[entry.voxel] = entry.from;
-    flood.vertex[entry.voxel] = flood.vertex[entry.from];
-    flood.width[entry.voxel] = entry.width;
-    flood.distance[entry.voxel] = entry.distance;
-    for (const DiagramMove& move : curves.moves_of(entry.voxel))
-      if (flood.toward[move.to] == kNowhere)
-        queue.push({std::min(entry.width, move.width), entry.distance + move.length, move.to,
-                    entry.voxel});
-  }
+  search.run([&](DiagramNumber voxel) {
+    const Way way = search.cost(voxel);
+    flood.toward[voxel] = way.from;
+    flood.vertex[voxel] = flood.vertex[way.from];
+    flood.width[voxel] = way.width;
+    flood.distance[voxel] = way.distance;
+    for (const DiagramMove& move : curves.moves_of(voxel))
+      search.offer(move.to, {std::min(way.width, move.width), way.distance + move.length, voxel},
+                   voxel);
+    return true;
+  });
   return flood;
 }
 

@@ -3,7 +3,7 @@
 #include "editable_graph.hpp"
 
 #include <algorithm>
-#include <queue>
+#include <limits>
 #include <tuple>
 
 #include "ridgeway/voxel/disjoint_sets.hpp"
@@ -11,7 +11,9 @@
 namespace ridgeway::detail {
 
 EditableGraph::EditableGraph(const SparseGraph& graph)
-    : graph_(graph), links_(graph.vertices.size()) {
+    : graph_(graph),
+      links_(graph.vertices.size()),
+      search_(graph.vertices.size(), std::numeric_limits<double>::infinity()) {
   for (const Edge& edge : graph.edges)
     link(static_cast<Number>(edge.from), static_cast<Number>(edge.to), {edge.clearance});
 }
@@ -47,33 +49,19 @@ std::vector<EditableGraph::Number> EditableGraph::way_to_fork(Number end) const 
 }
 
 std::vector<EditableGraph::Number> EditableGraph::other_way(Number from, Number to, double longest,
-                                                            double width) const {
-  using Entry = std::pair<double, Number>;
-  std::map<Number, Entry> best;  // length so far, vertex before
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  best[from] = {0.0, from};
-  queue.push({0.0, from});
-  while (!queue.empty()) {
-    const auto [distance, v] = queue.top();
-    queue.pop();
-    if (v == to) break;
-    if (distance > best.at(v).first) continue;
+                                                            double width) {
+  search_.restart();
+  search_.offer(from, 0.0, from);
+  search_.run([&](Number v) {
+    if (v == to) return false;
     for (const auto& [w, link] : links_[v]) {
-      const double next = distance + length(v, w);
-      if (link.clearance < width || (v == from && w == to) || next + length(w, to) > longest)
-        continue;
-      const auto [known, is_new] = best.try_emplace(w, next, v);
-      if (!is_new && known->second.first <= next) continue;
-      known->second = {next, v};
-      queue.push({next, w});
+      const double next = search_.cost(v) + length(v, w);
+      if (link.clearance >= width && (v != from || w != to) && next + length(w, to) <= longest)
+        search_.offer(w, next, v);
     }
-  }
-  std::vector<Number> way;
-  if (!best.contains(to)) return way;
-  for (Number v = to; v != from; v = best.at(v).second) way.push_back(v);
-  way.push_back(from);
-  std::reverse(way.begin(), way.end());
-  return way;
+    return true;
+  });
+  return search_.is_reached(to) ? search_.way_to(to) : std::vector<Number>{};
 }
 
 SparseGraph EditableGraph::result() const {

@@ -7,6 +7,7 @@
 #include <map>
 #include <vector>
 
+#include "best_first_search.hpp"
 #include "ridgeway/roadmap/sparse_graph.hpp"
 
 namespace ridgeway::detail {
@@ -48,7 +49,7 @@ class EditableGraph {
 
   /// Shortest way between the ends of a link without it, as wide as `width` and no longer than
   /// `longest`; empty where there is none.
-  std::vector<Number> other_way(Number from, Number to, double longest, double width) const;
+  std::vector<Number> other_way(Number from, Number to, double longest, double width);
 
   /// Without the vertices that have lost all their links.
   SparseGraph result() const;
@@ -56,6 +57,7 @@ class EditableGraph {
  private:
   const SparseGraph& graph_;
   std::vector<Links> links_;
+  BestFirstSearch<Number, double> search_;
 };
 
 }  // namespace ridgeway::detail

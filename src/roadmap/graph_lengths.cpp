@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <queue>
+
+#include "best_first_search.hpp"
 
 namespace ridgeway {
 namespace {
@@ -24,22 +24,21 @@ Sources farthest(const GraphComponents& parts, const std::vector<double>& value)
 }  // namespace
 
 std::vector<double> lengths_from(const SparseGraph& graph, const Sources& sources, double radius) {
-  std::vector<double> lengths(graph.vertices.size(), std::numeric_limits<double>::infinity());
-  using Entry = std::pair<double, VertexId>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  for (const auto& [vertex, length] : sources) open.push({length, vertex});
-  while (!open.empty()) {
-    const auto [length, vertex] = open.top();
-    open.pop();
-    if (length >= lengths[number(vertex)]) continue;
-    lengths[number(vertex)] = length;
-    for (const Link& link : graph.links_of(vertex)) {
+  detail::BestFirstSearch<VertexId, double> search(graph.vertices.size(),
+                                                   std::numeric_limits<double>::infinity());
+  for (const auto& [vertex, length] : sources) search.offer(vertex, length, vertex);
+  search.run([&](VertexId v) {
+    for (const Link& link : graph.links_of(v)) {
       const Edge& edge = graph.edges[number(link.edge)];
-      const double next = length + edge.length;
-      if (edge.clearance >= radius * (1.0 - 1e-9) && next < lengths[number(link.vertex)])
-        open.push({next, link.vertex});
+      if (edge.clearance >= radius * (1.0 - 1e-9))
+        search.offer(link.vertex, search.cost(v) + edge.length, v);
     }
-  }
+    return true;
+  });
+  std::vector<double> lengths;
+  lengths.reserve(graph.vertices.size());
+  for (std::uint32_t v = 0; v < graph.vertices.size(); ++v)
+    lengths.push_back(search.cost(VertexId{v}));
   return lengths;
 }
 

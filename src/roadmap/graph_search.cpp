@@ -4,24 +4,16 @@
 
 #include <algorithm>
 #include <limits>
-#include <queue>
+
+#include "best_first_search.hpp"
 
 namespace ridgeway::detail {
 namespace {
 
-/// A vertex to go on from.
-struct OpenEntry {
-  double estimate;  ///< cost, and what is left at least
-  double cost;
-  VertexId vertex;
-  bool operator<(const OpenEntry& other) const {  // the queue's top is the best
-    return estimate != other.estimate ? estimate > other.estimate : vertex > other.vertex;
-  }
-};
-
-struct VertexState {
-  double cost = std::numeric_limits<double>::infinity();
-  VertexId from = kNoVertex;
+/// The cost of a way to a vertex, and of one over it to the goal at least.
+struct Estimate {
+  double whole, cost;
+  bool operator<(const Estimate& other) const { return whole < other.whole; }
 };
 
 /// A* that queues junctions alone: between them it walks, since most vertices have one way on.
@@ -35,20 +27,20 @@ class GraphSearch {
         target_(graph.vertices[number(goal)].position),
         narrowest_(radius * (1.0 - 1e-9)),
         penalty_(penalty),
-        states_(graph.vertices.size()) {
-    states_[number(start)].cost = 0.0;
-    push(start);
+        search_(graph.vertices.size(), std::numeric_limits<double>::infinity()) {
+    search_.improve(start, 0.0, start);
+    enqueue(start);
   }
 
   std::vector<VertexId> run() {
-    while (!open_.empty()) {
-      const auto [estimate, cost, vertex] = open_.top();
-      open_.pop();
-      if (cost > states_[number(vertex)].cost) continue;  // reached for less since
-      if (vertex == goal_) return route();
-      for (const Link& link : graph_.links_of(vertex)) walk(vertex, link);
-    }
-    return {};
+    bool found = false;
+    search_.run([&](VertexId v) {
+      found = v == goal_;
+      if (found) return false;
+      for (const Link& link : graph_.links_of(v)) walk(v, link);
+      return true;
+    });
+    return found ? search_.way_to(goal_) : std::vector<VertexId>{};
   }
 
  private:
@@ -60,31 +52,21 @@ class GraphSearch {
       if (edge.clearance < narrowest_) return;
       const double factor =
           penalty_ != nullptr ? static_cast<double>((*penalty_)[number(link.edge)]) : 1.0;
-      const double cost = states_[number(from)].cost + edge.length * factor;
-      VertexState& next = states_[number(link.vertex)];
-      if (cost >= next.cost) return;
-      next.cost = cost;
-      next.from = from;
+      const double cost = search_.cost(from) + edge.length * factor;
+      if (!search_.improve(link.vertex, cost, from)) return;
       const std::span<const Link> links = graph_.links_of(link.vertex);
-      if (link.vertex == goal_ || links.size() > 2) return push(link.vertex);
+      if (link.vertex == goal_ || links.size() > 2) return enqueue(link.vertex);
       if (links.size() < 2) return;  // a dead end
       from = link.vertex;
       link = links[links[0].edge == link.edge ? 1 : 0];
     }
   }
 
-  void push(VertexId vertex) {
+  void enqueue(VertexId vertex) {
     const double rest = std::max((graph_.vertices[number(vertex)].position - target_).norm(),
                                  length_bound(landmarks_, vertex, goal_));
-    const double cost = states_[number(vertex)].cost;
-    open_.push({cost + rest, cost, vertex});
-  }
-
-  std::vector<VertexId> route() const {
-    std::vector<VertexId> route;
-    for (VertexId v = goal_; v != kNoVertex; v = states_[number(v)].from) route.push_back(v);
-    std::reverse(route.begin(), route.end());
-    return route;
+    const double cost = search_.cost(vertex);
+    search_.enqueue(vertex, {cost + rest, cost});
   }
 
   const SparseGraph& graph_;
@@ -93,8 +75,7 @@ class GraphSearch {
   const Point target_;
   const double narrowest_;
   const std::vector<float>* penalty_;
-  std::vector<VertexState> states_;
-  std::priority_queue<OpenEntry> open_;
+  BestFirstSearch<VertexId, double, Estimate> search_;
 };
 
 }  // namespace

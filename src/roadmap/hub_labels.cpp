@@ -3,9 +3,9 @@
 #include "ridgeway/roadmap/hub_labels.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <limits>
-#include <queue>
+
+#include "best_first_search.hpp"
 
 namespace ridgeway {
 namespace {
@@ -17,44 +17,27 @@ constexpr std::size_t kSampledTrees = 32;  // that show through which vertices m
 /// Dijkstra from one vertex after the other, with memory taken once.
 class ShortestTrees {
  public:
-  struct Node {
-    double length = kFar;
-    VertexId parent = kNoVertex;
-  };
+  explicit ShortestTrees(const SparseGraph& graph)
+      : graph_(graph), search_(graph.vertices.size(), kFar) {}
 
-  explicit ShortestTrees(const SparseGraph& graph) : graph_(graph), nodes_(graph.vertices.size()) {}
-
-  /// Calls reach(vertex, node) for each vertex in the order of its length; goes on from it where
-  /// that returns true.
+  /// Calls reach(vertex, parent, length) for each vertex in the order of its length; goes on from
+  /// it where that returns true.
   template <typename Reach>
   void grow(VertexId root, const Reach& reach) {
-    for (const VertexId v : touched_) nodes_[number(v)] = {};
-    touched_.clear();
-    offer(root, 0.0, root);
-    while (!open_.empty()) {
-      const auto [length, vertex] = open_.top();
-      open_.pop();
-      if (length > nodes_[number(vertex)].length) continue;
-      if (!reach(vertex, nodes_[number(vertex)])) continue;
-      for (const Link& link : graph_.links_of(vertex))
-        offer(link.vertex, length + graph_.edges[number(link.edge)].length, vertex);
-    }
+    search_.restart();
+    search_.offer(root, 0.0, root);
+    search_.run([&](VertexId v) {
+      const double length = search_.cost(v);
+      if (reach(v, search_.from(v), length))
+        for (const Link& link : graph_.links_of(v))
+          search_.offer(link.vertex, length + graph_.edges[number(link.edge)].length, v);
+      return true;
+    });
   }
 
  private:
-  void offer(VertexId v, double length, VertexId parent) {
-    Node& node = nodes_[number(v)];
-    if (length >= node.length) return;
-    if (node.length == kFar) touched_.push_back(v);
-    node = {length, parent};
-    open_.push({length, v});
-  }
-
   const SparseGraph& graph_;
-  std::vector<Node> nodes_;
-  std::vector<VertexId> touched_;
-  using Entry = std::pair<double, VertexId>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open_;
+  detail::BestFirstSearch<VertexId, double> search_;
 };
 
 /// A label in the making.
@@ -71,10 +54,11 @@ std::vector<VertexId> by_importance(const SparseGraph& graph, ShortestTrees& tre
   const std::size_t step = std::max<std::size_t>(count / kSampledTrees, 1);
   for (std::size_t root = 0; root < count; root += step) {
     std::vector<std::pair<VertexId, VertexId>> tree;  // with parents, roots first
-    trees.grow(VertexId{static_cast<std::uint32_t>(root)}, [&](VertexId v, const auto& node) {
-      tree.emplace_back(v, node.parent);
-      return true;
-    });
+    trees.grow(VertexId{static_cast<std::uint32_t>(root)},
+               [&](VertexId v, VertexId parent, double) {
+                 tree.emplace_back(v, parent);
+                 return true;
+               });
     std::fill(beyond.begin(), beyond.end(), 1);
     std::reverse(tree.begin(), tree.end());
     for (const auto& [v, parent] : tree) {
@@ -99,11 +83,10 @@ HubLabels label_hubs(const SparseGraph& graph) {
   for (std::uint32_t hub = 0; hub < order.size(); ++hub) {
     const VertexId root = order[hub];
     for (const Way& way : ways[number(root)]) to_root[way.hub] = way.length;
-    trees.grow(root, [&](VertexId v, const auto& node) {
+    trees.grow(root, [&](VertexId v, VertexId parent, double length) {
       for (const Way& way : ways[number(v)])
-        if (way.length + to_root[way.hub] <= node.length * (1.0 + kRounding) && v != root)
-          return false;
-      ways[number(v)].push_back({hub, node.parent, node.length});
+        if (way.length + to_root[way.hub] <= length * (1.0 + kRounding) && v != root) return false;
+      ways[number(v)].push_back({hub, parent, length});
       return true;
     });
     for (const Way& way : ways[number(root)]) to_root[way.hub] = kFar;

@@ -3,9 +3,10 @@
 #include "vertex_selection.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <numeric>
-#include <queue>
+
+#include "best_first_search.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -13,26 +14,17 @@ namespace {
 /// Visits the voxels within `radius` of a start along the diagram, itself included.
 template <typename Visit>
 void visit_near(const DiagramCurves& curves, DiagramNumber start, double radius,
-                std::vector<float>& best, const Visit& visit) {
-  using Entry = std::pair<float, DiagramNumber>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  std::vector<DiagramNumber> touched{start};
-  best[start] = 0.0f;
-  queue.push({0.0f, start});
-  while (!queue.empty()) {
-    const auto [distance, voxel] = queue.top();
-    queue.pop();
-    if (distance > best[voxel]) continue;
+                BestFirstSearch<DiagramNumber, float>& search, const Visit& visit) {
+  search.restart();
+  search.offer(start, 0.0f, start);
+  search.run([&](DiagramNumber voxel) {
     visit(voxel);
     for (const DiagramMove& move : curves.moves_of(voxel)) {
-      const float next = distance + move.length;
-      if (next > static_cast<float>(radius) || next >= best[move.to]) continue;
-      best[move.to] = next;
-      touched.push_back(move.to);
-      queue.push({next, move.to});
+      const float next = search.cost(voxel) + move.length;
+      if (next <= static_cast<float>(radius)) search.offer(move.to, next, voxel);
     }
-  }
-  for (const DiagramNumber v : touched) best[v] = INFINITY;
+    return true;
+  });
 }
 
 }  // namespace
@@ -44,11 +36,12 @@ std::vector<DiagramNumber> select_vertices(const DiagramCurves& curves, double p
                    [&](auto a, auto b) { return curves.squared[a] > curves.squared[b]; });
   std::vector<DiagramNumber> vertices;
   std::vector<bool> pruned(curves.size(), false);
-  std::vector<float> best(curves.size(), INFINITY);
+  BestFirstSearch<DiagramNumber, float> search(curves.size(),
+                                               std::numeric_limits<float>::infinity());
   for (const DiagramNumber v : by_clearance) {
     if (curves.moves_of(v).size() == 2 || pruned[v]) continue;
     vertices.push_back(v);
-    visit_near(curves, v, prune_radius, best, [&](DiagramNumber w) { pruned[w] = true; });
+    visit_near(curves, v, prune_radius, search, [&](DiagramNumber w) { pruned[w] = true; });
   }
   // Rings without a junction: their widest voxel.
   std::vector<bool> reached(curves.size(), false);
