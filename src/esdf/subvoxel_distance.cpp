@@ -10,6 +10,7 @@
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/number_text.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "ridgeway/voxel/for_each_voxel.hpp"
 
 namespace ridgeway {
 namespace {
@@ -45,32 +46,24 @@ Eigen::Vector3d offset_to_surface(const TsdfMap& tsdf, const VoxelIndex& site) {
   return length > tsdf.voxel_size ? Eigen::Vector3d(offset * (tsdf.voxel_size / length)) : offset;
 }
 
-/// Calls body(slot, id) for every voxel, blocks in parallel.
-template <typename Body>
-void for_each_voxel(const BlockLayout& layout, const Body& body) {
-  parallel_for_each_index(layout.block_count(), [&](std::size_t slot) {
-    const auto first = static_cast<VoxelId>(slot * kBlockVoxels);
-    for (VoxelId id = first; id < first + kBlockVoxels; ++id) body(slot, id);
-  });
-}
-
 class Refinement {
  public:
   Refinement(const EsdfMap& esdf, const TsdfMap& tsdf)
       : esdf_(esdf), tsdf_(tsdf), to_surface_(esdf.layout, Eigen::Vector3f::Zero()) {}
 
   SubvoxelDistances run() {
-    for_each_voxel(esdf_.layout, [&](std::size_t, VoxelId id) {
+    detail::for_each_voxel(esdf_.layout, [&](VoxelId id) {
       if (esdf_.obstacle.test(id))
         to_surface_[id] = offset_to_surface(tsdf_, esdf_.layout.index_of(id)).cast<float>();
     });
     SubvoxelDistances result{VoxelField<float>(esdf_.layout)};
     std::vector<double> change(esdf_.layout.block_count(), 0.0);  // the largest of each block
-    for_each_voxel(esdf_.layout, [&](std::size_t slot, VoxelId id) {
+    detail::for_each_voxel(esdf_.layout, [&](VoxelId id) {
       const double distance = distance_of(id);
       result.distance[id] = static_cast<float>(distance);
       if (distance >= 0.0 && std::isfinite(distance))
-        change[slot] = std::max(change[slot], std::abs(distance - esdf_.distance(id)));
+        change[id / kBlockVoxels] =
+            std::max(change[id / kBlockVoxels], std::abs(distance - esdf_.distance(id)));
     });
     for (const double c : change) result.error_bound = std::max(result.error_bound, c);
     return result;

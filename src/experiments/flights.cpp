@@ -7,9 +7,9 @@
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/number_text.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "ridgeway/common/random.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
-#include "ridgeway/sensing/random.hpp"
 
 namespace ridgeway {
 namespace {

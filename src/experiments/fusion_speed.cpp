@@ -2,18 +2,18 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "ridgeway/experiments/fusion_speed.hpp"
 
-#include <chrono>
 #include <cmath>
 #include <functional>
 
 #include "plain_fusion.hpp"
+#include "ridgeway/common/clock.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/sensing/random.hpp"
+#include "ridgeway/common/random.hpp"
 
 namespace ridgeway {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using detail::seconds_now;
 
 struct Scan {
   DepthImage image;
@@ -33,9 +33,9 @@ FusionSpeed measure(const World& world, const std::vector<Scan>& scans,
   result.integrator = integration.name;
   std::vector<double> times;
   for (const Scan& scan : scans) {
-    const Clock::time_point begin = Clock::now();
+    const double begin = seconds_now();
     integration.add(scan);
-    times.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
+    times.push_back(1e3 * (seconds_now() - begin));
   }
   result.milliseconds = spread_of(std::move(times));
   const TsdfMap map = integration.map();

@@ -3,30 +3,26 @@
 #include "ridgeway/experiments/hall.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <span>
 
 #include "memory_traffic.hpp"
 #include "process_memory.hpp"
+#include "ridgeway/common/clock.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/number_text.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "ridgeway/common/random.hpp"
 #include "ridgeway/common/spread.hpp"
 #include "ridgeway/mapping/world_map.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/sensing/poses.hpp"
-#include "ridgeway/sensing/random.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
 
 namespace ridgeway {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
+using detail::seconds_now;
 
 double median_of(std::vector<double> values) { return spread_of(std::move(values)).median; }
 
@@ -122,9 +118,9 @@ class Measurement {
   BuildResult build_once(OccupancyMap map) {
     return with_threads(row_.threads, [&] {
       const BuildConfig config{.min_clearance = min_clearance_for(map)};
-      const Clock::time_point begin = Clock::now();
+      const double begin = seconds_now();
       BuildResult result = build_roadmap(std::move(map), config);
-      result.report.seconds.total = seconds_since(begin);
+      result.report.seconds.total = seconds_now() - begin;
       return result;
     });
   }
@@ -134,11 +130,11 @@ class Measurement {
     std::vector<std::uint8_t> ok(queries.size());
     std::vector<double> seconds;
     for (int run = 0; run < config_.repeat; ++run) {
-      const Clock::time_point begin = Clock::now();
+      const double begin = seconds_now();
       parallel_for_each_index(queries.size(), [&](std::size_t i) {
         ok[i] = plan(roadmap, queries[i].start, queries[i].goal).ok();
       });
-      seconds.push_back(seconds_since(begin));
+      seconds.push_back(seconds_now() - begin);
     }
     row_.batch_seconds = median_of(std::move(seconds));
     row_.solved = static_cast<std::size_t>(std::count(ok.begin(), ok.end(), 1));
@@ -150,11 +146,11 @@ class Measurement {
     std::vector<double> load, plan_first, both;
     for (int run = 0; run < config_.repeat; ++run) {
       detail::release_freed_memory();
-      const Clock::time_point begin = Clock::now();
+      const double begin = seconds_now();
       const Roadmap roadmap = store.load();
-      load.push_back(seconds_since(begin));
+      load.push_back(seconds_now() - begin);
       plan(roadmap, query.start, query.goal);
-      both.push_back(seconds_since(begin));
+      both.push_back(seconds_now() - begin);
       plan_first.push_back(both.back() - load.back());
     }
     row_.load_seconds = median_of(std::move(load));

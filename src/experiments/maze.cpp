@@ -2,23 +2,23 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "ridgeway/experiments/maze.hpp"
 
-#include <chrono>
 #include <cmath>
 #include <functional>
 
+#include "ridgeway/common/clock.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/number_text.hpp"
+#include "ridgeway/common/random.hpp"
 #include "ridgeway/mapping/world_map.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "ridgeway/sampling/plan_by_sampling.hpp"
 #include "ridgeway/sensing/poses.hpp"
-#include "ridgeway/sensing/random.hpp"
 
 namespace ridgeway {
 namespace {
 
-constexpr int kLeastRound = 100;  // milliseconds that each planner plans in a round
+constexpr double kLeastRound = 0.1;  // seconds that each planner plans in a round
 
 struct Pair {
   Point start, goal;
@@ -115,13 +115,12 @@ struct Trials {
 /// while it fetches from memory what another planner displaced.
 void run_round(const Contender& contender, const Pair& single, const std::vector<Pair>& pairs,
                Trials& trials) {
-  using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + std::chrono::milliseconds(kLeastRound);
+  const double end = detail::seconds_now() + kLeastRound;
   trials.pairs.resize(pairs.size());
   do {
     for (std::size_t i = 0; i < pairs.size(); ++i) trials.pairs[i].run(contender.plan, pairs[i]);
     trials.single.run(contender.plan, single);
-  } while (Clock::now() < end);
+  } while (detail::seconds_now() < end);
 }
 
 MazeRow row_of(const Contender& contender, const Trials& trials,

@@ -3,11 +3,11 @@
 #include "memory_traffic.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <utility>
 #include <vector>
 
+#include "ridgeway/common/clock.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/common/spread.hpp"
 #include "ridgeway/skeleton/basins.hpp"
@@ -71,13 +71,12 @@ double copy_bandwidth(std::size_t bytes, int repeat) {
   std::vector<std::byte> to(bytes);  // its pages are there before the clock runs
   std::vector<double> seconds;
   for (int run = 0; run < repeat; ++run) {
-    const auto begin = std::chrono::steady_clock::now();
+    const double begin = seconds_now();
     parallel_for_each_index((bytes + kPiece - 1) / kPiece, [&](std::size_t i) {
       const std::size_t first = i * kPiece;
       std::memcpy(to.data() + first, from.data() + first, std::min(kPiece, bytes - first));
     });
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-    seconds.push_back(taken.count());
+    seconds.push_back(seconds_now() - begin);
   }
   return 2.0 * static_cast<double>(bytes) / spread_of(std::move(seconds)).median;
 }

@@ -3,19 +3,19 @@
 #include "ridgeway/experiments/noise.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <string>
 
+#include "ridgeway/common/clock.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/number_text.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "ridgeway/common/random.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/mapping/map_edits.hpp"
 #include "ridgeway/mapping/world_map.hpp"
 #include "ridgeway/planning/plan.hpp"
-#include "ridgeway/sensing/random.hpp"
 #include "ridgeway/skeleton/basins.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
 #include "ridgeway/voxel/disjoint_sets.hpp"
@@ -23,7 +23,7 @@
 namespace ridgeway {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using detail::seconds_now;
 
 struct Pair {
   Point start, goal;
@@ -62,9 +62,9 @@ OccupancyMap scan(const World& world, const std::vector<Eigen::Isometry3d>& pose
   Random seeds(config.seed);
   for (const Eigen::Isometry3d& pose : poses) {
     const DepthImage image = render_depth(world, sensor, pose, seeds.bits());
-    const Clock::time_point begin = Clock::now();
+    const double begin = seconds_now();
     fusion.integrate(image, sensor.camera, pose);
-    times.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
+    times.push_back(1e3 * (seconds_now() - begin));
   }
   milliseconds = spread_of(std::move(times)).median;
   return remove_isolated(occupancy_of(fusion.map()), config.isolated_below);

@@ -10,6 +10,7 @@
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "ridgeway/voxel/for_each_voxel.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
 
 // Marching tetrahedra (Doi and Koide 1991). Every cell between eight voxel centres is cut into the
@@ -22,6 +23,8 @@
 namespace ridgeway {
 namespace {
 
+using detail::for_each_voxel;
+
 /// A corner of a cell, or a step up from one corner to another: bit 0 for x, 1 for y, 2 for z.
 using Corner = unsigned;
 constexpr Corner kHighest = 7;
@@ -33,15 +36,6 @@ VoxelId up(const BlockLayout& layout, VoxelId id, Corner c) {
 VoxelId down(const BlockLayout& layout, VoxelId id, Corner c) {
   return layout.step(id, -static_cast<int>(c & 1), -static_cast<int>(c >> 1 & 1),
                      -static_cast<int>(c >> 2));
-}
-
-/// Calls body(id) for every voxel, the blocks in parallel.
-template <typename Body>
-void for_each_voxel(const BlockLayout& layout, const Body& body) {
-  parallel_for_each_index(layout.block_count(), [&](std::size_t slot) {
-    const auto first = static_cast<VoxelId>(slot * kBlockVoxels);
-    for (VoxelId id = first; id < first + kBlockVoxels; ++id) body(id);
-  });
 }
 
 bool is_known(const TsdfMap& tsdf, VoxelId id) { return id != kNoVoxel && tsdf.weight[id] > 0.0f; }

@@ -9,7 +9,7 @@
 #include "projective_integrator.hpp"
 #include "ray_integrator.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
+#include "ridgeway/common/require.hpp"
 #include "ridgeway/mapping/map_transform.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
 #include "ridgeway/mapping/voxel_range.hpp"
@@ -18,13 +18,11 @@
 namespace ridgeway {
 namespace {
 
+using detail::require;
+
 constexpr double kDefaultTruncation = 4.0, kDefaultDepth = 2.0;  // voxels
 constexpr double kMostVoxels = 1e8;                              // along a ray
 constexpr double kFarthestVoxel = 0.5 * kMaxVoxelIndex;          // as .ridge files have it
-
-void require(bool holds, const char* field, double value, const char* remedy) {
-  if (!holds) throw InputError(field, "is " + number_text(value), remedy);
-}
 
 void require_fits(const DepthImage& image, const PinholeCamera& camera) {
   camera.validate();

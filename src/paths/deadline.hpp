@@ -2,14 +2,11 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
-#include <chrono>
 #include <limits>
 
-namespace ridgeway::detail {
+#include "ridgeway/common/clock.hpp"
 
-inline double seconds_now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+namespace ridgeway::detail {
 
 /// When a query has to give up.
 struct Deadline {

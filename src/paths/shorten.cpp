@@ -263,12 +263,6 @@ class Tightening {
 
 }  // namespace
 
-double length_of(std::span<const Point> path) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
-  return length;
-}
-
 std::vector<Point> skip_waypoints(const FreeSpace& space, std::vector<Point> path, double radius,
                                   const MayReplace& may_replace) {
   if (path.size() < 3) return path;

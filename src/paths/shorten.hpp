@@ -8,10 +8,9 @@
 
 #include "deadline.hpp"
 #include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/voxel/polyline.hpp"
 
 namespace ridgeway::detail {
-
-double length_of(std::span<const Point> path);
 
 /// Whether a stretch of a path may become another with the same ends; null: any may.
 using MayReplace = std::function<bool(std::span<const Point>, std::span<const Point>)>;

@@ -11,18 +11,13 @@
 #include "map_layers.hpp"
 #include "picture_frame.hpp"
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/voxel/polyline.hpp"
 
 namespace ridgeway {
 namespace {
 
 void trace(Canvas& canvas, std::span<const Point> path, const MapFrame& frame) {
   for (const Point& p : path) cairo_line_to(canvas.cairo(), frame.x(p), frame.y(p));
-}
-
-double length_of(std::span<const Point> path) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
-  return length;
 }
 
 /// A path as it is drawn.

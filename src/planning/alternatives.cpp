@@ -131,7 +131,7 @@ Alternatives plan_alternatives(const Roadmap& roadmap, const Point& start, const
     routes.add(std::move(shortest));
     detail::RouteEnumeration others(roadmap, {ends.from, ends.to, start, goal, radius}, deadline);
     std::optional<detail::Route> route;
-    while ((route = others.next()) && routes.may_use(detail::length_of(*route), count)) {
+    while ((route = others.next()) && routes.may_use(length_of(*route), count)) {
       if (routes.know(*route)) continue;
       PlanResult tight = tighten(space, std::move(*route), radius, deadline);
       if (!meets_itself(tight.waypoints, radius) && detail::is_verified(esdf, space, tight, radius))

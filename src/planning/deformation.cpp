@@ -5,17 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ridgeway/voxel/polyline.hpp"
+
 namespace ridgeway::detail {
 namespace {
 
 constexpr double kSeenAt = 0.75;  // of the radius
 constexpr double kStep = 0.5;     // of the radius
-
-double length_of(std::span<const Point> path) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
-  return length;
-}
 
 /// Walks along a path; lengths must not fall from call to call.
 class Walker {

@@ -112,8 +112,7 @@ std::vector<Point> redirect(const EsdfMap& esdf, const FreeSpace& space, std::ve
     for (std::size_t i = 0; i + stretch < path.size() && !deadline.has_passed(); ++i) {
       const auto first = path.begin() + static_cast<std::ptrdiff_t>(i);
       const auto last = first + static_cast<std::ptrdiff_t>(stretch);
-      double length = 0.0;
-      for (auto p = first; p != last; ++p) length += (*(p + 1) - *p).norm();
+      const double length = length_of({first, last + 1});
       if (length - (*last - *first).norm() < std::max(kExcess * length, kExcessOfAll * total))
         continue;
       const Detour detour = find_detour(esdf, space, *first, *last, radius,

@@ -32,7 +32,7 @@ Entry find_entry(const Roadmap& roadmap, const Point& point, double radius) {
   detail::Route route = detail::route_over_voxels(
       roadmap.esdf, {entry.voxel, entry.voxel, point, point, radius}, entry.way.voxels);
   route.pop_back();  // the point again
-  entry.length = detail::length_of(route);
+  entry.length = length_of(route);
   return entry;
 }
 
@@ -55,7 +55,7 @@ std::vector<double> distances_to_goals(const Roadmap& roadmap, const Point& star
     if (start == goals[i])
       distances[i] = 0.0;
     else if (from.way.voxels.back() == to.way.voxels.back())
-      distances[i] = detail::length_of(
+      distances[i] = length_of(
           detail::route_over_voxels(roadmap.esdf, {from.voxel, to.voxel, start, goals[i], r},
                                     detail::join_ways(from.way.voxels, to.way.voxels)));
     else if (from.way.reached() && to.way.reached())

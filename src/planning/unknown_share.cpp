@@ -24,7 +24,7 @@ bool borders_unknown(const EsdfMap& esdf, VoxelFinder& finder, const Point& p) {
 }  // namespace
 
 double unknown_share(const EsdfMap& esdf, std::span<const Point> path) {
-  const double length = detail::length_of(path);
+  const double length = length_of(path);
   if (length <= 0.0) return 0.0;
   const int pieces =
       static_cast<int>(std::min(1.0 + length / (kStep * esdf.voxel_size), kMostLooks));

@@ -2,13 +2,14 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "ridgeway/roadmap/build_roadmap.hpp"
 
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <string>
 
+#include "ridgeway/common/clock.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/number_text.hpp"
+#include "ridgeway/common/require.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/mapping/map_edits.hpp"
 #include "ridgeway/roadmap/build_graph.hpp"
@@ -21,6 +22,8 @@
 namespace ridgeway {
 namespace {
 
+using detail::require;
+
 /// Times the stages one after the other and reports each to the caller.
 class StageClock {
  public:
@@ -28,26 +31,19 @@ class StageClock {
 
   void begin(std::string_view stage) {
     if (progress_ && !progress_(stage, static_cast<double>(done_++) / kStages)) throw Cancelled();
-    start_ = Clock::now();
+    start_ = detail::seconds_now();
   }
-  void end(double& seconds) const {
-    seconds += std::chrono::duration<double>(Clock::now() - start_).count();
-  }
+  void end(double& seconds) const { seconds += detail::seconds_now() - start_; }
 
  private:
-  using Clock = std::chrono::steady_clock;
   static constexpr int kStages = 8;
   const Progress& progress_;
   int done_ = 0;
-  Clock::time_point start_ = Clock::now();
+  double start_ = detail::seconds_now();
 };
 
 double ball_volume(double radius) {
   return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
-}
-
-void require(bool holds, const char* field, double value, const char* remedy) {
-  if (!holds) throw InputError(field, "is " + number_text(value), remedy);
 }
 
 }  // namespace

@@ -118,7 +118,7 @@ class Learning {
 
   /// Whether there is a route about as short as a path.
   bool knows(const SampledPath& path) const {
-    const double enough = kAboutAsShort * detail::length_of(path.waypoints);
+    const double enough = kAboutAsShort * length_of(path.waypoints);
     const Point &start = path.waypoints.front(), &goal = path.waypoints.back();
     const double radius = roadmap_.min_clearance;
     Sources first;

@@ -8,7 +8,7 @@
 #include "graph_search.hpp"
 #include "paths/shorten.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/sensing/random.hpp"
+#include "ridgeway/common/random.hpp"
 
 namespace ridgeway::detail {
 namespace {

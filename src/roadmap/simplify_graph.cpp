@@ -10,13 +10,14 @@
 #include <vector>
 
 #include "editable_graph.hpp"
-#include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "ridgeway/common/require.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 
 namespace ridgeway {
 namespace {
+
+using detail::require;
 
 using detail::EditableGraph;
 using Number = EditableGraph::Number;
@@ -239,10 +240,6 @@ class Simplification {
   const SimplifyConfig& config_;
   EditableGraph graph_;
 };
-
-void require(bool holds, const char* field, double value, const char* remedy) {
-  if (!holds) throw InputError(field, "is " + number_text(value), remedy);
-}
 
 }  // namespace
 

@@ -132,7 +132,7 @@ SamplingResult plan_by_sampling(const EsdfMap& esdf, const Point& start, const P
   if (found.empty()) return finish(PlanStatus::kTimeout);
   if (result.first_length == 0.0) {  // the planner did not report it: there was but one path
     result.first_seconds = plan.seconds.search;
-    result.first_length = detail::length_of(found);
+    result.first_length = length_of(found);
   }
   const auto accept = [&](std::vector<Point> waypoints) {
     plan.waypoints = std::move(waypoints);

@@ -5,20 +5,17 @@
 #include <cmath>
 #include <string>
 
-#include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/sensing/random.hpp"
+#include "ridgeway/common/random.hpp"
+#include "ridgeway/common/require.hpp"
 
 namespace ridgeway {
 namespace {
 
+using detail::require;
+
 constexpr int kMostPixels = 16384;                      // along one side
 constexpr double kLeastFocal = 1e-3, kMostFocal = 1e6;  // in sides: from 179.9 degrees to none
-
-void require(bool holds, const char* field, double value, const char* remedy) {
-  if (!holds) throw InputError(field, "is " + number_text(value), remedy);
-}
 
 /// The range that a sensor reports for a true one along a ray, 0 for none. `stretch`: length of
 /// the ray at depth 1; `u`: the pixel's column.

@@ -10,7 +10,7 @@
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/number_text.hpp"
-#include "ridgeway/sensing/random.hpp"
+#include "ridgeway/common/random.hpp"
 
 namespace ridgeway {
 

@@ -7,18 +7,15 @@
 #include <cmath>
 #include <string>
 
-#include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
-#include "ridgeway/sensing/random.hpp"
+#include "ridgeway/common/random.hpp"
+#include "ridgeway/common/require.hpp"
 
 namespace ridgeway {
 namespace {
 
-using Vector = Eigen::Vector3d;
+using detail::require;
 
-void require(bool holds, const char* field, double value, const char* remedy) {
-  if (!holds) throw InputError(field, "is " + number_text(value), remedy);
-}
+using Vector = Eigen::Vector3d;
 
 /// Six planes around the open box from the origin to a corner.
 std::vector<SolidPlane> room(const Vector& size) {

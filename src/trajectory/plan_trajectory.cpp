@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <string>
 
 #include "initial_spline.hpp"
+#include "ridgeway/common/clock.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/number_text.hpp"
 #include "ridgeway/planning/plan.hpp"
@@ -46,10 +46,6 @@ bool is_free(const EsdfMap& esdf, const std::vector<Point>& path, double radius)
   for (std::size_t i = 1; i < path.size(); ++i)
     if (!space.is_free(path[i - 1], path[i], radius)) return false;
   return true;
-}
-
-double seconds_now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 TrajectorySegment standing_at(const Point& p) {
@@ -128,12 +124,12 @@ TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> pat
                      "is beyond the distances that the map holds",
                      "build the map with a larger --max-distance, or without one");
   const std::vector<Point> points = distinct_points(path);
-  const double began = seconds_now();
+  const double began = detail::seconds_now();
   TrajectoryResult result;
   const auto finish = [&](TrajectoryStatus status) {
     result.status = status;
     if (!result.ok()) result.trajectory = {};
-    result.seconds.total = seconds_now() - began;
+    result.seconds.total = detail::seconds_now() - began;
     return result;
   };
   if (!is_free(esdf, points, config.radius)) return finish(TrajectoryStatus::kPathNotFree);

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 
 #include "obstacle_field.hpp"
+#include "ridgeway/common/clock.hpp"
 #include "ridgeway/trajectory/verify_trajectory.hpp"
 #include "speed_scaling.hpp"
 #include "straight_motion.hpp"
@@ -34,14 +34,13 @@ constexpr std::array<Try, 4> kTries{{{TrajectoryStep::kSmooth, 1.0, 1.0, true},
 class Stopwatch {
  public:
   explicit Stopwatch(double& sum) : sum_(sum) {}
-  ~Stopwatch() { sum_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  ~Stopwatch() { sum_ += seconds_now() - start_; }
   Stopwatch(const Stopwatch&) = delete;
   Stopwatch& operator=(const Stopwatch&) = delete;
 
  private:
-  using Clock = std::chrono::steady_clock;
   double& sum_;
-  Clock::time_point start_ = Clock::now();
+  const double start_ = seconds_now();
 };
 
 void append(Trajectory& to, const std::vector<TrajectorySegment>& segments) {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/sensing/random.hpp"
+#include "ridgeway/common/random.hpp"
 #include "ridgeway/sensing/world_generators.hpp"
 #include "support/temporary_folder.hpp"
 

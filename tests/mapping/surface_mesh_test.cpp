@@ -13,7 +13,7 @@
 #include <set>
 
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/sensing/random.hpp"
+#include "ridgeway/common/random.hpp"
 #include "ridgeway/sensing/world.hpp"
 
 namespace ridgeway {

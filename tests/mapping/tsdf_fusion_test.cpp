@@ -9,9 +9,9 @@
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "ridgeway/common/random.hpp"
 #include "ridgeway/formats/world_file.hpp"
 #include "ridgeway/sensing/poses.hpp"
-#include "ridgeway/sensing/random.hpp"
 #include "support/map_errors.hpp"
 
 namespace ridgeway {

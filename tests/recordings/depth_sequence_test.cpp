@@ -11,11 +11,11 @@
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/number_text.hpp"
+#include "ridgeway/common/random.hpp"
 #include "ridgeway/formats/world_file.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
 #include "ridgeway/recordings/depth_png.hpp"
 #include "ridgeway/sensing/poses.hpp"
-#include "ridgeway/sensing/random.hpp"
 #include "support/map_errors.hpp"
 #include "support/random_image.hpp"
 #include "support/refusal.hpp"

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "ridgeway/common/number_text.hpp"
+#include "ridgeway/common/random.hpp"
 #include "ridgeway/formats/world_file.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
-#include "ridgeway/sensing/random.hpp"
 #include "support/map_errors.hpp"
 #include "support/refusal.hpp"
 #include "support/temporary_folder.hpp"

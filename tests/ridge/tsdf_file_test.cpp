@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/common/random.hpp"
 #include "ridgeway/formats/load_map.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
-#include "ridgeway/sensing/random.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ridgeway {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "ridgeway/sensing/random.hpp"
+#include "ridgeway/common/random.hpp"
 
 namespace ridgeway {
 namespace {

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include "ridgeway/common/random.hpp"
 #include "ridgeway/sensing/depth_camera.hpp"
-#include "ridgeway/sensing/random.hpp"
 
 namespace ridgeway {
 
