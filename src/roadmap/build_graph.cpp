@@ -7,6 +7,7 @@
 
 #include "diagram_curves.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "ridgeway/common/require.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "segment_fitting.hpp"
 #include "vertex_selection.hpp"
@@ -17,6 +18,7 @@ namespace {
 using detail::Curve;
 using detail::DiagramCurves;
 using detail::DiagramNumber;
+using detail::require;
 using detail::Segment;
 
 /// Straight segments of all curves, each pair of ends once, in ascending order.
@@ -77,7 +79,19 @@ SparseGraph make_graph(const EsdfMap& esdf, const DiagramCurves& diagram,
 
 }  // namespace
 
+void GraphConfig::validate() const {
+  require(min_clearance > 0.0 && std::isfinite(min_clearance), "min_clearance", min_clearance,
+          "give the robot's radius in metres, above 0");
+  require(prune_radius >= 0.0 && std::isfinite(prune_radius), "prune_radius", prune_radius,
+          "give a length in metres, 0 or more");
+  require(split_deviation >= 0.0 && std::isfinite(split_deviation), "split_deviation",
+          split_deviation, "give a length in metres, 0 for two voxels");
+  require(widest_kept >= 0.0 && std::isfinite(widest_kept), "widest_kept", widest_kept,
+          "give metres, 0 for three times min_clearance");
+}
+
 SparseGraph build_graph(const EsdfMap& esdf, const VoxelMask& diagram, const GraphConfig& config) {
+  config.validate();
   const double s = esdf.voxel_size;
   const DiagramCurves curves = detail::index_diagram(esdf, diagram, config.min_clearance);
   // On a coarse lattice a junction is a clump of a few voxels, however small the radius.

@@ -46,6 +46,22 @@ double ball_volume(double radius) {
   return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
 }
 
+// What each stage takes of the whole configuration.
+
+GvdConfig ridges_of(const BuildConfig& config) { return {.theta = config.theta}; }
+
+GraphConfig graph_of(const BuildConfig& config) {
+  return {.min_clearance = config.min_clearance,
+          .prune_radius = config.prune_radius,
+          .split_deviation = config.split_deviation};
+}
+
+SimplifyConfig simplification_of(const BuildConfig& config) {
+  return {.significance = config.significance};
+}
+
+TautConfig corners_of(const BuildConfig& config) { return {.most_pairs = config.taut_pairs}; }
+
 }  // namespace
 
 void BuildConfig::validate() const {
@@ -53,13 +69,10 @@ void BuildConfig::validate() const {
           "give the robot's radius in metres, above 0");
   require(max_distance > min_clearance, "max_distance", max_distance,
           "give a length above min_clearance, or leave it out for no limit");
-  require(theta > 0.0 && theta < 3.1416, "theta", theta, "give an angle in radians in (0, pi)");
-  require(prune_radius >= 0.0 && std::isfinite(prune_radius), "prune_radius", prune_radius,
-          "give a length in metres, 0 or more");
-  require(significance >= 0.0 && std::isfinite(significance), "significance", significance,
-          "give a length in metres, 0 or more");
-  require(split_deviation >= 0.0 && std::isfinite(split_deviation), "split_deviation",
-          split_deviation, "give a length in metres, 0 for two voxels");
+  ridges_of(*this).validate();
+  graph_of(*this).validate();
+  simplification_of(*this).validate();
+  corners_of(*this).validate();
 }
 
 BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Progress& progress) {
@@ -95,7 +108,7 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
                      "give a smaller --min-clearance, or --unknown ignore");
 
   clock.begin("gvd");
-  const GvdConfig ridges{config.theta};
+  const GvdConfig ridges = ridges_of(config);
   const VoxelMask gvd = compute_gvd(esdf, traversable, ridges);
   report.gvd_voxels = gvd.count();
   clock.end(report.seconds.gvd);
@@ -120,13 +133,9 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
   clock.end(report.seconds.kernel);
 
   clock.begin("graph");
-  GraphConfig graph;
-  graph.min_clearance = config.min_clearance;
-  graph.prune_radius = config.prune_radius;
-  graph.split_deviation = config.split_deviation;
-  roadmap.graph = build_graph(esdf, config.paper_diagram ? edges : diagram, graph);
+  roadmap.graph = build_graph(esdf, config.paper_diagram ? edges : diagram, graph_of(config));
   if (config.simplify)
-    roadmap.graph = simplify_graph(esdf, roadmap.graph, {.significance = config.significance});
+    roadmap.graph = simplify_graph(esdf, roadmap.graph, simplification_of(config));
   roadmap.tree = build_clearance_tree(esdf, roadmap.graph, basins);
   roadmap.landmarks = place_landmarks(roadmap.graph);
   report.graph_components = connected_components(roadmap.graph).count;
@@ -141,12 +150,12 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
   clock.end(report.seconds.attach);
 
   clock.begin("taut");
-  roadmap.taut = build_taut_graph(roadmap, {.most_pairs = config.taut_pairs});
+  roadmap.taut = build_taut_graph(roadmap, corners_of(config));
   clock.end(report.seconds.taut);
 
   const BuildSeconds& s = report.seconds;
   report.seconds.total = s.esdf + s.gvd + s.edges + s.thin + s.kernel + s.graph + s.attach + s.taut;
-  if (progress) progress("done", 1.0);
+  if (progress && !progress("done", 1.0)) throw Cancelled();
   return result;
 }
 

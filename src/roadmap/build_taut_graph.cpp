@@ -6,6 +6,7 @@
 #include "corner_links.hpp"
 #include "paths/shorten.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "ridgeway/common/require.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/roadmap/graph_lengths.hpp"
 #include "ridgeway/roadmap/roadmap.hpp"
@@ -174,7 +175,14 @@ class Learning {
 
 }  // namespace
 
+void TautConfig::validate() const {
+  constexpr std::size_t kMostPairs = 1000000;
+  detail::require(most_pairs <= kMostPairs, "most_pairs", most_pairs,
+                  "give at most a million, or 0 for no taut graph");
+}
+
 TautGraph build_taut_graph(const Roadmap& roadmap, const TautConfig& config) {
+  config.validate();
   return Learning(roadmap).run(config.most_pairs);
 }
 

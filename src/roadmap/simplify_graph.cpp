@@ -22,6 +22,8 @@ using detail::require;
 using detail::EditableGraph;
 using Number = EditableGraph::Number;
 
+constexpr double kLeastWidthStep = 1e-6;  // below it steps are lost in rounding
+
 /// A pair of neighbours, shortest first.
 struct Candidate {
   double length;
@@ -36,7 +38,8 @@ class Simplification {
   Simplification(const EsdfMap& esdf, const SparseGraph& graph, const SimplifyConfig& config)
       : space_(esdf),
         radius_(graph.min_clearance),
-        widest_kept_(config.widest_kept > 0.0 ? config.widest_kept : 2.0 * graph.min_clearance),
+        widest_kept_(config.widest_kept > 0.0 ? std::max(config.widest_kept, graph.min_clearance)
+                                              : 2.0 * graph.min_clearance),
         config_(config),
         graph_(graph) {}
 
@@ -244,11 +247,15 @@ class Simplification {
 }  // namespace
 
 void SimplifyConfig::validate() const {
-  require(significance >= 0.0, "significance", significance, "give metres, 0 or more");
-  require(steepness >= 0.0, "steepness", steepness, "give a share of a length, 0 or more");
-  require(widest_kept >= 0.0, "widest_kept", widest_kept, "give metres, 0 for twice min_clearance");
-  require(width_step > 0.0, "width_step", width_step, "give a share of min_clearance, above 0");
-  require(stretch >= 1.0, "stretch", stretch, "give a factor, 1 or more");
+  require(significance >= 0.0 && std::isfinite(significance), "significance", significance,
+          "give metres, 0 or more");
+  require(steepness >= 0.0 && std::isfinite(steepness), "steepness", steepness,
+          "give a share of a length, 0 or more");
+  require(widest_kept >= 0.0 && std::isfinite(widest_kept), "widest_kept", widest_kept,
+          "give metres, 0 for twice min_clearance");
+  require(width_step >= kLeastWidthStep && std::isfinite(width_step), "width_step", width_step,
+          "give a share of min_clearance, 1e-6 or more");
+  require(stretch >= 1.0 && std::isfinite(stretch), "stretch", stretch, "give a factor, 1 or more");
 }
 
 SparseGraph simplify_graph(const EsdfMap& esdf, const SparseGraph& graph,

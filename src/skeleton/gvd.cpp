@@ -9,6 +9,7 @@
 
 #include "lanes.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "ridgeway/common/require.hpp"
 #include "ridgeway/voxel/cube_gather.hpp"
 
 namespace ridgeway {
@@ -160,7 +161,13 @@ VoxelMask traversable_voxels(const EsdfMap& esdf, double radius) {
   return result;
 }
 
+void GvdConfig::validate() const {
+  detail::require(theta > 0.0 && theta < 3.1416, "theta", theta,
+                  "give an angle in radians in (0, pi)");
+}
+
 VoxelMask compute_gvd(const EsdfMap& esdf, const VoxelMask& traversable, const GvdConfig& config) {
+  config.validate();
   const double cosine = std::cos(config.theta);
   const bool all_count = esdf.unknown == UnknownPolicy::kObstacle;
   VoxelMask gvd(esdf.layout);
@@ -185,6 +192,7 @@ VoxelMask compute_gvd(const EsdfMap& esdf, const VoxelMask& traversable, const G
 
 VoxelMask extract_basis_point_edges(const EsdfMap& esdf, const VoxelMask& gvd,
                                     const GvdConfig& config) {
+  config.validate();
   const double cosine = std::cos(config.theta);
   return filter(esdf.layout, gvd,
                 [&](VoxelId id) { return has_basis_points(esdf, id, cosine, kEdgeBasisPoints); });

@@ -114,6 +114,7 @@ TEST(SimplifyGraph, EveryPillarKeepsItsWayAround) {
 }
 
 TEST(SimplifyGraph, EdgesKeepTheirContractAndComponentsStay) {
+  int maps = 0;
   for (unsigned seed = 0; seed < 40; ++seed) {
     const OccupancyMap map = testing::random_map(seed, 40);
     Pair pair;
@@ -122,6 +123,7 @@ TEST(SimplifyGraph, EdgesKeepTheirContractAndComponentsStay) {
     } catch (const InputError&) {
       continue;  // nothing is traversable
     }
+    maps += !pair.simple.edges.empty();
     const FreeSpace space(pair.whole.esdf);
     for (const Edge& edge : pair.simple.edges) {
       const Point a = pair.simple.vertices[number(edge.from)].position;
@@ -134,6 +136,28 @@ TEST(SimplifyGraph, EdgesKeepTheirContractAndComponentsStay) {
     EXPECT_EQ(connected_components(pair.simple).count,
               connected_components(pair.whole.graph).count);
   }
+  EXPECT_GE(maps, 30);
+}
+
+TEST(SimplifyGraph, WidthsBelowTheSmallestRadiusCountAsThat) {
+  std::size_t edges = 0;
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    SCOPED_TRACE(seed);
+    std::vector<Eigen::Vector2d> axes;
+    const Pair pair = build_pair(testing::pillars(seed, axes), kClearance);
+    const auto simplified = [&](double widest_kept) {
+      return simplify_graph(pair.whole.esdf, pair.whole.graph, {.widest_kept = widest_kept});
+    };
+    const SparseGraph narrow = simplified(0.2 * kClearance), least = simplified(kClearance);
+    for (const Edge& edge : narrow.edges) EXPECT_GE(edge.clearance, kClearance * (1.0 - 1e-9));
+    ASSERT_EQ(narrow.edges.size(), least.edges.size());
+    for (std::size_t i = 0; i < least.edges.size(); ++i) {
+      EXPECT_EQ(narrow.edges[i].from, least.edges[i].from);
+      EXPECT_EQ(narrow.edges[i].to, least.edges[i].to);
+    }
+    edges += least.edges.size();
+  }
+  EXPECT_GT(edges, 100u);
 }
 
 TEST(SimplifyGraph, ConnectsAtLargerRadiiWhatItDid) {

@@ -14,12 +14,16 @@ struct GraphConfig {
   double split_deviation = 0.0;  ///< edge's greatest distance from its curve; 0: two voxels
   double widest_kept = 0.0;      ///< up to this clearance edges are as wide as their curves, so
                                  ///< that the graph connects what the diagram does at larger
-                                 ///< radii too; 0: twice min_clearance
+                                 ///< radii too; 0: three times min_clearance
+
+  /// Throws InputError naming the bad field.
+  void validate() const;
 };
 
 /// Fits the sparse graph to a diagram (paper: Sparse Graph Generation): vertices, pruning,
 /// following, splitting, and the contract that every edge is free along all of it. It follows all
-/// of the diagram; simplify_graph leaves out what does not matter.
+/// of the diagram; simplify_graph leaves out what does not matter. Throws InputError naming the bad
+/// field.
 SparseGraph build_graph(const EsdfMap& esdf, const VoxelMask& diagram,
                         const GraphConfig& config = {});
 

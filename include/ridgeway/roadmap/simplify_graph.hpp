@@ -12,7 +12,7 @@ struct SimplifyConfig {
   double significance = 0.35;  ///< dead ends whose ball reaches less far beyond others go
   double steepness = 0.6;      ///< and those that reach less far than this share of their length
   double widest_kept = 0.0;    ///< up to this clearance ways stay as wide as they were; 0: twice
-                               ///< the graph's min_clearance
+                               ///< the graph's min_clearance; what is less counts as that
   double width_step = 0.25;    ///< which counts in steps of this share of min_clearance: a way as
                                ///< wide as 1.45 times min_clearance may become 1.25 times as wide
   double stretch = 1.5;        ///< but may become longer by this factor

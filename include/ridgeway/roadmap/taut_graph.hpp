@@ -44,11 +44,14 @@ struct TautGraph {
 
 struct TautConfig {
   std::size_t most_pairs = 2000;  ///< of places, to learn from ways between them; 0: no graph
+
+  /// Throws InputError naming the bad field.
+  void validate() const;
 };
 
 /// Learns the corners from routes over the sparse graph between random places, in rounds until it
 /// knows the way of most new ones; empty where that takes too many. The roadmap must be complete
-/// but for this. Deterministic. Every edge is verified.
+/// but for this. Deterministic. Every edge is verified. Throws InputError naming the bad field.
 TautGraph build_taut_graph(const Roadmap& roadmap, const TautConfig& config = {});
 
 /// Numbers the cells of a layout, in the order of their first blocks.

@@ -8,7 +8,10 @@
 namespace ridgeway {
 
 struct GvdConfig {
-  double theta = 0.785;  ///< radians; least angle between the directions to two sites
+  double theta = 0.785;  ///< radians in (0, pi); least angle between the directions to two sites
+
+  /// Throws InputError naming the bad field.
+  void validate() const;
 };
 
 /// Free voxels at least `radius` metres from every obstacle (inclusive).
@@ -17,6 +20,7 @@ VoxelMask traversable_voxels(const EsdfMap& esdf, double radius);
 /// Voxels on the generalized Voronoi diagram (paper: GVD Generation): those with a free
 /// 6-neighbour whose nearest site lies in a direction more than theta away from the voxel's own,
 /// both seen from the voxel. A voxel without a site counts as on the ridge.
+/// Throws InputError naming the bad field.
 VoxelMask compute_gvd(const EsdfMap& esdf, const VoxelMask& traversable,
                       const GvdConfig& config = {});
 
@@ -26,7 +30,8 @@ VoxelMask extract_edges(const EsdfMap& esdf, const VoxelMask& gvd);
 
 /// The definition for perfect worlds, for comparison: GVD voxels with at least three basis points
 /// (paper: Edge Extraction). Basis points are the sites of the voxel and of its free 6-neighbours
-/// that lie pairwise more than theta apart, seen from the voxel.
+/// that lie pairwise more than theta apart, seen from the voxel. Throws InputError naming the bad
+/// field.
 VoxelMask extract_basis_point_edges(const EsdfMap& esdf, const VoxelMask& gvd,
                                     const GvdConfig& config = {});
 
