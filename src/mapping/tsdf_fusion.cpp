@@ -105,14 +105,28 @@ struct TsdfFusion::State {
   detail::TsdfBlocks blocks;
   std::vector<Point> places;  // of the sensor
 
-  /// Remembers where the sensor was, with blocks around it if they are to be cleared.
-  void visit(const Point& place) {
+  /// A pose is recorded only once its measurements are in: what throws on the way leaves no trace
+  /// of it. `measure` adds the measurements from a place of the sensor.
+  template <typename Measure>
+  void visit(const Point& place, const Measure& measure) {
+    require_within_map(place);
+    const std::vector<BlockIndex> around = blocks_to_clear(place);
+    if (places.size() == places.capacity()) places.reserve(2 * places.size() + 1);
+    measure();
+    for (const BlockIndex& block : around) blocks.find_or_add(block);
+    places.push_back(place);
+  }
+
+  void require_within_map(const Point& place) const {
     const double farthest = place.cwiseAbs().maxCoeff() + config.max_range + config.depth_behind;
     if (!(farthest < kFarthestVoxel * config.voxel_size))
       throw InputError("pose", "lies farther than 5e8 voxels from the origin",
                        "check its units and the voxel size");
-    places.push_back(place);
-    if (config.clear_radius <= 0.0) return;
+  }
+
+  std::vector<BlockIndex> blocks_to_clear(const Point& place) const {
+    std::vector<BlockIndex> around;
+    if (config.clear_radius <= 0.0) return around;
     const Eigen::Vector3d reach = Eigen::Vector3d::Constant(config.clear_radius);
     const BlockIndex low = block_of(voxel_at(place - reach, config.voxel_size));
     const BlockIndex high = block_of(voxel_at(place + reach, config.voxel_size));
@@ -120,7 +134,8 @@ struct TsdfFusion::State {
                          (high.x - low.x + 1.0) * (high.y - low.y + 1.0) * (high.z - low.z + 1.0));
     for (int z = low.z; z <= high.z; ++z)
       for (int y = low.y; y <= high.y; ++y)
-        for (int x = low.x; x <= high.x; ++x) blocks.find_or_add({x, y, z});
+        for (int x = low.x; x <= high.x; ++x) around.push_back({x, y, z});
+    return around;
   }
 };
 
@@ -141,23 +156,27 @@ void TsdfFusion::integrate(const DepthImage& image, const PinholeCamera& camera,
   require_fits(image, camera);
   validate_transform(T_world_camera);
   State& s = *state_;
-  s.visit(T_world_camera.translation());
-  const detail::DepthSurfaces surfaces(within_range(image, camera, s.config), camera);
-  if (s.config.integrator == Integrator::kProjective)
-    detail::integrate_projective(surfaces, camera, T_world_camera, s.config, s.blocks);
-  else
-    detail::integrate_rays(points_of(surfaces, camera, T_world_camera), s.places.back(), s.config,
-                           s.blocks);
+  const Point place = T_world_camera.translation();
+  s.visit(place, [&] {
+    const detail::DepthSurfaces surfaces(within_range(image, camera, s.config), camera);
+    if (s.config.integrator == Integrator::kProjective)
+      detail::integrate_projective(surfaces, camera, T_world_camera, s.config, s.blocks);
+    else
+      detail::integrate_rays(points_of(surfaces, camera, T_world_camera), place, s.config,
+                             s.blocks);
+  });
 }
 
 void TsdfFusion::integrate(std::span<const Point> points, const Eigen::Isometry3d& T_world_sensor) {
   validate_transform(T_world_sensor);
   State& s = *state_;
-  s.visit(T_world_sensor.translation());
-  std::vector<detail::SurfacePoint> kept;
-  for (const Point& p : points)
-    if (s.config.takes(p.norm())) kept.push_back({T_world_sensor * p});
-  detail::integrate_rays(kept, s.places.back(), s.config, s.blocks);
+  const Point place = T_world_sensor.translation();
+  s.visit(place, [&] {
+    std::vector<detail::SurfacePoint> kept;
+    for (const Point& p : points)
+      if (s.config.takes(p.norm())) kept.push_back({T_world_sensor * p});
+    detail::integrate_rays(kept, place, s.config, s.blocks);
+  });
 }
 
 TsdfMap TsdfFusion::map() const {

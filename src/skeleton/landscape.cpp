@@ -30,6 +30,27 @@ constexpr std::array<Cube27, kBlockVoxels> kSmallerHandles = [] {
   return smaller;
 }();
 
+/// Levels as floats, above a common base where they would be rounded otherwise (beyond 2,048 voxels
+/// from obstacles): only their differences count, and within a block's border those stay below
+/// 2^22, as distances differ by no more than their places do. Not traversable stays zero; voxels
+/// without a site are equally far above all others.
+Bordered<float> heights_of(const Levels& levels) {
+  constexpr std::uint32_t kExact = 1u << 24;  // whole numbers up to here are floats
+  std::uint32_t any = 0;
+  for (const std::uint32_t level : levels) any |= level;
+  Bordered<float> heights;
+  if (any < kExact) {
+    std::copy(levels.begin(), levels.end(), heights.begin());
+    return heights;
+  }
+  std::uint32_t base = kNoSite;
+  for (const std::uint32_t level : levels) base = std::min(base, level - 1);  // 0 becomes largest
+  std::transform(levels.begin(), levels.end(), heights.begin(), [base](std::uint32_t level) {
+    return static_cast<float>(level == 0 ? 0 : level - base);
+  });
+  return heights;
+}
+
 /// Four voxels' steepest moves of one length to a neighbour that rises at least by `least`: a
 /// diagonal move to one that rises less might dip.
 struct Steepest {
@@ -177,8 +198,7 @@ Landscape survey(const EsdfMap& esdf, const VoxelMask& traversable) {
           return;
         }
         const Levels levels = gather_levels(esdf, traversable, slot);
-        Bordered<float> heights;
-        std::copy(levels.begin(), levels.end(), heights.begin());
+        const Bordered<float> heights = heights_of(levels);
         for_each_four(traversable, slot, [&](VoxelId first, unsigned members) {
           const VoxelId place = first % kBlockVoxels;
           const LevelCubes cubes(levels, bordered_place(first));

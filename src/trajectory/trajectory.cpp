@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ridgeway/common/require.hpp"
+
 namespace ridgeway {
 namespace {
 
@@ -44,9 +46,13 @@ TrajectoryState Trajectory::at(double time) const {
 }
 
 std::vector<TrajectoryState> Trajectory::sample(double step) const {
+  constexpr double kMostStates = 1e7;
+  detail::require(step > 0.0 && std::isfinite(step), "step", step, "give seconds, above 0");
   std::vector<TrajectoryState> states;
   if (segments.empty()) return states;
   const double end = duration();
+  detail::require(end <= kMostStates * step, "step", step,
+                  "give a larger one: ten million states are the most");
   std::size_t i = 0;
   double begin = 0.0;
   for (std::size_t k = 0;; ++k) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -169,6 +170,23 @@ TEST(TsdfFusion, WhatWouldSpoilTheMapIsRefused) {
   EXPECT_THROW(TsdfFusion({.voxel_size = 0.0}), InputError);
   EXPECT_THROW(TsdfFusion({.voxel_size = 0.1, .truncation = 0.05}), InputError);
   EXPECT_THROW(TsdfFusion({.min_range = 3.0, .max_range = 2.0}), InputError);
+}
+
+TEST(TsdfFusion, APoseWhoseMeasurementsAreRefusedLeavesNoTrace) {
+  const DepthSensor sensor;
+  const Eigen::Isometry3d refused = level_pose({1, 1, 1}, 0.0), taken = level_pose({5, 5, 1}, 0.0);
+  const DepthImage image = render_depth(house(), sensor, refused);
+  const std::vector<Point> points = {{0.3, 0.0, 0.2}};
+  // An image reaches over more blocks of this size than there may be; a point does not.
+  const FusionConfig config{.voxel_size = 1e-3, .clear_radius = 0.02};
+  TsdfFusion fusion(config), without(config);
+  EXPECT_THROW(fusion.integrate(image, sensor.camera, refused), InputError);
+  fusion.integrate(points, taken);
+  without.integrate(points, taken);
+  const TsdfMap map = fusion.map(), expected = without.map();
+  EXPECT_EQ(map.layout, expected.layout);
+  EXPECT_TRUE(std::ranges::equal(map.weight.values(), expected.weight.values()));
+  EXPECT_EQ(map.layout.find(voxel_at(refused.translation(), config.voxel_size)), kNoVoxel);
 }
 
 TEST(TsdfFusion, VoxelsAndPosesThatNoMapHoldsAreRefused) {

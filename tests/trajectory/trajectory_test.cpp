@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
+
+#include "ridgeway/common/error.hpp"
 
 namespace ridgeway {
 namespace {
@@ -76,6 +79,18 @@ TEST(Trajectory, SamplesAreThoseOfSingleTimesAndEndExactly) {
   EXPECT_EQ(trajectory.at(-1.0).position, trajectory.at(0.0).position);
   EXPECT_LE((trajectory.at(1e9).position - states.back().position).norm(), 1e-9);
   EXPECT_TRUE(Trajectory{}.sample(0.1).empty());
+}
+
+TEST(Trajectory, RefusesStepsThatNeverReachTheEnd) {
+  std::mt19937 random(3);
+  Trajectory trajectory;
+  trajectory.segments.push_back(random_segment(random));
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  for (const double step : {0.0, -0.0, -0.1, std::nan(""), kInfinite, -kInfinite, 1e-300, 1e-9,
+                            std::numeric_limits<double>::denorm_min()})
+    EXPECT_THROW(trajectory.sample(step), InputError) << step;
+  EXPECT_EQ(trajectory.sample(1e300).size(), 2u);
+  EXPECT_EQ(Trajectory{{TrajectorySegment{}}}.sample(1e-300).size(), 1u);  // takes no time
 }
 
 }  // namespace

@@ -48,7 +48,8 @@ class TsdfFusion {
   TsdfFusion& operator=(TsdfFusion&&) noexcept;
 
   /// A depth image of a camera with a pose (camera to world). Throws InputError where the image
-  /// does not fit the camera, the pose is no rotation and translation, or memory runs out.
+  /// does not fit the camera, the pose is no rotation and translation, or memory runs out: then the
+  /// map is as it was before.
   void integrate(const DepthImage& image, const PinholeCamera& camera,
                  const Eigen::Isometry3d& T_world_camera);
 

@@ -44,6 +44,7 @@ struct Trajectory {
   /// Times before the start and after the end are those of the ends. Needs a segment.
   TrajectoryState at(double time) const;
   /// States every `step` seconds, and at the end; empty without segments. Linear in their number.
+  /// Throws InputError where the step is not finite and above 0, or gives more than ten million.
   std::vector<TrajectoryState> sample(double step) const;
 };
 
