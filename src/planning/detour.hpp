@@ -12,7 +12,7 @@ namespace ridgeway::detail {
 /// Looks for a way from a to b with few corners beside the obstacle that blocks the straight line:
 /// rays fan out from the blocked place, across the line, to the nearest points where the robot
 /// fits. `budget`: only ways shorter than this, metres, are of interest; `corners`: how many there
-/// may be. The interior corners of the best way found; nothing is found where the line is free.
+/// may be. The interior corners of the best way found; of a free line a place on it.
 struct Detour {
   std::vector<Point> corners;
   double length = 0.0;  ///< from a over the corners to b

@@ -5,30 +5,17 @@
 #include <algorithm>
 #include <array>
 
+#include "layout_box.hpp"
+
 namespace ridgeway::detail {
-namespace {
-
-bool is_inside_blocks(const BlockLayout& layout, const VoxelIndex& voxel) {
-  BlockIndex low = layout.block(0), high = low;
-  for (const BlockIndex& b : layout.blocks()) {
-    low = {std::min(low.x, b.x), std::min(low.y, b.y), std::min(low.z, b.z)};
-    high = {std::max(high.x, b.x), std::max(high.y, b.y), std::max(high.z, b.z)};
-  }
-  const BlockIndex b = block_of(voxel);
-  return b.x >= low.x && b.x <= high.x && b.y >= low.y && b.y <= high.y && b.z >= low.z &&
-         b.z <= high.z;
-}
-
-}  // namespace
-
 Endpoint find_endpoint(const EsdfMap& esdf, const Point& point, double radius) {
   constexpr double kFarthest = 1e9;  // voxels; beyond it indices would overflow
   if ((point.array().abs() > kFarthest * esdf.voxel_size).any()) return {};
   const VoxelIndex voxel = voxel_at(point, esdf.voxel_size);
   const VoxelId home = esdf.layout.find(voxel);
   if (home == kNoVoxel)
-    return {is_inside_blocks(esdf.layout, voxel) ? EndpointStatus::kUnknown
-                                                 : EndpointStatus::kOutsideMap,
+    return {LayoutBox(esdf.layout).meets(voxel, voxel) ? EndpointStatus::kUnknown
+                                                       : EndpointStatus::kOutsideMap,
             kNoVoxel};
   if (esdf.state[home] == VoxelState::kUnknown) return {EndpointStatus::kUnknown, kNoVoxel};
   const double off = (point - centre_of(voxel, esdf.voxel_size)).norm();

@@ -2,15 +2,21 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
-#include <optional>
-
+#include "lattice_search.hpp"
+#include "paths/deadline.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 
 namespace ridgeway::detail {
 
-/// The nearest traversable voxel centre, within two radii, to which a straight segment leads from a
-/// point too close to an obstacle: through known-free voxels, and with a distance to obstacles that
-/// never falls. Nothing where there is none, and where the point is in an obstacle or unknown.
-std::optional<Point> find_escape(const EsdfMap& esdf, const Point& point, double radius);
+struct EscapeResult {
+  SearchStatus status = SearchStatus::kNoRoute;
+  Point place = Point::Zero();  ///< if found
+};
+
+/// The nearest traversable voxel centre within two radii of a point that is no obstacle, to which
+/// a straight segment leads through known-free voxels along which the distance to obstacles never
+/// falls. Looks no farther out than that centre, and only where the distances leave room for one.
+EscapeResult find_escape(const EsdfMap& esdf, const Point& point, double radius,
+                         const Deadline& deadline);
 
 }  // namespace ridgeway::detail

@@ -50,6 +50,10 @@ std::string_view name_of(Planner planner) {
   return kPlannerNames[static_cast<std::size_t>(planner)];
 }
 
+std::string_view name_of(UnknownPolicy policy) {
+  return policy == UnknownPolicy::kObstacle ? "obstacle" : "ignore";
+}
+
 std::optional<Planner> planner_named(std::string_view name) {
   const auto found = std::find(kPlannerNames.begin(), kPlannerNames.end(), name);
   if (found == kPlannerNames.end()) return std::nullopt;
@@ -77,11 +81,11 @@ namespace {
 
 /// Between places where the robot fits.
 PlanResult plan_between(const Roadmap& roadmap, const Point& start, const Point& goal,
-                        double radius, const PlanConfig& config) {
+                        double radius, const PlanConfig& config, const Deadline& deadline) {
   const EsdfMap& esdf = roadmap.esdf;
-  const Deadline deadline(config.time_limit);
   const double began = seconds_now();
   PlanResult result;
+  result.unknown = esdf.unknown;
   const auto finish = [&](PlanStatus status) {
     result.status = status;
     result.seconds.total = seconds_now() - began;
@@ -142,22 +146,34 @@ PlanResult plan_between(const Roadmap& roadmap, const Point& start, const Point&
   return finish(PlanStatus::kNoRoute);
 }
 
-/// Where a path begins that has to leave a place too close to an obstacle first; nothing where it
+/// Where a path begins that has to leave a place too close to an obstacle first; not found where it
 /// has not, or cannot.
-std::optional<Point> escape_from(const EsdfMap& esdf, const Point& point, double radius) {
+detail::EscapeResult escape_from(const EsdfMap& esdf, const Point& point, double radius,
+                                 const Deadline& deadline) {
   if (detail::find_endpoint(esdf, point, radius).status != detail::EndpointStatus::kInCollision)
-    return std::nullopt;
-  return detail::find_escape(esdf, point, radius);
+    return {};
+  return detail::find_escape(esdf, point, radius, deadline);
 }
 
 PlanResult plan_with_escapes(const Roadmap& roadmap, const Point& start, const Point& goal,
-                             double radius, const PlanConfig& config) {
+                             double radius, const PlanConfig& config, const Deadline& deadline) {
   const double began = seconds_now();
   const EsdfMap& esdf = roadmap.esdf;
-  const std::optional<Point> from = escape_from(esdf, start, radius);
-  const std::optional<Point> to = escape_from(esdf, goal, radius);
-  PlanResult result =
-      plan_between(roadmap, from.value_or(start), to.value_or(goal), radius, config);
+  const detail::EscapeResult out = escape_from(esdf, start, radius, deadline);
+  const detail::EscapeResult in = escape_from(esdf, goal, radius, deadline);
+  PlanResult result;
+  if (out.status == detail::SearchStatus::kTimeout || in.status == detail::SearchStatus::kTimeout) {
+    result.status = PlanStatus::kTimeout;
+    result.unknown = esdf.unknown;
+    result.seconds.total = seconds_now() - began;
+    return result;
+  }
+  const auto place_of = [](const detail::EscapeResult& escape) {
+    return escape.status == detail::SearchStatus::kFound ? std::optional(escape.place)
+                                                         : std::nullopt;
+  };
+  const std::optional<Point> from = place_of(out), to = place_of(in);
+  result = plan_between(roadmap, from.value_or(start), to.value_or(goal), radius, config, deadline);
   if (result.ok() && (from || to)) {
     const FreeSpace space(esdf);
     std::vector<Point>& path = result.waypoints;
@@ -185,8 +201,9 @@ PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
   config.validate();
   const double radius = config.radius.value_or(roadmap.min_clearance);
   detail::validate_query(roadmap.esdf, start, goal, radius);
-  return config.escape ? plan_with_escapes(roadmap, start, goal, radius, config)
-                       : plan_between(roadmap, start, goal, radius, config);
+  const Deadline deadline(config.time_limit);
+  return config.escape ? plan_with_escapes(roadmap, start, goal, radius, config, deadline)
+                       : plan_between(roadmap, start, goal, radius, config, deadline);
 }
 
 }  // namespace ridgeway

@@ -115,6 +115,7 @@ SamplingResult plan_by_sampling(const EsdfMap& esdf, const Point& start, const P
   SamplingResult result;
   PlanResult& plan = result.plan;
   plan.answered_by = config.planner;
+  plan.unknown = esdf.unknown;
   const auto finish = [&](PlanStatus status) {
     plan.status = status;
     plan.seconds.total = seconds_now() - began;

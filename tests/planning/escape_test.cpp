@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
+#include "planning/escape.hpp"
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <tuple>
 
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "support/brute_force.hpp"
+#include "support/places.hpp"
 #include "support/random_maps.hpp"
 
 namespace ridgeway {
@@ -116,6 +122,84 @@ TEST(Escape, NeverLeavesAnObstacleOrTheUnknown) {
   EXPECT_EQ(status(Point(0.1, 1.2, 0.7)), PlanStatus::kStartInCollision);   // touches it
   EXPECT_EQ(status(Point(2.45, 2.45, 0.7)), PlanStatus::kStartUnknown);
   EXPECT_EQ(status(Point(-9, 0, 0)), PlanStatus::kStartOutsideMap);
+}
+
+/// The plain form of the search: every voxel of the map, nearest first, until one will do.
+std::optional<Point> nearest_place(const EsdfMap& esdf, const Point& point, double radius) {
+  const FreeSpace space(esdf);
+  if (space.distance(point) <= 0.0) return std::nullopt;
+  std::vector<std::tuple<double, VoxelIndex>> places;
+  for (const VoxelId id : testing::traversable_places(esdf, radius)) {
+    const VoxelIndex voxel = esdf.layout.index_of(id);
+    const double distance = (centre_of(voxel, 1.0) - point / esdf.voxel_size).norm();
+    if (distance > 0.0 && distance <= 2.0 * radius / esdf.voxel_size)
+      places.emplace_back(distance, voxel);
+  }
+  std::sort(places.begin(), places.end());
+  for (const auto& [distance, voxel] : places) {
+    const Point place = centre_of(voxel, esdf.voxel_size);
+    if (!space.is_known_free(point, place)) continue;
+    const int steps = 1 + static_cast<int>(distance * 32.0);
+    bool rises = space.clearance(point, place) >= space.distance(point) - 1e-9;
+    for (double k = 1.0, last = space.distance(point); rises && k <= steps; ++k) {
+      const double here = space.distance(point + (place - point) * (k / steps));
+      rises = here >= last - 1e-9;
+      last = here;
+    }
+    const double before_end = 1.0 - std::min(1e-3 / distance, 0.5);
+    if (rises && space.distance(point + (place - point) * ((steps - 1.0) / steps)) <=
+                     space.distance(point + (place - point) * before_end) + 1e-9)
+      return place;
+  }
+  return std::nullopt;
+}
+
+TEST(Escape, LeadsToTheNearestPlaceThatALookAtEveryVoxelFinds) {
+  int found = 0, none = 0;
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto policy = seed % 2 == 0 ? UnknownPolicy::kObstacle : UnknownPolicy::kIgnore;
+    const EsdfMap esdf = compute_esdf(room_with_boxes(seed), {.unknown = policy});
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> x(0.0, 2.6), z(0.0, 1.4);
+    for (int i = 0; i < 25; ++i) {
+      const Point point(x(random), x(random), z(random));
+      for (const double radius : {0.1, 0.2, 0.33, 0.6}) {
+        const std::optional<Point> expected = nearest_place(esdf, point, radius);
+        const detail::EscapeResult escape =
+            detail::find_escape(esdf, point, radius, detail::Deadline::never());
+        ASSERT_EQ(escape.status == detail::SearchStatus::kFound, expected.has_value());
+        if (expected) {
+          EXPECT_EQ(escape.place, *expected);
+        }
+        ++(expected ? found : none);
+      }
+    }
+  }
+  EXPECT_GT(found, 400);
+  EXPECT_GT(none, 100);
+}
+
+TEST(Escape, LooksNoFartherThanTheMapHoweverLargeTheRadius) {
+  for (const UnknownPolicy policy : {UnknownPolicy::kObstacle, UnknownPolicy::kIgnore}) {
+    const Roadmap roadmap =
+        build_roadmap(room_with_boxes(1), {.min_clearance = kRadius, .unknown = policy}).roadmap;
+    for (const double radius : {50.0, 1e3, 1e6, 1e9, 1e12, 1e300}) {
+      const PlanResult result = plan(roadmap, Point(0.15, 0.95, 0.7), Point(1.25, 1.25, 0.7),
+                                     {.radius = radius, .escape = true});
+      EXPECT_EQ(result.status, PlanStatus::kStartInCollision) << radius;
+    }
+  }
+}
+
+TEST(Escape, IsSoughtWithinTheTimeLimit) {
+  const Roadmap roadmap = build_roadmap(room_with_boxes(0, 0), {.min_clearance = kRadius}).roadmap;
+  const Point close(0.15, 0.95, 0.7), free(1.25, 1.25, 0.7);
+  for (const auto& [start, goal] : {std::pair(close, free), std::pair(free, close)}) {
+    EXPECT_TRUE(plan(roadmap, start, goal, {.escape = true}).ok());
+    EXPECT_EQ(plan(roadmap, start, goal, {.time_limit = 1e-9, .escape = true}).status,
+              PlanStatus::kTimeout);
+  }
 }
 
 TEST(Escape, GoesOutAndBackFromOnePlace) {

@@ -44,6 +44,8 @@ constexpr bool is_sampling(Planner planner) { return planner >= Planner::kRrtSta
 /// "theta", "rrtstar", "rrtconnect", "bitstar", "prmstar", "informedrrtstar".
 std::string_view name_of(PlanStatus status);
 std::string_view name_of(Planner planner);
+/// "obstacle" or "ignore".
+std::string_view name_of(UnknownPolicy policy);
 /// The planner of a name, or nothing.
 std::optional<Planner> planner_named(std::string_view name);
 
@@ -90,11 +92,14 @@ struct Escape {
 /// A path, or the one reason why there is none.
 struct PlanResult {
   PlanStatus status = PlanStatus::kNoRoute;
+  UnknownPolicy unknown = UnknownPolicy::kObstacle;  ///< what unknown space was taken for
   Planner answered_by = Planner::kGraph;
   std::vector<Point> waypoints;  ///< start first, goal last; empty unless ok
   double length = 0.0;           ///< metres
-  double clearance = 0.0;        ///< smallest distance to an obstacle along the path, metres,
-                                 ///< without its escapes
+  /// Smallest distance along the path, without its escapes, to an obstacle, metres: to what is
+  /// occupied and, under UnknownPolicy::kObstacle, to what is unknown. How near the path comes to
+  /// either of them under any policy: Surroundings (esdf/surroundings.hpp).
+  double clearance = 0.0;
   Escape escape_start, escape_goal;
   PlanSeconds seconds;
 
