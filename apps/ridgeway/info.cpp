@@ -56,10 +56,6 @@ std::vector<Memory> memory_of(const Roadmap& roadmap) {
           {"tree", bytes_of(tree.parent) + bytes_of(tree.clearance) + bytes_of(tree.place)}};
 }
 
-const char* policy_name(UnknownPolicy policy) {
-  return policy == UnknownPolicy::kObstacle ? "obstacle" : "ignore";
-}
-
 Json json_of(const ComponentReport& report) {
   Json components = Json::array(), joins = Json::array();
   for (const Component& c : report.components)
@@ -82,7 +78,7 @@ Json roadmap_json(const Options& options, const Roadmap& roadmap, const RidgeInf
                {"file_bytes", std::filesystem::file_size(options.file)},
                {"source", roadmap.source},
                {"voxel_size", roadmap.esdf.voxel_size},
-               {"unknown_policy", policy_name(roadmap.esdf.unknown)},
+               {"unknown_policy", name_of(roadmap.esdf.unknown)},
                {"max_distance", roadmap.esdf.max_distance},
                {"min_clearance", roadmap.min_clearance}};
   if (const auto bounds = known_bounds(occupancy)) json["bounds"] = cli::json_of(*bounds);

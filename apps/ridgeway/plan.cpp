@@ -84,13 +84,13 @@ int run_one(const PlanOptions& options, const Roadmap& roadmap, const Globals& g
                        options.radius.value_or(roadmap.min_clearance)};
   const Answer answer = plan_repeatedly(roadmap, query, options);
   const PlanResult& result = answer.plan;
-  const std::string reason = explain(roadmap, query, result.status, options.file);
+  AnswerFacts facts(roadmap, options.escape);
   const bool write = result.ok() && !options.output.empty();
   if (write) write_plan(result, options.output);
   if (globals.json) {
-    print_json(json_of(roadmap.esdf, answer, query, reason));
+    print_json(json_of(facts, answer, query));
   } else {
-    print_result(roadmap.esdf, answer, query, reason);
+    print_result(facts, answer, query);
     if (write)
       print_row("written to", options.output);
     else
@@ -103,17 +103,17 @@ int run_batch(const PlanOptions& options, const Roadmap& roadmap, const Globals&
   const std::vector<Query> queries =
       read_queries(options.queries, options.radius.value_or(roadmap.min_clearance),
                    largest_radius(roadmap.esdf));
+  AnswerFacts facts(roadmap, options.escape);
   Json results = Json::array();
   std::size_t solved = 0;
   for (const Query& query : queries) {
     const Answer answer = plan_repeatedly(roadmap, query, options);
     const PlanResult& result = answer.plan;
-    const std::string reason = explain(roadmap, query, result.status, options.file);
     solved += result.ok();
     if (globals.json)
-      results.push_back(json_of(roadmap.esdf, answer, query, reason));
+      results.push_back(json_of(facts, answer, query));
     else
-      print_line(result, reason);
+      print_line(result, facts.reason(query, result.status));
   }
   if (globals.json)
     print_json({{"queries", queries.size()}, {"solved", solved}, {"results", results}});

@@ -2,9 +2,10 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "plan_output.hpp"
 
+#include <cmath>
+
 #include "console.hpp"
 #include "ridgeway/formats/path_io.hpp"
-#include "ridgeway/planning/unknown_share.hpp"
 
 namespace ridgeway::cli {
 
@@ -18,14 +19,19 @@ void print_escape(const std::string& end, const Escape& escape) {
 
 }  // namespace
 
-Json json_of(const EsdfMap& esdf, const Answer& answer, const Query& query,
-             const std::string& reason) {
+Json json_of(AnswerFacts& facts, const Answer& answer, const Query& query) {
   Json json = Json::parse(plan_json(answer.plan));
   json["radius"] = query.radius;
-  if (answer.plan.ok())
-    json["unknown_share"] = unknown_share(esdf, answer.plan.waypoints);
-  else
-    json["reason"] = reason;
+  if (answer.plan.ok()) {
+    const PathSurroundings around = facts.surroundings(answer.plan.waypoints, query.radius);
+    json["known"] = {{"nearest", around.known}};
+    json["unknown"]["nearest"] = around.unknown;
+    json["unknown"]["share"] = around.unknown_share;
+  } else {
+    json["reason"] = facts.reason(query, answer.plan.status);
+    if (const auto blocked = facts.blocked(query, answer.plan.status))
+      json.update(json_of(*blocked));
+  }
   if (!is_sampling(answer.plan.answered_by)) return json;
   json["iterations"] = answer.iterations;
   if (answer.plan.ok())
@@ -33,23 +39,28 @@ Json json_of(const EsdfMap& esdf, const Answer& answer, const Query& query,
   return json;
 }
 
-void print_result(const EsdfMap& esdf, const Answer& answer, const Query& query,
-                  const std::string& reason) {
+void print_result(AnswerFacts& facts, const Answer& answer, const Query& query) {
   const PlanResult& result = answer.plan;
   if (!result.ok()) {
     print_row("no path", std::string(name_of(result.status)));
-    print_row("reason", reason);
+    print_row("reason", facts.reason(query, result.status));
     return;
   }
   const PlanSeconds& s = result.seconds;
   print_row("path", text_of(result.length) + " m, " + count_text(result.waypoints.size()) +
                         " waypoints, answered by the " + std::string(name_of(result.answered_by)));
+  const PathSurroundings around = facts.surroundings(result.waypoints, query.radius);
   print_row("clearance",
             text_of(result.clearance) + " m, robot radius " + text_of(query.radius) + " m");
+  print_row("known obstacles",
+            std::isinf(around.known) ? "none" : text_of(around.known) + " m away at the nearest");
   print_escape("start", result.escape_start);
   print_escape("goal", result.escape_goal);
-  print_row("beside unknown",
-            text_of(100.0 * unknown_share(esdf, result.waypoints), 0) + " % of the length");
+  print_row("unknown space",
+            text_of(around.unknown) + " m away at the nearest, " +
+                text_of(100.0 * around.unknown_share, 1) +
+                " % of the length nearer than the radius; asked to " +
+                (result.unknown == UnknownPolicy::kObstacle ? "keep clear of it" : "ignore it"));
   print_row("time", seconds_text(s.total) + " (attach " + seconds_text(s.attach) + ", search " +
                         seconds_text(s.search) + ", shorten " + seconds_text(s.shorten) + ")");
   if (is_sampling(result.answered_by))

@@ -7,6 +7,7 @@
 
 #include "query_file.hpp"
 #include "ridgeway/sampling/plan_by_sampling.hpp"
+#include "roadmap_facts.hpp"
 
 namespace ridgeway::cli {
 
@@ -16,10 +17,8 @@ using Json = nlohmann::ordered_json;
 using Answer = SamplingResult;
 
 /// `reason`: why there is no path.
-Json json_of(const EsdfMap& esdf, const Answer& answer, const Query& query,
-             const std::string& reason);
-void print_result(const EsdfMap& esdf, const Answer& answer, const Query& query,
-                  const std::string& reason);
+Json json_of(AnswerFacts& facts, const Answer& answer, const Query& query);
+void print_result(AnswerFacts& facts, const Answer& answer, const Query& query);
 /// One of several plans in a line.
 void print_line(const PlanResult& result, const std::string& reason);
 

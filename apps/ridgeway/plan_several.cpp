@@ -30,20 +30,21 @@ int run_alternatives(const PlanOptions& options, const Roadmap& roadmap, const G
                        radius_of(options, roadmap)};
   const Alternatives found = plan_alternatives(
       roadmap, query.start, query.goal, *options.alternatives, plan_config(options, query.radius));
-  const std::string reason = explain(roadmap, query, found.status, options.file);
+  AnswerFacts facts(roadmap, options.escape);
   if (globals.json) {
     Json json = {{"status", std::string(name_of(found.status))},
                  {"radius", query.radius},
                  {"complete", found.complete},
                  {"seconds", found.seconds},
                  {"routes", Json::array()}};
-    if (!found.ok()) json["reason"] = reason;
+    if (!found.ok()) json["reason"] = facts.reason(query, found.status);
+    if (const auto blocked = facts.blocked(query, found.status)) json.update(json_of(*blocked));
     for (const PlanResult& route : found.routes)
-      json["routes"].push_back(json_of(roadmap.esdf, {.plan = route}, query, {}));
+      json["routes"].push_back(json_of(facts, {.plan = route}, query));
     print_json(json);
     return found.ok() ? kExitDone : kExitNoPlan;
   }
-  if (!found.ok()) print_row(name_of(found.status), reason);
+  if (!found.ok()) print_row(name_of(found.status), facts.reason(query, found.status));
   for (std::size_t i = 0; i < found.routes.size(); ++i) {
     const PlanResult& route = found.routes[i];
     print_row("route " + count_text(i + 1),
@@ -61,18 +62,18 @@ int run_goals(const PlanOptions& options, const Roadmap& roadmap, const Globals&
   const double radius = radius_of(options, roadmap);
   const std::vector<GoalPlan> plans =
       plan_to_many(roadmap, start, goals, plan_config(options, radius));
+  AnswerFacts facts(roadmap, options.escape);
   Json results = Json::array();
   std::size_t solved = 0;
   for (std::size_t i = 0; i < goals.size(); ++i) {
     const Query query = {start, goals[i], radius};
     const PlanResult& plan = plans[i].plan;
-    const std::string reason = explain(roadmap, query, plan.status, options.file);
     solved += plan.ok();
     if (globals.json) {
-      results.push_back(json_of(roadmap.esdf, {.plan = plan}, query, reason));
+      results.push_back(json_of(facts, {.plan = plan}, query));
       results.back()["distance"] = plans[i].distance;
     } else {
-      print_line(plan, reason);
+      print_line(plan, facts.reason(query, plan.status));
     }
   }
   if (globals.json)
@@ -89,11 +90,11 @@ int run_nearest(const PlanOptions& options, const Roadmap& roadmap, const Global
   const NearestGoal nearest = plan_to_nearest(roadmap, start, goals, plan_config(options, radius));
   const Query query = {start, goals[nearest.goal.value_or(0)], radius};
   const PlanResult& plan = nearest.plan;
-  const std::string reason = explain(roadmap, query, plan.status, options.file);
+  AnswerFacts facts(roadmap, options.escape);
   const bool write = plan.ok() && !options.output.empty();
   if (write) write_plan(plan, options.output);
   if (globals.json) {
-    Json json = json_of(roadmap.esdf, {.plan = plan}, query, reason);
+    Json json = json_of(facts, {.plan = plan}, query);
     json["goal"] = nearest.goal ? Json(*nearest.goal) : Json(nullptr);
     json["goals"] = Json::array();
     for (const auto& status : nearest.statuses)
@@ -101,7 +102,7 @@ int run_nearest(const PlanOptions& options, const Roadmap& roadmap, const Global
     print_json(json);
   } else {
     if (plan.ok()) print_row("nearest", point_text(query.goal));
-    print_result(roadmap.esdf, {.plan = plan}, query, reason);
+    print_result(facts, {.plan = plan}, query);
     if (write)
       print_row("written to", options.output);
     else

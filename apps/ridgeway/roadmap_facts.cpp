@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "roadmap_facts.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "console.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 
@@ -13,19 +15,30 @@ std::string metres(double value) { return text_of(value) + " m"; }
 /// A radius that fits must fit as it is printed.
 std::string metres_at_most(double value) { return metres(rounded_down(value)); }
 
-std::string explain_collision(const Roadmap& roadmap, const Query& query, const Point& place) {
+std::string explain_collision(const Roadmap& roadmap, const Query& query, const Point& place,
+                              bool escapes) {
   const double distance = FreeSpace(roadmap.esdf).distance(place);
   std::string text = "it is " + metres(distance) + " from the nearest obstacle";
   if (distance >= query.radius)
     return text + ", but no voxel beside it can be reached at a radius of " + metres(query.radius) +
            ": move it a little";
   text += ", less than the radius of " + metres(query.radius) + ": move it";
+  if (distance > 0.0)
+    text += escapes ? " (there is no straight way to where the robot fits)"
+                    : ", or give --escape to begin or end there";
   if (distance >= roadmap.min_clearance)
     return text + ", or give a --radius of at most " + metres_at_most(distance);
   return text + ", or build the map for a smaller robot with --min-clearance";
 }
 
-std::string explain_endpoint(const Roadmap& roadmap, const Query& query, PlanStatus status) {
+std::string part_text(const BlockedRoute& blocked, bool is_start) {
+  const Component& part = is_start ? blocked.start_component : blocked.goal_component;
+  return count_text(is_start ? blocked.start_number : blocked.goal_number) + ", " +
+         text_of(part.volume) + " m^3";
+}
+
+std::string explain_endpoint(const Roadmap& roadmap, const Query& query, PlanStatus status,
+                             bool escapes) {
   const bool is_start = status <= PlanStatus::kStartInCollision;
   const Point& place = is_start ? query.start : query.goal;
   const std::string text =
@@ -42,17 +55,8 @@ std::string explain_endpoint(const Roadmap& roadmap, const Query& query, PlanSta
     case PlanStatus::kGoalUnknown:
       return text + "is in space that the map does not know: move it to where the map is free";
     default:
-      return text + "cannot be used: " + explain_collision(roadmap, query, place);
+      return text + "cannot be used: " + explain_collision(roadmap, query, place, escapes);
   }
-}
-
-std::string explain_no_route(const Roadmap& roadmap, const Query& query, const std::string& file) {
-  const std::string text =
-      "start and goal are not connected at a radius of " + metres(query.radius);
-  const auto radius = connecting_radius(roadmap, query);
-  if (radius) return text + ", but they are at " + metres_at_most(*radius) + ": give that --radius";
-  return text + ": see 'ridgeway info " + file +
-         "' for the parts of the map and the radius at which they would join";
 }
 
 }  // namespace
@@ -61,38 +65,63 @@ OccupancyMap occupancy_of(const EsdfMap& esdf) {
   return {esdf.voxel_size, esdf.layout, esdf.state};
 }
 
-std::optional<double> connecting_radius(const Roadmap& roadmap, const Query& query) {
-  constexpr int kSteps = 10;
-  constexpr double kPatience = 0.5;  // seconds a query; too slow counts as not connected
-  const auto is_connected = [&](double radius) {
-    const PlanConfig config{.radius = radius, .shorten = false, .time_limit = kPatience};
-    return plan(roadmap, query.start, query.goal, config).ok();
-  };
-  double low = roadmap.min_clearance, high = query.radius;
-  if (high <= low || !is_connected(low)) return std::nullopt;
-  for (int i = 0; i < kSteps; ++i) {
-    const double middle = 0.5 * (low + high);
-    (is_connected(middle) ? low : high) = middle;
-  }
-  return low;
+std::string AnswerFacts::explain_no_route(const Query& query) {
+  const std::string text =
+      "start and goal are not connected at a radius of " + metres(query.radius);
+  const std::optional<BlockedRoute> blocked = this->blocked(query, PlanStatus::kNoRoute);
+  if (!blocked) return text;
+  const std::string parts = " (the start is in part " + part_text(*blocked, true) +
+                            ", the goal in part " + part_text(*blocked, false) + ")";
+  const char* what = blocked->by == Blocker::kUnknown ? "unknown space" : "an obstacle";
+  if (blocked->radius == 0.0)
+    return text + ", nor at any other" + parts + ": " +
+           (blocked->place ? "unknown space lies between them, first at " +
+                                 point_text(*blocked->place) + ": map what is there"
+                           : "obstacles enclose one of them");
+  const std::string most = metres_at_most(blocked->radius);
+  return text + parts + ", but they are at " + most + ", where " + what + " is in the way at " +
+         point_text(*blocked->place) +
+         (rounded_down(blocked->radius) >= roadmap_.min_clearance * (1.0 - 1e-9)
+              ? ": give that --radius"
+              : ": build the map with that --min-clearance");
 }
 
-std::string explain(const Roadmap& roadmap, const Query& query, PlanStatus status,
-                    const std::string& file) {
+std::string AnswerFacts::reason(const Query& query, PlanStatus status) {
   switch (status) {
     case PlanStatus::kOk:
       return {};
     case PlanStatus::kNoRoute:
-      return explain_no_route(roadmap, query, file);
+      return explain_no_route(query);
     case PlanStatus::kRadiusTooSmall:
-      return "the map was built for robots of a radius of " + metres(roadmap.min_clearance) +
+      return "the map was built for robots of a radius of " + metres(roadmap_.min_clearance) +
              " and more, asked for " + metres(query.radius) +
              ": give a larger --radius, or build the map with a smaller --min-clearance";
     case PlanStatus::kTimeout:
       return "the limit came before a path was found: give a larger --time-limit";
     default:
-      return explain_endpoint(roadmap, query, status);
+      return explain_endpoint(roadmap_, query, status, escapes_);
   }
+}
+
+std::optional<BlockedRoute> AnswerFacts::blocked(const Query& query, PlanStatus status) {
+  if (status != PlanStatus::kNoRoute) return std::nullopt;
+  if (!blocks_) blocks_.emplace(roadmap_);
+  return blocks_->between(query.start, query.goal, query.radius);
+}
+
+PathSurroundings AnswerFacts::surroundings(std::span<const Point> path, double radius) {
+  if (!around_) around_.emplace(roadmap_.esdf);
+  return around_->along(path, radius);
+}
+
+nlohmann::ordered_json json_of(const BlockedRoute& blocked) {
+  return {{"blocked",
+           {{"radius", blocked.radius},
+            {"place", blocked.place ? json_of(*blocked.place) : nlohmann::ordered_json(nullptr)},
+            {"by", std::string(name_of(blocked.by))}}},
+          {"components", {{"start", blocked.start_number}, {"goal", blocked.goal_number}}},
+          {"component_volumes",
+           {{"start", blocked.start_component.volume}, {"goal", blocked.goal_component.volume}}}};
 }
 
 }  // namespace ridgeway::cli

@@ -2,24 +2,44 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "query_file.hpp"
 #include "ridgeway/mapping/occupancy_map.hpp"
-#include "ridgeway/planning/plan.hpp"
+#include "ridgeway/planning/blocked_route.hpp"
 
 namespace ridgeway::cli {
 
-/// The voxel states that a roadmap was built from.
+/// The occupancy that a distance field was computed from.
 OccupancyMap occupancy_of(const EsdfMap& esdf);
 
-/// Largest radius, up to the query's, at which its places are connected; nothing where they are
-/// not even at the roadmap's smallest. Found by planning, in about ten queries.
-std::optional<double> connecting_radius(const Roadmap& roadmap, const Query& query);
+/// What people ask about answers, beyond what a query finds out: what a path runs beside, and why
+/// there is none. What that takes of the whole map is made once, when it is first asked for.
+class AnswerFacts {
+ public:
+  /// The roadmap must outlive it. `escapes`: plans were asked for with --escape.
+  AnswerFacts(const Roadmap& roadmap, bool escapes) : roadmap_(roadmap), escapes_(escapes) {}
 
-/// A sentence on why there is no path and what to do. `file`: the roadmap's, to be named.
-std::string explain(const Roadmap& roadmap, const Query& query, PlanStatus status,
-                    const std::string& file);
+  /// Why a plan has its status, and what to do about it; empty if it is ok.
+  std::string reason(const Query& query, PlanStatus status);
+
+  /// What blocks the way where there is no route.
+  std::optional<BlockedRoute> blocked(const Query& query, PlanStatus status);
+
+  PathSurroundings surroundings(std::span<const Point> path, double radius);
+
+ private:
+  std::string explain_no_route(const Query& query);
+
+  const Roadmap& roadmap_;
+  const bool escapes_;
+  std::optional<RouteBlocks> blocks_;
+  std::optional<Surroundings> around_;
+};
+
+nlohmann::ordered_json json_of(const BlockedRoute& blocked);
 
 }  // namespace ridgeway::cli

@@ -105,7 +105,7 @@ int run(const Options& options, const Globals& globals) {
   const PlanResult path = plan(roadmap, start, goal, {.radius = radius});
   if (!path.ok())
     return report_none(std::string(name_of(path.status)),
-                       explain(roadmap, {start, goal, radius}, path.status, options.file),
+                       AnswerFacts(roadmap, false).reason({start, goal, radius}, path.status),
                        Json::parse(plan_json(path)), globals);
   const TrajectoryResult flown = plan_trajectory(roadmap.esdf, path.waypoints, config);
   if (!flown.ok())

@@ -11,14 +11,24 @@
 
 namespace ridgeway::detail {
 
+/// Voxels of a layout that distances are measured to, and whether what is not allocated is one.
+struct SolidVoxels {
+  const BlockLayout& layout;
+  const VoxelMask& members;
+  bool absent_is_solid;
+};
+
 /// Smallest squared distance (voxel units) from a segment (voxel units, a == b for a point) to
 /// the obstacles, or `best` where none is nearer. Looks at every obstacle that could be nearer:
 /// whole blocks as one box where they are solid, rows of voxels otherwise; none that lies inside
 /// the ball which the distance field keeps free around the middle of the segment.
 class ObstacleScan {
  public:
+  ObstacleScan(const SolidVoxels& solid, const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+      : solid_(solid), a_(a), b_(b), low_(a.cwiseMin(b)), high_(a.cwiseMax(b)) {}
+
   ObstacleScan(const EsdfMap& esdf, const Eigen::Vector3d& a, const Eigen::Vector3d& b)
-      : esdf_(esdf), a_(a), b_(b), low_(a.cwiseMin(b)), high_(a.cwiseMax(b)) {
+      : ObstacleScan({esdf.layout, esdf.obstacle, esdf.unknown == UnknownPolicy::kObstacle}, a, b) {
     const VoxelIndex middle = voxel_at(0.5 * (a + b), 1.0);
     const VoxelId id = esdf.layout.find(middle);
     if (id == kNoVoxel || esdf.squared[id] == kNoSite) return;
@@ -26,15 +36,25 @@ class ObstacleScan {
     ball_squared_ = 0.25 * esdf.squared[id];
   }
 
-  double run(double best) {
+  double run(double best) { return run_over(box_within(std::sqrt(best)), best); }
+
+  /// Blocks from `first` to `last`, both inclusive.
+  struct BlockBox {
+    BlockIndex first, last;
+  };
+  /// All blocks that are within reach of the segment, voxels.
+  BlockBox box_within(double reach) const {
+    return {block_at(low_ - Eigen::Vector3d::Constant(reach)),
+            block_at(high_ + Eigen::Vector3d::Constant(reach))};
+  }
+
+  /// As run(), of some blocks alone.
+  double run_over(const BlockBox& box, double best) {
     best_ = best;
-    const double reach = std::sqrt(best);
-    const BlockIndex first = block_at(low_ - Eigen::Vector3d::Constant(reach));
-    const BlockIndex last = block_at(high_ + Eigen::Vector3d::Constant(reach));
-    for (int z = first.z; z <= last.z; ++z)
-      for (int y = first.y; y <= last.y; ++y) {
+    for (int z = box.first.z; z <= box.last.z; ++z)
+      for (int y = box.first.y; y <= box.last.y; ++y) {
         std::uint32_t before = BlockLayout::kNoBlock;  // slot of the block scanned last in this row
-        for (int x = first.x; x <= last.x; ++x) before = scan_block({x, y, z}, before);
+        for (int x = box.first.x; x <= box.last.x; ++x) before = scan_block({x, y, z}, before);
       }
     return best_;
   }
@@ -65,13 +85,13 @@ class ObstacleScan {
     if (bound(whole) >= best_ || is_in_free_ball(whole)) return BlockLayout::kNoBlock;
     constexpr int kNextAlongX = 14;
     const std::uint32_t slot = before != BlockLayout::kNoBlock
-                                   ? esdf_.layout.neighbour_block(before, kNextAlongX)
-                                   : esdf_.layout.find_block(index);
+                                   ? solid_.layout.neighbour_block(before, kNextAlongX)
+                                   : solid_.layout.find_block(index);
     if (slot == BlockLayout::kNoBlock) {
-      if (esdf_.unknown == UnknownPolicy::kObstacle) consider(whole);
+      if (solid_.absent_is_solid) consider(whole);
       return slot;
     }
-    const VoxelMask::Block& block = esdf_.obstacle.block(slot);
+    const VoxelMask::Block& block = solid_.members.block(slot);
     std::uint64_t all = ~std::uint64_t{0};
     for (const std::uint64_t layer : block) all &= layer;
     if (all == ~std::uint64_t{0}) {
@@ -114,7 +134,7 @@ class ObstacleScan {
     }
   }
 
-  const EsdfMap& esdf_;
+  const SolidVoxels solid_;
   const Eigen::Vector3d a_, b_, low_, high_;
   Eigen::Vector3d ball_centre_ = Eigen::Vector3d::Zero();
   double ball_squared_ = 0.0;  // its inside, without the border, is free

@@ -123,6 +123,7 @@ std::string plan_json(const PlanResult& result) {
   json["status"] = std::string(name_of(result.status));
   json["length"] = result.length;
   json["clearance"] = result.clearance;
+  json["unknown"] = {{"policy", std::string(name_of(result.unknown))}};
   const auto add_escape = [&](const char* key, const Escape& escape) {
     if (escape.length > 0.0)
       json[key] = {{"length", escape.length}, {"clearance", escape.clearance}};

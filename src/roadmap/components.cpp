@@ -14,6 +14,7 @@ namespace ridgeway {
 namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+constexpr double kSmallest = 0.25;  // radius, voxels, at which any free voxel is traversable
 
 /// Sets of basins as the level sinks through the passes, widest first.
 class SinkingLevel {
@@ -70,28 +71,51 @@ std::vector<Component> count_components(const EsdfMap& esdf, const VoxelMask& tr
 
 }  // namespace
 
-ComponentReport report_components(const Roadmap& roadmap) {
-  const EsdfMap& esdf = roadmap.esdf;
-  const double smallest = 0.25 * esdf.voxel_size;  // any free voxel
-  const Basins basins = find_basins(esdf, traversable_voxels(esdf, smallest), smallest);
-  SinkingLevel level(basins);
-  level.sink_to(squared_threshold(roadmap.min_clearance, esdf.voxel_size));
-  std::vector<std::size_t> component_of(basins.peaks.size(), kNone);  // by set
+SpaceParts::SpaceParts(const EsdfMap& esdf)
+    : esdf_(esdf),
+      basins_(find_basins(esdf, traversable_voxels(esdf, kSmallest * esdf.voxel_size),
+                          kSmallest * esdf.voxel_size)) {}
+
+ComponentReport SpaceParts::report(double radius, const std::vector<VoxelId>& asked) const {
+  SinkingLevel level(basins_);
+  level.sink_to(squared_threshold(radius, esdf_.voxel_size));
+  std::vector<std::size_t> component_of(basins_.peaks.size(), kNone);  // by set
   ComponentReport report;
   report.components =
-      count_components(esdf, traversable_voxels(esdf, roadmap.min_clearance), level, component_of);
+      count_components(esdf_, traversable_voxels(esdf_, radius), level, component_of);
+  for (const VoxelId id : asked) report.asked.push_back(component_of[level.set_of(id)]);
   while (const Pass* pass = level.next_pass()) {
     const std::size_t a = component_of[level.set_of(pass->from)];
     const std::size_t b = component_of[level.set_of(pass->to)];
     const VoxelId narrow =
-        esdf.squared[pass->from] <= esdf.squared[pass->to] ? pass->from : pass->to;
+        esdf_.squared[pass->from] <= esdf_.squared[pass->to] ? pass->from : pass->to;
     if (a != kNone && b != kNone && a != b)
       report.joins.push_back({std::min(a, b), std::max(a, b),
-                              0.5 * esdf.voxel_size * std::sqrt(pass->level),
-                              centre_of(esdf.layout.index_of(narrow), esdf.voxel_size)});
+                              0.5 * esdf_.voxel_size * std::sqrt(pass->level),
+                              centre_of(esdf_.layout.index_of(narrow), esdf_.voxel_size)});
     component_of[level.join_next()] = std::min(a, b);  // kNone is the largest
   }
   return report;
+}
+
+std::optional<Pass> SpaceParts::narrowest_move(VoxelId a, VoxelId b) const {
+  if (a == b) return std::nullopt;
+  // Each voxel climbs to its peak without a dip, so its own place is the narrowest up there.
+  const VoxelId lower = esdf_.squared[a] <= esdf_.squared[b] ? a : b;
+  const Pass own{static_cast<double>(esdf_.squared[lower]), lower, lower};
+  SinkingLevel level(basins_);
+  std::optional<Pass> narrowest = own;
+  while (level.set_of(a) != level.set_of(b)) {
+    const Pass* pass = level.next_pass();
+    if (pass == nullptr) return std::nullopt;
+    narrowest = pass->level < own.level ? *pass : own;
+    level.join_next();
+  }
+  return narrowest;
+}
+
+ComponentReport report_components(const Roadmap& roadmap) {
+  return SpaceParts(roadmap.esdf).report(roadmap.min_clearance);
 }
 
 }  // namespace ridgeway

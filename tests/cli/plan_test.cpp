@@ -15,6 +15,10 @@ TEST_F(CliPlan, JsonHasTheKeysThatScriptsRelyOn) {
   EXPECT_EQ(json["answered_by"], "graph");
   EXPECT_GT(json["length"].get<double>(), 4.0);
   EXPECT_GE(json["clearance"].get<double>(), 0.3 * (1 - 1e-9));
+  EXPECT_EQ(json["unknown"]["policy"], "obstacle");
+  EXPECT_GE(json["unknown"]["nearest"].get<double>(), 0.3 * (1 - 1e-9));
+  EXPECT_EQ(json["unknown"]["share"], 0.0);
+  EXPECT_GE(json["known"]["nearest"].get<double>(), 0.3 * (1 - 1e-9));
   EXPECT_EQ(json["waypoints"].front(), Json({-2.0, 1.5, 1.0}));
   EXPECT_EQ(json["waypoints"].back(), Json({2.0, 1.5, 1.0}));
   for (const char* key : {"attach", "search", "shorten", "total"})
@@ -69,6 +73,7 @@ TEST_F(CliPlan, SaysWhyThereIsNoPathAndWhatToDo) {
       {"-20,0,1", "2,1,1", "0.3", "start_outside_map", "-3,-2,0 and 3,2,2"},
       {"-2,1,1", "2,0,9", "0.3", "goal_outside_map", "the goal 2,0,9"},
       {"-2,1.9,1", "2,1,1", "0.3", "start_in_collision", "0.1 m from the nearest obstacle"},
+      {"-2,1.9,1", "2,1,1", "0.3", "start_in_collision", "give --escape"},
       {"-2,1,1", "2,1.65,1", "0.4", "goal_in_collision", "--radius of at most 0.35 m"},
       {"-2,1,1", "2,1,1", "0.7", "no_route", "give that --radius"},
       {"-2,1,1", "2,1,1", "0.2", "radius_too_small", "--min-clearance"},
@@ -100,12 +105,28 @@ TEST_F(CliPlan, SaysWhenAPlaceIsUnknown) {
   EXPECT_NE(planned.json()["reason"].get<std::string>().find("does not know"), std::string::npos);
 }
 
-TEST_F(CliPlan, PointsToInfoWhereNoRadiusHelps) {
+TEST_F(CliPlan, TellsWhatBlocksARouteAndAtWhichRadiusItWouldNot) {
+  const auto blocked_of = [&](const std::string& map, const std::string& radius) {
+    const Outcome planned =
+        run({"plan", map, "--from", "-2,0,1", "--to", "2,0,1", "--radius", radius, "--json"});
+    EXPECT_EQ(planned.code, 2);
+    EXPECT_EQ(planned.json()["status"], "no_route");
+    EXPECT_NE(planned.json()["components"]["start"], planned.json()["components"]["goal"]);
+    return planned.json()["blocked"];
+  };
+  const Json door = blocked_of(rooms(), "0.7");
+  EXPECT_EQ(door["by"], "obstacle");
+  EXPECT_NEAR(door["place"][0].get<double>(), 0.0, 0.3);  // in the wall between the rooms
+  const std::string radius = std::to_string(door["radius"].get<double>() - 1e-6);
+  const Outcome smaller =
+      run({"plan", rooms(), "--from", "-2,0,1", "--to", "2,0,1", "--radius", radius});
+  EXPECT_EQ(smaller.code, 0) << smaller.out;
+
   const Outcome built = build_rooms("shut.ridge", {"--exclude", "0,-2,0,0.1,2,2"});
   ASSERT_EQ(built.code, 0) << built.err;
-  const Outcome planned = run({"plan", path("shut.ridge"), "--from", "-2,0,1", "--to", "2,0,1"});
-  EXPECT_EQ(planned.code, 2);
-  EXPECT_NE(planned.out.find("ridgeway info"), std::string::npos) << planned.out;
+  const Json shut = blocked_of(path("shut.ridge"), "0.3");
+  EXPECT_EQ(shut["radius"], 0.0);
+  EXPECT_TRUE(shut["by"] == "obstacle" ? shut["place"].is_null() : shut["place"].is_array());
 }
 
 TEST_F(CliPlan, AnswersAFileOfQueries) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <limits>
 
 #include "ridgeway/esdf/esdf.hpp"
 #include "support/brute_force.hpp"
@@ -128,6 +129,105 @@ TEST_P(FreeSpaceOnRandomMaps, MovesBetweenVoxelsAgreeWithTheSegmentPredicate) {
     }
   }
   EXPECT_GT(dips, 100);  // moves that are narrower than both their ends do occur
+}
+
+TEST_P(FreeSpaceOnRandomMaps, FreeLengthEndsWithinAVoxelOfTheFirstPlaceThatIsTooNear) {
+  constexpr int kSteps = 2000;
+  int all = 0, part = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const EsdfMap esdf = compute_esdf(random_map(seed, 16), {.unknown = GetParam()});
+    const FreeSpace space(esdf);
+    std::mt19937 random(seed + 2000);
+    for (int i = 0; i < 20; ++i) {
+      const Point a = random_point(esdf, random), b = random_point(esdf, random);
+      const double length = (b - a).norm(), s = esdf.voxel_size;
+      for (const double radius : {0.05, 0.1, 0.15, 0.25}) {
+        const double free = space.free_length(a, b, radius);
+        ASSERT_GE(free, 0.0);
+        ASSERT_LE(free, length);
+        ASSERT_EQ(free == length, space.is_free(a, b, radius) || length == 0.0);
+        if (free > 0.0) {
+          ASSERT_TRUE(space.is_free(a, a + (b - a) * (free / length), radius));
+        }
+        ++(free == length ? all : part);
+        if (free == length) continue;
+        double first = length;  // place that is too near, or unknown
+        for (int k = kSteps; k >= 0; --k) {
+          const Point p = a + (b - a) * (static_cast<double>(k) / kSteps);
+          if (!space.is_free(p, radius)) first = length * k / kSteps;
+        }
+        const double least = GetParam() == UnknownPolicy::kObstacle
+                                 ? first - s * (1.0 + 1e-9)
+                                 : 0.5 * (first - s * (1.0 + 1e-9)) - s;
+        ASSERT_GE(free, least) << "first " << first << " radius " << radius;
+      }
+    }
+  }
+  EXPECT_GT(all, 100);
+  EXPECT_GT(part, 1000);
+}
+
+TEST_P(FreeSpaceOnRandomMaps, ClearlyFreeIsFreeAndHardlyDoubtsMore) {
+  int sure = 0, doubted = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const EsdfMap esdf = compute_esdf(random_map(seed, 24), {.unknown = GetParam()});
+    const FreeSpace space(esdf);
+    std::mt19937 random(seed + 3000);
+    for (int i = 0; i < 40; ++i) {
+      const Point a = random_point(esdf, random);
+      const Point b = a + 0.6 * (random_point(esdf, random) - a);
+      const double clearance = space.clearance(a, b);
+      for (const double radius : {0.05, 0.1, 0.2, clearance * 0.9, clearance, clearance * 1.001}) {
+        if (!(radius > 0.0) || std::isinf(radius)) continue;
+        const bool is_sure = space.is_clearly_free(a, b, radius);
+        ++(is_sure ? sure : doubted);
+        if (is_sure) {
+          ASSERT_TRUE(space.is_free(a, b, radius)) << "radius " << radius;
+        } else if (space.is_free(a, b, radius)) {
+          ASSERT_LE(clearance - radius, 0.75 * esdf.voxel_size) << "clearance " << clearance;
+        }
+      }
+    }
+  }
+  EXPECT_GT(sure, 300);
+  EXPECT_GT(doubted, 300);
+}
+
+TEST_P(FreeSpaceOnRandomMaps, NearObstacleIsThatOfTheVoxelsCentre) {
+  int found = 0, none = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const OccupancyMap map = random_map(seed);
+    const double most = seed % 2 == 0 ? std::numeric_limits<double>::infinity() : 0.3;
+    const EsdfMap esdf = compute_esdf(map, {.unknown = GetParam(), .max_distance = most});
+    const std::vector<VoxelIndex> obstacles = all_obstacles(map, GetParam());
+    const FreeSpace space(esdf);
+    std::mt19937 random(seed);
+    for (int i = 0; i < 60; ++i) {
+      const Point p = random_point(esdf, random);
+      const VoxelIndex voxel = voxel_at(p, esdf.voxel_size);
+      const Eigen::Vector3d centre = centre_of(voxel, 1.0);
+      const double brute = std::sqrt(brute_squared_distance(centre, obstacles)) * esdf.voxel_size;
+      const std::optional<Point> near = space.near_obstacle(p);
+      ASSERT_EQ(near.has_value(), brute <= most + kTiny) << brute;
+      ++(near ? found : none);
+      if (!near) continue;
+      EXPECT_NEAR(brute_squared_distance(*near / esdf.voxel_size, obstacles), 0.0, kTiny);
+      // The cube that holds it is as near to the centre as any, and it is that cube's nearest.
+      const VoxelId id = esdf.layout.find(voxel);
+      const SiteOffset& o = esdf.site[id];
+      const std::vector<VoxelIndex> cube{voxel + VoxelIndex{o.x, o.y, o.z}};
+      EXPECT_NEAR(std::sqrt(brute_squared_distance(centre, cube)) * esdf.voxel_size, brute, kTiny);
+      EXPECT_NEAR((*near - p).norm(),
+                  std::sqrt(brute_squared_distance(p / esdf.voxel_size, cube)) * esdf.voxel_size,
+                  kTiny);
+    }
+    EXPECT_FALSE(space.near_obstacle(Point(1e3, 0, 0)).has_value());
+  }
+  EXPECT_GT(found, 1000);
+  EXPECT_GT(none, 20);
 }
 
 INSTANTIATE_TEST_SUITE_P(BothPolicies, FreeSpaceOnRandomMaps,

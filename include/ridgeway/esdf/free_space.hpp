@@ -43,12 +43,12 @@ class FreeSpace {
   bool is_free(const Point& a, const Point& b, double radius) const;
 
   /// Whether a segment is free by the bounds from voxel centres alone, without a look at single
-  /// obstacles: true is certain, false may be free by less than about a tenth of a voxel. Much
-  /// cheaper along obstacles; for searches that try many segments and keep few.
+  /// obstacles: true is certain, false may be free, by up to about half a voxel close to obstacles
+  /// and less farther off. Much cheaper; for searches that try many segments and keep few.
   bool is_clearly_free(const Point& a, const Point& b, double radius) const;
 
-  /// How far from `a` towards `b` a sphere of a radius can certainly move: |b - a| if all the way.
-  /// Exact where it says that all is free, up to a voxel short where it is not.
+  /// How far from `a` towards `b` a sphere of a radius can certainly move: |b - a| if all the way,
+  /// else up to a voxel short; where unknown space comes first up to half as far and a voxel.
   double free_length(const Point& a, const Point& b, double radius) const;
 
   /// A point of the obstacle nearest to the centre of a point's voxel: its nearest one to the

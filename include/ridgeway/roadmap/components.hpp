@@ -2,9 +2,11 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "ridgeway/roadmap/roadmap.hpp"
+#include "ridgeway/skeleton/basins.hpp"
 
 namespace ridgeway {
 
@@ -16,7 +18,7 @@ struct Component {
   double clearance = 0.0;  ///< there, metres
 };
 
-/// The largest radius, below min_clearance, at which two components would be one, and the place
+/// The largest radius, below the one asked for, at which two components would be one, and the place
 /// that is too narrow. `a` and `b` index the components; the joins form a forest.
 struct ComponentJoin {
   std::size_t a = 0, b = 0;
@@ -27,10 +29,31 @@ struct ComponentJoin {
 struct ComponentReport {
   std::vector<Component> components;  ///< largest first
   std::vector<ComponentJoin> joins;   ///< widest first
+  std::vector<std::size_t> asked;     ///< the components that voxels asked about lie in
 };
 
-/// Parts of traversable space at the roadmap's min_clearance, exact over all legal moves, and how
-/// a smaller robot would find them joined. Takes about as long as the kernel's stage.
+/// Which parts of free space hang together at which radius, exact over all legal moves. Made in
+/// about the time of the kernel's stage; then it answers for every radius above a quarter of a
+/// voxel. A view: the EsdfMap must outlive it. Thread-safe.
+class SpaceParts {
+ public:
+  explicit SpaceParts(const EsdfMap& esdf);
+
+  /// Parts of the voxels that are traversable at a radius, and where a smaller robot would find
+  /// them joined. `asked`: traversable voxels whose parts are wanted.
+  ComponentReport report(double radius, const std::vector<VoxelId>& asked = {}) const;
+
+  /// The narrowest move of the widest way between two free voxels; nothing where no way joins them
+  /// at any radius, or both are one.
+  std::optional<Pass> narrowest_move(VoxelId a, VoxelId b) const;
+
+ private:
+  const EsdfMap& esdf_;
+  Basins basins_;
+};
+
+/// Parts of traversable space at the roadmap's min_clearance, and how a smaller robot would find
+/// them joined. Takes about as long as the kernel's stage.
 ComponentReport report_components(const Roadmap& roadmap);
 
 }  // namespace ridgeway

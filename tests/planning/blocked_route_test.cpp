@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/planning/blocked_route.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "ridgeway/esdf/esdf.hpp"
+#include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/roadmap/build_roadmap.hpp"
+#include "support/brute_force.hpp"
+#include "support/flood.hpp"
+#include "support/places.hpp"
+#include "support/random_maps.hpp"
+
+namespace ridgeway {
+namespace {
+
+constexpr double kVoxel = 0.1, kRadius = 0.1;
+
+/// The widest way between two voxels by a plain search: Prim's, over every legal move.
+double bottleneck(const EsdfMap& esdf, VoxelId from, VoxelId to) {
+  const FreeSpace space(esdf);
+  const auto at = [&](VoxelId id) { return static_cast<double>(esdf.squared[id]); };
+  std::set<VoxelId> done;
+  std::set<std::pair<double, VoxelId>> open{{-at(from), from}};
+  while (!open.empty()) {
+    const auto [negative, id] = *open.begin();
+    open.erase(open.begin());
+    if (!done.insert(id).second) continue;
+    if (id == to) return 0.5 * esdf.voxel_size * std::sqrt(-negative);
+    for (int d = 0; d < 27; ++d) {
+      const VoxelId next = esdf.layout.neighbour(id, d);
+      if (d == kCentre || next == kNoVoxel || esdf.state[next] != VoxelState::kFree) continue;
+      const double width = std::min({-negative, at(next), space.move_clearance(id, next, d)});
+      if (width > 0.0 && !done.contains(next)) open.insert({-width, next});
+    }
+  }
+  return 0.0;
+}
+
+/// Whether face moves over all that is not occupied join two voxels; outside the blocks all is
+/// open.
+bool joined_but_for_occupied(const OccupancyMap& map, const VoxelIndex& from,
+                             const VoxelIndex& to) {
+  VoxelIndex low = from, high = from;
+  for (const BlockIndex& b : map.layout.blocks())
+    for (const VoxelIndex& v : {voxel_of(b, 0), voxel_of(b, kBlockVoxels - 1)}) {
+      low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
+      high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+    }
+  std::set<VoxelIndex> seen{from};
+  std::vector<VoxelIndex> open{from};
+  while (!open.empty()) {
+    const VoxelIndex v = open.back();
+    open.pop_back();
+    if (v == to) return true;
+    for (const VoxelIndex& step :
+         {VoxelIndex{1, 0, 0}, VoxelIndex{-1, 0, 0}, VoxelIndex{0, 1, 0}, VoxelIndex{0, -1, 0},
+          VoxelIndex{0, 0, 1}, VoxelIndex{0, 0, -1}}) {
+      const VoxelIndex next = v + step;
+      if (next.x < low.x - 1 || next.y < low.y - 1 || next.z < low.z - 1 || next.x > high.x + 1 ||
+          next.y > high.y + 1 || next.z > high.z + 1)
+        continue;
+      if (map.at(next) != VoxelState::kOccupied && seen.insert(next).second) open.push_back(next);
+    }
+  }
+  return false;
+}
+
+struct Tally {
+  int narrow = 0, never = 0, by_unknown = 0, enclosed = 0;
+};
+
+void expect_explained(const Roadmap& roadmap, const OccupancyMap& map, const RouteBlocks& blocks,
+                      VoxelId from, VoxelId to, double radius, const testing::Regions& regions,
+                      Tally& tally) {
+  const EsdfMap& esdf = roadmap.esdf;
+  const auto place_of = [&](VoxelId id) { return centre_of(esdf.layout.index_of(id), kVoxel); };
+  ASSERT_EQ(plan(roadmap, place_of(from), place_of(to), {.radius = radius}).status,
+            PlanStatus::kNoRoute);
+  const auto blocked = blocks.between(place_of(from), place_of(to), radius);
+  ASSERT_TRUE(blocked.has_value());
+  EXPECT_NEAR(blocked->radius, bottleneck(esdf, from, to), 1e-9);
+  EXPECT_LT(blocked->radius, radius);
+  std::map<std::uint32_t, std::size_t> sizes;
+  for (const auto& [id, label] : regions.label) ++sizes[label];
+  EXPECT_EQ(blocked->start_component.voxels, sizes[regions.label.at(from)]);
+  EXPECT_EQ(blocked->goal_component.voxels, sizes[regions.label.at(to)]);
+  EXPECT_NE(blocked->start_number, blocked->goal_number);
+  const auto nearest = [&](VoxelState state) {
+    double best = std::numeric_limits<double>::infinity();
+    const VoxelIndex at = voxel_at(*blocked->place, kVoxel);
+    for (int z = -20; z <= 20; ++z)
+      for (int y = -20; y <= 20; ++y)
+        for (int x = -20; x <= 20; ++x)
+          if (const VoxelIndex v = at + VoxelIndex{x, y, z}; map.at(v) == state)
+            best = std::min(best, testing::brute_squared_distance(*blocked->place / kVoxel, {v}));
+    return best;
+  };
+  if (blocked->radius > 0.0) {
+    ++tally.narrow;
+    ASSERT_TRUE(blocked->place.has_value());
+    // The narrowest place is as wide as the radius says, unless a diagonal move dips beside it.
+    const double there = FreeSpace(esdf).distance(*blocked->place);
+    EXPECT_GE(there, blocked->radius - 1e-9);
+    EXPECT_LE(there, blocked->radius + kVoxel);
+    tally.by_unknown += blocked->by == Blocker::kUnknown;
+    if (there > blocked->radius + 1e-9) return;
+    const bool is_unknown = esdf.unknown == UnknownPolicy::kObstacle &&
+                            nearest(VoxelState::kUnknown) < nearest(VoxelState::kOccupied) - 1e-9;
+    EXPECT_EQ(blocked->by == Blocker::kUnknown, is_unknown);
+    return;
+  }
+  ++tally.never;
+  const bool joined =
+      joined_but_for_occupied(map, esdf.layout.index_of(from), esdf.layout.index_of(to));
+  EXPECT_EQ(blocked->by == Blocker::kUnknown, joined);
+  EXPECT_EQ(blocked->place.has_value(), joined);
+  tally.enclosed += !joined;
+  if (!joined) return;
+  const VoxelIndex gate = voxel_at(*blocked->place, kVoxel);
+  EXPECT_EQ(map.at(gate), VoxelState::kUnknown);
+  EXPECT_TRUE(joined_but_for_occupied(map, gate, esdf.layout.index_of(to)));
+}
+
+TEST(BlockedRoute, TellsTheWidestWayByBruteForceAndWhatIsInIt) {
+  Tally tally;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
+    const OccupancyMap map = testing::random_map(seed, 20, kVoxel);
+    const EsdfMap esdf = compute_esdf(map, {.unknown = policy});
+    if (testing::traversable_places(esdf, kRadius).empty()) continue;
+    const Roadmap roadmap =
+        build_roadmap(map, {.min_clearance = kRadius, .unknown = policy}).roadmap;
+    const RouteBlocks blocks(roadmap);
+    for (const double radius : {kRadius, 0.15, 0.2}) {  // the built radius too
+      const testing::Regions regions = testing::regions_at(roadmap.esdf, radius);
+      for (std::size_t a = 0; a < std::min<std::size_t>(regions.first.size(), 4); ++a)
+        for (std::size_t b = 0; b < a; ++b) {
+          expect_explained(roadmap, map, blocks, regions.first[a], regions.first[b], radius,
+                           regions, tally);
+          if (::testing::Test::HasFatalFailure()) return;
+        }
+    }
+  }
+  EXPECT_GT(tally.narrow, 50);
+  EXPECT_GT(tally.never, 20);
+  EXPECT_GT(tally.by_unknown, 10);
+}
+
+/// Two rooms with a window in the wall between them, 4 voxels wide and high; `filling`: the wall.
+OccupancyMap rooms(VoxelState filling, VoxelState window_state = VoxelState::kFree) {
+  return testing::make_map(kVoxel, {0, 0, 0}, {61, 23, 23}, [=](const VoxelIndex& v) {
+    if (v.x == 0 || v.y == 0 || v.z == 0 || v.x == 61 || v.y == 23 || v.z == 23)
+      return VoxelState::kOccupied;
+    const bool wall = v.x == 30 || v.x == 31;
+    const bool window = v.y >= 10 && v.y <= 13 && v.z >= 10 && v.z <= 13;
+    return wall ? (window ? window_state : filling) : VoxelState::kFree;
+  });
+}
+
+TEST(BlockedRoute, NamesTheWindowAndWhetherItsFrameIsKnown) {
+  const Point start(1.0, 1.0, 1.0), goal(5.0, 1.0, 1.0);
+  for (const VoxelState frame : {VoxelState::kOccupied, VoxelState::kUnknown}) {
+    const Roadmap roadmap = build_roadmap(rooms(frame), {.min_clearance = 0.3}).roadmap;
+    ASSERT_EQ(plan(roadmap, start, goal).status, PlanStatus::kNoRoute);
+    const auto blocked = RouteBlocks(roadmap).between(start, goal, 0.3);
+    ASSERT_TRUE(blocked.has_value());
+    EXPECT_NEAR(blocked->radius, 0.15, 1e-12);
+    EXPECT_NEAR(blocked->place->x(), 3.1, 0.2);
+    EXPECT_NEAR(blocked->place->y(), 1.2, 0.15);
+    EXPECT_EQ(blocked->by, frame == VoxelState::kUnknown ? Blocker::kUnknown : Blocker::kObstacle);
+    EXPECT_EQ(blocked->start_number + blocked->goal_number, 1u);
+    const Roadmap smaller = build_roadmap(rooms(frame), {.min_clearance = blocked->radius}).roadmap;
+    EXPECT_TRUE(plan(smaller, start, goal).ok());
+  }
+}
+
+TEST(BlockedRoute, TellsUnknownSpaceFromWallsWhereNoRadiusHelps) {
+  const Point start(1.0, 1.0, 1.0), goal(5.0, 1.0, 1.0);
+  for (const VoxelState window : {VoxelState::kOccupied, VoxelState::kUnknown})
+    for (const UnknownPolicy policy : {UnknownPolicy::kObstacle, UnknownPolicy::kIgnore}) {
+      const Roadmap roadmap = build_roadmap(rooms(VoxelState::kOccupied, window),
+                                            {.min_clearance = 0.1, .unknown = policy})
+                                  .roadmap;
+      const auto blocked = RouteBlocks(roadmap).between(start, goal, 0.1);
+      ASSERT_TRUE(blocked.has_value());
+      EXPECT_EQ(blocked->radius, 0.0);
+      ASSERT_EQ(blocked->place.has_value(), window == VoxelState::kUnknown);
+      if (!blocked->place) {
+        EXPECT_EQ(blocked->by, Blocker::kObstacle);
+        continue;
+      }
+      EXPECT_EQ(blocked->by, Blocker::kUnknown);
+      EXPECT_NEAR(blocked->place->x(), 3.05, 1e-9);  // the window, from the start's side
+      EXPECT_NEAR(blocked->place->y(), 1.2, 0.2);
+    }
+}
+
+TEST(BlockedRoute, LeavesBadPlacesToThePlan) {
+  const Roadmap roadmap =
+      build_roadmap(rooms(VoxelState::kOccupied), {.min_clearance = 0.3}).roadmap;
+  const RouteBlocks blocks(roadmap);
+  EXPECT_FALSE(blocks.between(Point(-9, 0, 0), Point(5, 1, 1), 0.3).has_value());
+  EXPECT_FALSE(blocks.between(Point(5, 1, 1), Point(0.15, 1, 1), 0.3).has_value());
+}
+
+}  // namespace
+}  // namespace ridgeway
