@@ -173,7 +173,7 @@ MazeResult run_maze(const MazeExperimentConfig& config, const Progress& progress
   const PoseSampling inside = sampling_inside(world);
   MazeResult result;
   result.roadmap = build_roadmap(occupancy_of(world, config.voxel_size, {inside.low, inside.high}),
-                                 {.min_clearance = config.min_clearance})
+                                 {.min_clearance = config.min_clearance}, progress)
                        .roadmap;
   const std::vector<Pair> pairs = random_pairs(world, config);
   std::vector<double> esdf_lengths;

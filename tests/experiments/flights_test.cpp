@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "ridgeway/common/error.hpp"
+#include "support/cancelling.hpp"
 #include "support/shapes.hpp"
 
 namespace ridgeway {
@@ -54,6 +55,13 @@ TEST(Flights, BadConfigurationsAreRefused) {
   EXPECT_THROW(run_flights(rooms(), {.queries = 0}), InputError);
   EXPECT_THROW(run_flights(rooms(), {.limits = {.max_speed = -1.0}}), InputError);
   EXPECT_THROW(run_flights(rooms(), {.min_clearance = 1.5}), InputError);  // fits nowhere
+}
+
+TEST(Flights, CanBeCancelled) {
+  const auto flying = [](const Progress& progress) {
+    run_flights(rooms(), {.queries = 3}, progress);
+  };
+  for (const int stop : {0, 1, 9, 10}) testing::expect_cancelled_at(stop, flying);
 }
 
 }  // namespace

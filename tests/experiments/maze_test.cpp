@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "ridgeway/common/error.hpp"
+#include "support/cancelling.hpp"
 
 namespace ridgeway {
 namespace {
@@ -55,6 +56,14 @@ TEST(Maze, RefusesWhatCannotBeRun) {
   config = small_config();
   config.min_clearance = 5.0;
   EXPECT_THROW(run_maze(config), InputError);
+}
+
+TEST(Maze, CanBeCancelled) {
+  MazeExperimentConfig config = small_config();
+  config.repeat = 1;
+  const auto planning = [&](const Progress& progress) { run_maze(config, progress); };
+  // While the roadmap is built (nine times asked), and between planners.
+  for (const int stop : {0, 8, 9, 10, 12}) testing::expect_cancelled_at(stop, planning);
 }
 
 }  // namespace

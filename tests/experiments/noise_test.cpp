@@ -7,6 +7,7 @@
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/experiments/fusion_speed.hpp"
 #include "ridgeway/mapping/world_map.hpp"
+#include "support/cancelling.hpp"
 
 namespace ridgeway {
 namespace {
@@ -91,6 +92,20 @@ TEST(WorldMap, VoxelsAreFreeWhereTheirCentreIs) {
   EXPECT_EQ(map.at({20, 24, 10}), VoxelState::kFree);
   const VoxelCounts counts = count_voxels(map);
   EXPECT_EQ(counts.known(), 42u * 42u * 22u);
+}
+
+TEST(Noise, CanBeCancelled) {
+  const auto comparing = [](const Progress& progress) {
+    run_noise(small_world(), small_config(), progress);
+  };
+  for (const int stop : {0, 1, 3}) testing::expect_cancelled_at(stop, comparing);
+}
+
+TEST(FusionSpeed, CanBeCancelledBeforeEachWay) {
+  const auto fusing = [](const Progress& progress) {
+    run_fusion_speed(small_world(), {.poses = small_config().poses}, progress);
+  };
+  EXPECT_EQ(testing::places_to_stop(fusing), 4);
 }
 
 }  // namespace

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/common/progress.hpp"
+
+namespace ridgeway::testing {
+
+/// Calls a stage with a callback that stops it the so many-th time it is asked, from 0 on.
+template <typename Stage>
+void expect_cancelled_at(int stop, const Stage& stage) {
+  int calls = 0;
+  const Progress until_stop = [&](std::string_view, double share) {
+    EXPECT_GE(share, 0.0);
+    EXPECT_LE(share, 1.0);
+    return calls++ < stop;
+  };
+  EXPECT_THROW(stage(until_stop), Cancelled) << stop;
+  EXPECT_EQ(calls, stop + 1);  // never asked again
+}
+
+/// Stops a stage at each of the places where it can be stopped; returns how many there are.
+template <typename Stage>
+int places_to_stop(const Stage& stage) {
+  int places = 0;
+  stage([&](std::string_view, double) {
+    ++places;
+    return true;
+  });
+  for (int stop = 0; stop < places; ++stop) expect_cancelled_at(stop, stage);
+  return places;
+}
+
+}  // namespace ridgeway::testing
