@@ -134,6 +134,7 @@ Alternatives plan_alternatives(const Roadmap& roadmap, const Point& start, const
     while ((route = others.next()) && routes.may_use(length_of(*route), count)) {
       if (routes.know(*route)) continue;
       PlanResult tight = tighten(space, std::move(*route), radius, deadline);
+      tight.unknown = esdf.unknown;
       if (!meets_itself(tight.waypoints, radius) && detail::is_verified(esdf, space, tight, radius))
         routes.add(std::move(tight));
     }

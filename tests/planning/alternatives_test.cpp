@@ -214,7 +214,10 @@ TEST(Alternatives, AreVerifiedShortestFirstAndNoLongerThanThePlan) {
   for (unsigned seed = 0; seed < 6; ++seed) {
     SCOPED_TRACE(seed);
     Axes axes;
-    const Roadmap roadmap = build(testing::pillars(seed, axes));
+    const auto policy = seed % 2 == 0 ? UnknownPolicy::kObstacle : UnknownPolicy::kIgnore;
+    const Roadmap roadmap = build_roadmap(testing::pillars(seed, axes),
+                                          {.min_clearance = kClearance, .unknown = policy})
+                                .roadmap;
     const FreeSpace space(roadmap.esdf);
     for (const double radius : {kClearance, 1.2 * kClearance}) {
       const PlanConfig config{.radius = radius};
@@ -228,6 +231,7 @@ TEST(Alternatives, AreVerifiedShortestFirstAndNoLongerThanThePlan) {
         const PlanResult& route = found.routes[i];
         EXPECT_EQ(route.waypoints.front(), kStart);
         EXPECT_EQ(route.waypoints.back(), kGoal);
+        EXPECT_EQ(route.unknown, policy);
         EXPECT_GE(space.clearance(route.waypoints), radius * (1.0 - 1e-9));
         if (i > 0) {
           EXPECT_GE(route.length, found.routes[i - 1].length);

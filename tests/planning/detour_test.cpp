@@ -6,8 +6,8 @@
 
 #include <random>
 
-#include "paths/shorten.hpp"
 #include "ridgeway/esdf/esdf.hpp"
+#include "ridgeway/voxel/polyline.hpp"
 #include "support/pillars.hpp"
 #include "support/places.hpp"
 #include "support/random_maps.hpp"
@@ -36,7 +36,7 @@ void expect_free(const FreeSpace& space, const Point& a, const Detour& detour, c
   way.push_back(b);
   for (std::size_t i = 1; i < way.size(); ++i)
     EXPECT_TRUE(space.is_free(way[i - 1], way[i], radius));
-  EXPECT_NEAR(detail::length_of(way), detour.length, 1e-9);
+  EXPECT_NEAR(length_of(way), detour.length, 1e-9);
 }
 
 TEST(Detour, LeadsPastABoxWithinItsBudgetAndItsCorners) {
@@ -96,7 +96,7 @@ TEST(Detour, RedirectedPathsAreFreeAndNeverLonger) {
       ASSERT_EQ(redirected.back(), path.back());
       for (std::size_t k = 1; k < redirected.size(); ++k)
         ASSERT_TRUE(space.is_free(redirected[k - 1], redirected[k], kRadius));
-      const double before = detail::length_of(path), after = detail::length_of(redirected);
+      const double before = length_of(path), after = length_of(redirected);
       ASSERT_LE(after, before * (1.0 + 1e-12));
       ++(after < before ? shorter : same);
       EXPECT_EQ(detail::redirect(esdf, space, path, kRadius, Deadline(-1.0)), path);  // no time

@@ -81,6 +81,7 @@ TEST(Plan, AnswersExactlyWhenFloodingDoesAndItsPathsHoldByBruteForce) {
           for (const bool shorten : {true, false}) {
             const PlanResult result = plan(
                 *roadmap, start, goal, {.planner = planner, .radius = radius, .shorten = shorten});
+            ASSERT_EQ(result.unknown, policy);
             if (connected) {
               ASSERT_TRUE(result.ok());
               ASSERT_EQ(result.waypoints.front(), start);

@@ -16,11 +16,11 @@ enum class PlanStatus : std::uint8_t {
   kOk,
   kStartOutsideMap,
   kStartUnknown,
-  kStartInCollision,
+  kStartInCollision,  ///< nearer to an obstacle than the radius; PlanConfig::escape may lead out
   kGoalOutsideMap,
   kGoalUnknown,
   kGoalInCollision,
-  kNoRoute,
+  kNoRoute,  ///< RouteBlocks (planning/blocked_route.hpp) tells what is in the way
   kRadiusTooSmall,
   kTimeout,
 };
