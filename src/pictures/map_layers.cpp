@@ -39,7 +39,7 @@ double vertex_size(const SparseGraph& graph, const MapFrame& frame) {
 
 std::vector<DiagramDot> diagram_dots(const Roadmap& roadmap, DiagramColour colour) {
   std::vector<DiagramDot> dots;
-  for (const VoxelId id : roadmap.diagram.voxels.members()) {
+  for (const VoxelId id : roadmap.diagram.voxels.members(roadmap.esdf.layout)) {
     const Point centre = centre_of(roadmap.esdf.layout.index_of(id), roadmap.esdf.voxel_size);
     const bool height = colour == DiagramColour::kHeight;
     dots.push_back({centre, height ? centre.z() : roadmap.esdf.distance(id)});

@@ -39,7 +39,11 @@ struct Index3 {
   }
 };
 
-/// A voxel of the unbounded lattice: its centre is (index + 0.5) * voxel_size.
+/// No voxel of a map lies farther out than this along any axis, so that sums and differences of two
+/// indices are numbers too. BlockLayout::kFarthestBlock enforces it.
+inline constexpr int kMaxVoxelIndex = 1'000'000'000;
+
+/// A voxel of the lattice: its centre is (index + 0.5) * voxel_size.
 using VoxelIndex = Index3<struct VoxelTag>;
 /// A cube of 8 x 8 x 8 voxels: block b holds the voxels 8 b .. 8 b + 7.
 using BlockIndex = Index3<struct BlockTag>;
@@ -89,7 +93,12 @@ inline int floor_to_int(double x) {
   return truncated - (static_cast<double>(truncated) > x ? 1 : 0);
 }
 
-/// The voxel that holds a point; the point must lie within +-1e9 voxels.
+/// Whether a point is a number, and not so far out that its voxel has no index.
+inline bool has_voxel(const Point& p, double voxel_size) {
+  return (p.array().abs() < kMaxVoxelIndex * voxel_size).all();
+}
+
+/// The voxel that holds a point, for which has_voxel must hold.
 inline VoxelIndex voxel_at(const Point& p, double voxel_size) {
   return {floor_to_int(p.x() / voxel_size), floor_to_int(p.y() / voxel_size),
           floor_to_int(p.z() / voxel_size)};
