@@ -50,7 +50,7 @@ const std::vector<Query>& solvable_queries() {
 
 std::vector<Point> random_places(std::size_t count) {
   const EsdfMap& esdf = pipeline().esdf;
-  const std::vector<VoxelId> voxels = pipeline().traversable.members();
+  const std::vector<VoxelId> voxels = pipeline().traversable.members(pipeline().esdf.layout);
   Random random(1);
   std::vector<Point> places;
   while (places.size() < count)

@@ -16,7 +16,7 @@ namespace {
 std::vector<Cube27> cubes_of(const VoxelMask& mask) {
   const BlockLayout& layout = pipeline().esdf.layout;
   std::vector<Cube27> cubes;
-  for (const VoxelId id : mask.members()) cubes.push_back(cube_around(layout, mask, id));
+  for (const VoxelId id : mask.members(layout)) cubes.push_back(cube_around(layout, mask, id));
   return cubes;
 }
 
@@ -31,7 +31,7 @@ void copy_of_neighbourhoods(benchmark::State& state) {  // the baseline of the n
 
 void gathering_neighbourhoods(benchmark::State& state) {
   const Pipeline& p = pipeline();
-  const std::vector<VoxelId> members = p.edges.members();
+  const std::vector<VoxelId> members = p.edges.members(p.esdf.layout);
   for (auto _ : state)
     for (const VoxelId id : members)
       benchmark::DoNotOptimize(cube_around(p.esdf.layout, p.edges, id));
@@ -47,7 +47,7 @@ void simple_point_test(benchmark::State& state) {
 
 void thinning_pass(benchmark::State& state) {  // its decisions, without a deletion
   const Pipeline& p = pipeline();
-  const std::vector<VoxelId> members = p.edges.members();
+  const std::vector<VoxelId> members = p.edges.members(p.esdf.layout);
   for (auto _ : state)
     for (const VoxelId id : members) {
       const Cube27 cube = cube_around(p.esdf.layout, p.edges, id);

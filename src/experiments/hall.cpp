@@ -33,7 +33,8 @@ struct Query {
 /// Between the centres of random traversable voxels.
 std::vector<Query> draw_queries(const Roadmap& roadmap, std::size_t count, std::uint64_t seed) {
   const EsdfMap& esdf = roadmap.esdf;
-  const std::vector<VoxelId> places = traversable_voxels(esdf, roadmap.min_clearance).members();
+  const std::vector<VoxelId> places =
+      traversable_voxels(esdf, roadmap.min_clearance).members(esdf.layout);
   Random random(seed);
   const auto place = [&] {
     const VoxelIndex voxel = esdf.layout.index_of(places[random.below(places.size())]);

@@ -143,7 +143,7 @@ void write_graph_ply(const Roadmap& roadmap, const std::filesystem::path& path) 
 
 void write_diagram_ply(const Roadmap& roadmap, const std::filesystem::path& path) {
   const EsdfMap& esdf = roadmap.esdf;
-  const std::vector<VoxelId> voxels = roadmap.diagram.voxels.members();
+  const std::vector<VoxelId> voxels = roadmap.diagram.voxels.members(esdf.layout);
   std::vector<double> clearances;
   clearances.reserve(voxels.size());
   for (const VoxelId id : voxels) clearances.push_back(esdf.distance(id));

@@ -87,7 +87,8 @@ Crossings find_crossings(const TsdfMap& tsdf, const VoxelMask& cells) {
         crossings.steps[id] |= static_cast<std::uint8_t>(1u << step);
     }
   });
-  for (VoxelId id = 0; id < tsdf.layout.voxel_count(); ++id) {
+  for (std::uint32_t order = 0; order < tsdf.layout.voxel_count(); ++order) {
+    const VoxelId id = tsdf.layout.voxel_at_order(order);
     crossings.first[id] = static_cast<std::uint32_t>(crossings.count);
     crossings.count += static_cast<std::size_t>(std::popcount(crossings.steps[id]));
     if (crossings.count > kMostVertices)
@@ -173,7 +174,8 @@ std::vector<Triangle> find_triangles(const TsdfMap& tsdf, const VoxelMask& cells
     if (cells.test(id)) cut_cell(tsdf, crossings, id, of_block[id / kBlockVoxels]);
   });
   std::vector<Triangle> triangles;
-  for (auto& some : of_block) {
+  for (std::uint32_t rank = 0; rank < of_block.size(); ++rank) {
+    std::vector<Triangle>& some = of_block[tsdf.layout.slot_at(rank)];
     triangles.insert(triangles.end(), some.begin(), some.end());
     std::vector<Triangle>().swap(some);
   }

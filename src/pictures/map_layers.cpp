@@ -39,7 +39,7 @@ double vertex_size(const SparseGraph& graph, const MapFrame& frame) {
 
 std::vector<DiagramDot> diagram_dots(const Roadmap& roadmap, DiagramColour colour) {
   std::vector<DiagramDot> dots;
-  for (const VoxelId id : roadmap.diagram.voxels.members()) {
+  for (const VoxelId id : roadmap.diagram.voxels.members(roadmap.esdf.layout)) {
     const EsdfMap& esdf = roadmap.esdf;
     const Point centre = to_world(esdf, centre_of(esdf.layout.index_of(id), esdf.voxel_size));
     const bool height = colour == DiagramColour::kHeight;

@@ -33,7 +33,8 @@ std::vector<Query> draw_queries(const Roadmap& roadmap, const CheckConfig& confi
   const EsdfMap& esdf = roadmap.esdf;
   std::array<std::vector<VoxelId>, kRadiusFactors.size()> places;
   const double largest = largest_radius(esdf);
-  for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id) {
+  for (std::uint32_t order = 0; order < esdf.layout.voxel_count(); ++order) {
+    const VoxelId id = esdf.layout.voxel_at_order(order);
     if (esdf.state[id] != VoxelState::kFree) continue;
     for (std::size_t k = 0; k < places.size(); ++k) {
       const double radius = kRadiusFactors[k] * roadmap.min_clearance;

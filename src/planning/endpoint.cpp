@@ -9,8 +9,7 @@
 
 namespace ridgeway::detail {
 Endpoint find_endpoint(const EsdfMap& esdf, const Point& point, double radius) {
-  constexpr double kFarthest = 1e9;  // voxels; beyond it indices would overflow
-  if ((point.array().abs() > kFarthest * esdf.voxel_size).any()) return {};
+  if (!has_voxel(point, esdf.voxel_size)) return {};
   const VoxelIndex voxel = voxel_at(point, esdf.voxel_size);
   const VoxelId home = esdf.layout.find(voxel);
   if (home == kNoVoxel)

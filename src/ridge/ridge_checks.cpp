@@ -27,12 +27,13 @@ struct GraphParts {
 };
 
 Defect find_vertex_defect(const Roadmap& roadmap, const SparseGraph& graph, const char* part) {
-  VoxelId last = kNoVoxel;
+  const BlockLayout& layout = roadmap.esdf.layout;
+  std::optional<std::uint32_t> last;
   for (const Vertex& v : graph.vertices) {
-    const VoxelId id = roadmap.esdf.layout.find(v.voxel);
+    const VoxelId id = layout.find(v.voxel);
     if (id == kNoVoxel) return RoadmapDefect{part, "has a vertex outside the map"};
-    if (last != kNoVoxel && id <= last) return RoadmapDefect{part, "is not in order"};
-    last = id;
+    if (last && layout.order_of(id) <= *last) return RoadmapDefect{part, "is not in order"};
+    last = layout.order_of(id);
     if (!is_clearance(v.clearance)) {
       return RoadmapDefect{part, "has a clearance that is no distance"};
     }
@@ -129,9 +130,11 @@ struct WaysOfBlock {
   std::vector<VoxelId> descending;  // voxels whose way does not climb
 };
 
-/// Clearance and then handles order the voxels as basins do, so a way that only climbs has an end.
+/// Clearance and then the order of voxels rank them as basins do, so a way that only climbs has an
+/// end.
 bool climbs(const EsdfMap& esdf, VoxelId from, VoxelId to) {
-  return std::pair(esdf.squared[to], from) > std::pair(esdf.squared[from], to);
+  return std::pair(esdf.squared[to], esdf.layout.order_of(from)) >
+         std::pair(esdf.squared[from], esdf.layout.order_of(to));
 }
 
 WaysOfBlock look_at_ways(const Roadmap& roadmap, std::uint32_t slot) {

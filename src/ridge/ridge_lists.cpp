@@ -51,8 +51,8 @@ std::vector<std::byte> block_bytes(const BlockLayout& layout) {
   std::vector<std::byte> bytes;
   for (const auto axis : {&BlockIndex::x, &BlockIndex::y, &BlockIndex::z}) {
     std::uint32_t previous = 0;
-    for (const BlockIndex& block : layout.blocks()) {
-      const auto value = static_cast<std::uint32_t>(block.*axis);
+    for (std::uint32_t rank = 0; rank < layout.block_count(); ++rank) {
+      const auto value = static_cast<std::uint32_t>(layout.block(layout.slot_at(rank)).*axis);
       append_number(bytes, value - previous);
       previous = value;
     }
@@ -174,7 +174,7 @@ BlockLayout load_blocks(const RidgeReader& reader, std::uint32_t count) {
       blocks[i].*axis = static_cast<int>(value);
     });
   }
-  constexpr int kFarthest = 1 << 26;  // half of what a voxel index can name
+  constexpr int kFarthest = BlockLayout::kFarthestBlock;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     for (const int part : {blocks[i].x, blocks[i].y, blocks[i].z}) {
       if (part < -kFarthest || part > kFarthest) reader.damaged("blocks", "has one out of range");

@@ -12,10 +12,13 @@ namespace {
 
 void fill_states(const EsdfMap& esdf, const BlockRange& range, std::vector<std::byte>& raw) {
   raw.reserve(range.count() * kBlockVoxels);
-  for (VoxelId id = range.first * kBlockVoxels; id < range.last * kBlockVoxels; ++id) {
-    const bool no_site = esdf.squared[id] == kNoSite;
-    raw.push_back(static_cast<std::byte>(static_cast<std::uint8_t>(esdf.state[id]) |
-                                         (no_site ? kNoSiteFlag : 0)));
+  for (std::uint32_t rank = range.first; rank < range.last; ++rank) {
+    const VoxelId first = esdf.layout.slot_at(rank) * kBlockVoxels;
+    for (VoxelId id = first; id < first + kBlockVoxels; ++id) {
+      const bool no_site = esdf.squared[id] == kNoSite;
+      raw.push_back(static_cast<std::byte>(static_cast<std::uint8_t>(esdf.state[id]) |
+                                           (no_site ? kNoSiteFlag : 0)));
+    }
   }
 }
 
@@ -58,7 +61,8 @@ void fill_sites(const EsdfMap& esdf, const BlockRange& range, std::vector<std::b
   for (std::size_t b = 0; b < range.count(); ++b) {
     SitePlanes sites;
     BlockPlane live;
-    gather_sites(esdf, range.first + static_cast<std::uint32_t>(b), sites, live);
+    const std::uint32_t rank = range.first + static_cast<std::uint32_t>(b);
+    gather_sites(esdf, esdf.layout.slot_at(rank), sites, live);
     coded[b] = encode_sites(sites, live);
     narrow = narrow && fits_byte(coded[b].x) && fits_byte(coded[b].y) && fits_byte(coded[b].z);
   }
@@ -73,10 +77,14 @@ void fill_sites(const EsdfMap& esdf, const BlockRange& range, std::vector<std::b
   }
 }
 
-template <typename Value>
-void fill_plain(const Value* values, std::size_t count, std::vector<std::byte>& raw) {
-  const auto bytes = std::as_bytes(std::span(values, count));
-  raw.assign(bytes.begin(), bytes.end());
+/// The bytes of the blocks of a range; block_of(slot) gives a block's.
+template <typename BlockOf>
+void fill_plain(const BlockLayout& layout, const BlockRange& range, const BlockOf& block_of,
+                std::vector<std::byte>& raw) {
+  for (std::uint32_t rank = range.first; rank < range.last; ++rank) {
+    const std::span<const std::byte> bytes = block_of(layout.slot_at(rank));
+    raw.insert(raw.end(), bytes.begin(), bytes.end());
+  }
 }
 
 }  // namespace
@@ -96,12 +104,18 @@ std::vector<RidgeSectionSource> voxel_sections(const Roadmap& roadmap) {
            }},
           {"diagram", kMaskType, chunks,
            [&roadmap, blocks](std::size_t chunk, Bytes& raw) {
-             const BlockRange range = blocks_of_chunk(chunk, blocks);
-             fill_plain(&roadmap.diagram.voxels.block(range.first), range.count(), raw);
+             const VoxelMask& voxels = roadmap.diagram.voxels;
+             const auto block_of = [&](std::uint32_t slot) {
+               return std::as_bytes(std::span(voxels.block(slot)));
+             };
+             fill_plain(roadmap.esdf.layout, blocks_of_chunk(chunk, blocks), block_of, raw);
            }},
           {"attach", kAttachType, chunks, [&roadmap, blocks](std::size_t chunk, Bytes& raw) {
-             const BlockRange range = blocks_of_chunk(chunk, blocks);
-             fill_plain(roadmap.attach.next.block(range.first), range.count() * kBlockVoxels, raw);
+             const VoxelField<Direction>& next = roadmap.attach.next;
+             const auto block_of = [&](std::uint32_t slot) {
+               return std::as_bytes(std::span(next.block(slot), kBlockVoxels));
+             };
+             fill_plain(roadmap.esdf.layout, blocks_of_chunk(chunk, blocks), block_of, raw);
            }}};
 }
 

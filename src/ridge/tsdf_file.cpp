@@ -30,8 +30,9 @@ RidgeSectionSource field_section(const TsdfMap& map) {
             const std::size_t first = chunk * kChunkVoxels;
             const std::size_t end = std::min(first + kChunkVoxels, map.layout.voxel_count());
             for (const auto* field : {&map.distance, &map.weight})
-              for (std::size_t id = first; id < end; ++id)
-                append_number(raw, (*field)[static_cast<VoxelId>(id)]);
+              for (std::size_t order = first; order < end; ++order)
+                append_number(
+                    raw, (*field)[map.layout.voxel_at_order(static_cast<std::uint32_t>(order))]);
           }};
 }
 

@@ -10,7 +10,7 @@
 namespace ridgeway::detail {
 
 VertexId vertex_at(const SparseGraph& graph, const VoxelIndex& voxel) {
-  // Vertices are in the order of their voxels' handles: by block, then by place in the block.
+  // Vertices are in the order of their voxels: by block, then by place in the block.
   const auto key = [](const VoxelIndex& v) { return std::pair(block_of(v), local_of(v)); };
   const auto place =
       std::lower_bound(graph.vertices.begin(), graph.vertices.end(), voxel,

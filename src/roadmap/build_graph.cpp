@@ -3,6 +3,7 @@
 #include "ridgeway/roadmap/build_graph.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "diagram_curves.hpp"
@@ -112,6 +113,7 @@ AttachField build_attach_field(const EsdfMap& esdf, const VoxelMask& diagram,
   for (const Vertex& vertex : graph.vertices)
     vertices.push_back(curves.find(esdf.layout.find(vertex.voxel)));
   const detail::DiagramFlood flood = detail::flood_from(curves, vertices);
+  assert(basins.next.is_of(esdf.layout));
   AttachField attach{std::move(basins.next)};
   for (DiagramNumber v = 0; v < curves.size(); ++v) {
     const DiagramNumber to = flood.toward[v] == detail::kNowhere ? v : flood.toward[v];

@@ -28,14 +28,17 @@ constexpr double kAboutAsShort = 1.1;     // as the tight path between the place
 constexpr double kKnown = 0.85;           // of the paths: that is enough
 constexpr double kHopeless = 0.75;        // that is too little to go on
 
-/// The widest traversable voxel of every cell, or kNoVoxel.
+/// The widest traversable voxel of every cell, the first of equally wide ones, or kNoVoxel.
 std::vector<VoxelId> widest_of_cells(const Roadmap& roadmap, const BlockCells& cells) {
   const EsdfMap& esdf = roadmap.esdf;
   std::vector<VoxelId> widest(cells.count, kNoVoxel);
-  for (VoxelId id = 0; id < roadmap.attach.next.size(); ++id) {
-    if (roadmap.attach.next[id] == AttachField::kNotTraversable) continue;
-    VoxelId& best = widest[cells.cell_of_block[id / kBlockVoxels]];
-    if (best == kNoVoxel || esdf.squared[id] > esdf.squared[best]) best = id;
+  for (std::uint32_t rank = 0; rank < esdf.layout.block_count(); ++rank) {
+    const std::uint32_t slot = esdf.layout.slot_at(rank);
+    VoxelId& best = widest[cells.cell_of_block[slot]];
+    for (VoxelId id = slot * kBlockVoxels; id < (slot + 1) * kBlockVoxels; ++id) {
+      if (roadmap.attach.next[id] == AttachField::kNotTraversable) continue;
+      if (best == kNoVoxel || esdf.squared[id] > esdf.squared[best]) best = id;
+    }
   }
   return widest;
 }

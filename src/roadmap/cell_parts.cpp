@@ -72,11 +72,14 @@ std::vector<Part> parts_of_cells(const Roadmap& roadmap,
 BlockCells number_cells(const BlockLayout& layout) {
   BlockCells cells;
   std::map<BlockIndex, std::uint32_t> numbers;
-  for (const BlockIndex& block : layout.blocks()) {
+  cells.cell_of_block.resize(layout.block_count());
+  for (std::uint32_t rank = 0; rank < layout.block_count(); ++rank) {
+    const std::uint32_t slot = layout.slot_at(rank);
+    const BlockIndex& block = layout.block(slot);
     const BlockIndex cell{block.x >> 1, block.y >> 1, block.z >> 1};
     const auto [place, is_new] = numbers.try_emplace(cell, cells.count);
     cells.count += is_new ? 1 : 0;
-    cells.cell_of_block.push_back(place->second);
+    cells.cell_of_block[slot] = place->second;
   }
   return cells;
 }

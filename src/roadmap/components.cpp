@@ -52,7 +52,7 @@ std::vector<Component> count_components(const EsdfMap& esdf, const VoxelMask& tr
                                         std::vector<std::size_t>& component_of) {
   std::vector<std::size_t> voxels(component_of.size(), 0);
   std::vector<VoxelId> widest(component_of.size(), kNoVoxel);
-  for (const VoxelId id : traversable.members()) {
+  for (const VoxelId id : traversable.members(esdf.layout)) {
     const std::uint32_t set = level.set_of(id);
     ++voxels[set];
     if (widest[set] == kNoVoxel || esdf.squared[id] > esdf.squared[widest[set]]) widest[set] = id;

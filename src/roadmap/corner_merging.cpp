@@ -42,7 +42,9 @@ MergedCorners CornerMerging::merged() const {
   std::vector<std::uint32_t> order(voxels_.size()), rank(voxels_.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return voxels_[a] < voxels_[b]; });
+            [&, &layout = esdf_.layout](std::uint32_t a, std::uint32_t b) {
+              return layout.order_of(voxels_[a]) < layout.order_of(voxels_[b]);
+            });
   MergedCorners result;
   for (std::uint32_t i = 0; i < order.size(); ++i) {
     rank[order[i]] = i;

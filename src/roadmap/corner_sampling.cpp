@@ -20,7 +20,8 @@ constexpr int kTries = 1000;      // to meet a traversable voxel
 VoxelId random_voxel(const Roadmap& roadmap, Random& random) {
   const VoxelField<Direction>& next = roadmap.attach.next;
   for (int i = 0; i < kTries; ++i) {
-    const auto id = static_cast<VoxelId>(random.below(next.size()));
+    const VoxelId id =
+        roadmap.esdf.layout.voxel_at_order(static_cast<std::uint32_t>(random.below(next.size())));
     if (next[id] != AttachField::kNotTraversable) return id;
   }
   return kNoVoxel;

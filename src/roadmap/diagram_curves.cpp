@@ -13,7 +13,9 @@
 namespace ridgeway::detail {
 
 DiagramNumber DiagramCurves::find(VoxelId id) const {
-  const auto it = std::lower_bound(voxels.begin(), voxels.end(), id);
+  const auto it = std::lower_bound(
+      voxels.begin(), voxels.end(), layout->order_of(id),
+      [&](VoxelId voxel, std::uint32_t order) { return layout->order_of(voxel) < order; });
   return it != voxels.end() && *it == id ? static_cast<DiagramNumber>(it - voxels.begin())
                                          : kNowhere;
 }
@@ -23,7 +25,8 @@ DiagramCurves index_diagram(const EsdfMap& esdf, const VoxelMask& diagram, doubl
   const double threshold = squared_threshold(min_clearance, esdf.voxel_size);
   const FreeSpace space(esdf);
   DiagramCurves curves;
-  curves.voxels = diagram.members();
+  curves.layout = &esdf.layout;
+  curves.voxels = diagram.members(esdf.layout);
   curves.squared.resize(curves.size());
   curves.position.resize(curves.size());
   std::vector<std::vector<DiagramMove>> moves(curves.size());

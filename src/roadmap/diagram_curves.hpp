@@ -11,7 +11,7 @@
 
 namespace ridgeway::detail {
 
-/// Number of a voxel among the diagram's voxels, ascending handles.
+/// Number of a voxel among the diagram's voxels, in the order of voxels.
 using DiagramNumber = std::uint32_t;
 inline constexpr DiagramNumber kNowhere = 0xffffffffu;
 
@@ -25,7 +25,8 @@ struct DiagramMove {
 /// The diagram as a compact graph of its voxels and their legal moves: everything the sparse
 /// graph is made from, in a few cache lines a voxel.
 struct DiagramCurves {
-  std::vector<VoxelId> voxels;            ///< ascending
+  const BlockLayout* layout = nullptr;    ///< of the map
+  std::vector<VoxelId> voxels;            ///< in the layout's order
   std::vector<std::uint32_t> squared;     ///< 4 d^2 / s^2
   std::vector<Point> position;            ///< voxel centres, metres
   std::vector<std::uint32_t> first_move;  ///< voxels.size() + 1 entries into `moves`

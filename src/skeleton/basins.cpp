@@ -18,7 +18,7 @@ namespace {
 
 /// Place of a voxel in the total order of heights; larger is higher. Zero: not traversable.
 std::uint64_t height(const EsdfMap& esdf, VoxelId id) {
-  return std::uint64_t{esdf.squared[id]} << 32 | (0xffffffffu - id);
+  return std::uint64_t{esdf.squared[id]} << 32 | (0xffffffffu - esdf.layout.order_of(id));
 }
 
 /// A critical voxel and its higher neighbours.
@@ -77,7 +77,8 @@ class PassFinder {
         threshold_(threshold),
         basins_(basins),
         sets_(basins.peaks.size()),
-        space_(esdf) {
+        space_(esdf),
+        waiting_(NarrowerPass{&esdf.layout}) {
     basins_.dynamics.assign(basins_.peaks.size(), std::numeric_limits<double>::infinity());
     highest_.resize(basins_.peaks.size());
     std::iota(highest_.begin(), highest_.end(), 0u);

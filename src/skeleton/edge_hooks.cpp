@@ -29,9 +29,10 @@ class EdgeHooks {
         diagram_(diagram) {}
 
   void run(const VoxelMask& edges) {
-    std::vector<VoxelId> voxels = edges.members();
+    std::vector<VoxelId> voxels = edges.members(layout_);
     std::sort(voxels.begin(), voxels.end(), [&](VoxelId a, VoxelId b) {
-      return std::pair(esdf_.squared[b], a) < std::pair(esdf_.squared[a], b);
+      return std::pair(esdf_.squared[b], layout_.order_of(a)) <
+             std::pair(esdf_.squared[a], layout_.order_of(b));
     });
     for (const VoxelId id : voxels) {
       sink_to(static_cast<double>(esdf_.squared[id]));
@@ -46,10 +47,15 @@ class EdgeHooks {
   struct Event {
     double level;
     VoxelId from, to;
-    friend bool operator<(const Event& a, const Event& b) {
-      return a.level != b.level ? a.level < b.level
-             : a.from != b.from ? a.from > b.from
-                                : a.to > b.to;
+  };
+
+  /// Order of a queue whose top has the highest level; equal ones in the order of their voxels.
+  struct Later {
+    const BlockLayout* layout;
+    bool operator()(const Event& a, const Event& b) const {
+      if (a.level != b.level) return a.level < b.level;
+      return a.from != b.from ? layout->order_of(a.from) > layout->order_of(b.from)
+                              : layout->order_of(a.to) > layout->order_of(b.to);
     }
   };
 
@@ -141,7 +147,7 @@ class EdgeHooks {
   DisjointSets pieces_{0};
   std::vector<bool> hooked_;  // by piece: connected with the exact diagram
   std::unordered_map<VoxelId, std::uint32_t> piece_;
-  std::priority_queue<Event> events_;
+  std::priority_queue<Event, std::vector<Event>, Later> events_{Later{&layout_}};
 };
 
 }  // namespace

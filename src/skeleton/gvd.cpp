@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -144,6 +145,7 @@ VoxelMask filter(const BlockLayout& layout, const VoxelMask& mask, const Keep& k
 }  // namespace
 
 VoxelMask traversable_voxels(const EsdfMap& esdf, double radius) {
+  assert(esdf.state.is_of(esdf.layout) && esdf.squared.is_of(esdf.layout));
   const double threshold = std::ceil(squared_threshold(radius, esdf.voxel_size));
   if (threshold > kNoSite) return VoxelMask(esdf.layout);
   const auto least = static_cast<std::uint32_t>(threshold);
@@ -170,6 +172,7 @@ VoxelMask compute_gvd(const EsdfMap& esdf, const VoxelMask& traversable, const G
   config.validate();
   const double cosine = std::cos(config.theta);
   const bool all_count = esdf.unknown == UnknownPolicy::kObstacle;
+  assert(traversable.is_of(esdf.layout) && esdf.site.is_of(esdf.layout));
   VoxelMask gvd(esdf.layout);
   parallel_for_each_index(
       esdf.layout.block_count(),

@@ -18,10 +18,11 @@ namespace {
 
 constexpr double kSignificantDynamics = 1.0;  // voxels
 
-/// Voxels in ascending order of (4 d^2 / s^2, handle), as (value << 32 | handle).
+/// Voxels in ascending order of 4 d^2 / s^2, as (value << 32 | handle): those of a level are
+/// deleted sub-field by sub-field, where the order of handles does not matter.
 std::vector<std::uint64_t> ascending_by_distance(const EsdfMap& esdf, const VoxelMask& voxels) {
   std::vector<std::uint64_t> order;
-  for (const VoxelId id : voxels.members())
+  for (const VoxelId id : voxels.members(esdf.layout))
     order.push_back(std::uint64_t{esdf.squared[id]} << 32 | id);
   tbb::parallel_sort(order.begin(), order.end());
   return order;
@@ -106,7 +107,9 @@ std::vector<VoxelId> piercing_places(const EsdfMap& esdf, const std::vector<Voxe
     while (!stack.empty()) {
       const VoxelId id = stack.back();
       stack.pop_back();
-      if (std::pair(esdf.squared[id], id) < std::pair(esdf.squared[best], best)) best = id;
+      if (std::pair(esdf.squared[id], esdf.layout.order_of(id)) <
+          std::pair(esdf.squared[best], esdf.layout.order_of(best)))
+        best = id;
       for (Cube27 cube = cube_around(esdf.layout, sheet, id); cube != 0; cube &= cube - 1) {
         stack.push_back(esdf.layout.neighbour(id, std::countr_zero(cube)));
         sheet.reset(stack.back());

@@ -28,12 +28,14 @@ class KernelJoiner {
         regions_(basins.peaks.size()),
         anchored_(basins.peaks.size(), false),
         pieces_(0),
+        moves_(NarrowerPass{&esdf.layout}),
         diagram_(esdf.layout) {}
 
   VoxelMask run(const VoxelMask& wanted) {
-    std::vector<VoxelId> voxels = wanted.members();
+    std::vector<VoxelId> voxels = wanted.members(layout_);
     std::sort(voxels.begin(), voxels.end(), [&](VoxelId a, VoxelId b) {
-      return std::pair(esdf_.squared[b], a) < std::pair(esdf_.squared[a], b);
+      return std::pair(esdf_.squared[b], layout_.order_of(a)) <
+             std::pair(esdf_.squared[a], layout_.order_of(b));
     });
     std::size_t pass = 0;
     const auto sink_to = [&](double level) {

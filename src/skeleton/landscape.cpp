@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cassert>
 
 #include "cube_answers.hpp"
 #include "level_gather.hpp"
@@ -17,9 +18,9 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
 
-/// By place in a block: the directions in which a neighbour's handle is smaller. Blocks are in
-/// (z, y, x) order, and so are the voxels of a block.
-constexpr std::array<Cube27, kBlockVoxels> kSmallerHandles = [] {
+/// By place in a block: the directions in which a neighbour comes earlier in the order of voxels,
+/// that of their blocks and then of places in the block.
+constexpr std::array<Cube27, kBlockVoxels> kEarlier = [] {
   std::array<Cube27, kBlockVoxels> smaller{};
   for (int local = 0; local < kBlockVoxels; ++local)
     for (int d = 0; d < 27; ++d) {
@@ -146,8 +147,8 @@ void number_basins(const BlockLayout& layout, const std::vector<BlockWays>& ways
   const auto drain_of = [&](VoxelId id) {
     return numbers.first[id / kBlockVoxels] + numbers.drain[id];
   };
-  for (std::uint32_t slot = 0; slot < ways.size(); ++slot)
-    for (const VoxelId id : ways[slot].critical)
+  for (std::uint32_t rank = 0; rank < ways.size(); ++rank)
+    for (const VoxelId id : ways[layout.slot_at(rank)].critical)
       if (basins.next[id] == kCentre) {
         numbers.basin[drain_of(id)] = static_cast<std::uint32_t>(basins.peaks.size());
         basins.peaks.push_back(id);
@@ -180,6 +181,7 @@ void number_basins(const BlockLayout& layout, const std::vector<BlockWays>& ways
 }  // namespace
 
 Landscape survey(const EsdfMap& esdf, const VoxelMask& traversable) {
+  assert(traversable.is_of(esdf.layout) && esdf.squared.is_of(esdf.layout));
   Landscape land;
   Basins& basins = land.basins;
   basins.next = VoxelField<Direction>::unset(esdf.layout);
@@ -202,8 +204,7 @@ Landscape survey(const EsdfMap& esdf, const VoxelMask& traversable) {
         for_each_four(traversable, slot, [&](VoxelId first, unsigned members) {
           const VoxelId place = first % kBlockVoxels;
           const LevelCubes cubes(levels, bordered_place(first));
-          const Cubes higher =
-              cubes.higher | (cubes.level & load_lanes<Cubes>(&kSmallerHandles[place]));
+          const Cubes higher = cubes.higher | (cubes.level & load_lanes<Cubes>(&kEarlier[place]));
           const Cubes later =
               cubes.higher | (cubes.level & load_lanes<Cubes>(&kLaterFields[place]));
           const Cubes steepest = steepest_ways(&heights[bordered_place(first)], higher);
@@ -219,8 +220,10 @@ Landscape survey(const EsdfMap& esdf, const VoxelMask& traversable) {
       },
       16);
   number_basins(esdf.layout, ways, basins);
-  for (const BlockWays& of_block : ways)
-    land.critical.insert(land.critical.end(), of_block.critical.begin(), of_block.critical.end());
+  for (std::uint32_t rank = 0; rank < ways.size(); ++rank) {
+    const std::vector<VoxelId>& critical = ways[esdf.layout.slot_at(rank)].critical;
+    land.critical.insert(land.critical.end(), critical.begin(), critical.end());
+  }
   return land;
 }
 

@@ -12,7 +12,7 @@ namespace ridgeway::detail {
 /// What one look at every traversable voxel and its neighbours tells.
 struct Landscape {
   Basins basins;                  ///< without passes and dynamics
-  std::vector<VoxelId> critical;  ///< peaks and possible passes, ascending
+  std::vector<VoxelId> critical;  ///< peaks and possible passes, in the order of voxels
 };
 
 /// Leads every voxel to its peak by the steepest of the ways that do not dip.

@@ -129,7 +129,7 @@ class LevelPeeling {
         around_(esdf, traversable, obstinate),
         queued_(std::move(obstinate)),
         left_(esdf.layout) {
-    for (const VoxelId id : queued_.members()) first_turns_.push_back(turn_of(esdf, id));
+    for (const VoxelId id : queued_.members(esdf.layout)) first_turns_.push_back(turn_of(esdf, id));
     tbb::parallel_sort(first_turns_.begin(), first_turns_.end());
   }
 

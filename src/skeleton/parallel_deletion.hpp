@@ -52,7 +52,8 @@ std::vector<VoxelId> delete_round(const BlockLayout& layout, VoxelMask& voxels,
   return deleted;
 }
 
-/// Members of `voxels` 26-adjacent to the given ones, each once, ascending.
+/// Members of `voxels` 26-adjacent to the given ones, each once, in no order that means
+/// anything.
 inline std::vector<VoxelId> neighbours_of(const BlockLayout& layout, const VoxelMask& voxels,
                                           const std::vector<VoxelId>& ids) {
   const auto for_each_neighbour = [&](const auto& body) {
@@ -63,7 +64,7 @@ inline std::vector<VoxelId> neighbours_of(const BlockLayout& layout, const Voxel
   if (ids.size() >= kParallelFrom) {  // a mask is then faster than to sort
     VoxelMask neighbours(layout);
     for_each_neighbour([&](VoxelId id) { neighbours.set(id); });
-    return neighbours.members();
+    return neighbours.members(layout);
   }
   std::vector<VoxelId> result;
   for_each_neighbour([&](VoxelId id) { result.push_back(id); });

@@ -67,10 +67,11 @@ bool can_do_without(const EsdfMap& esdf, const FreeSpace& space, double threshol
 void remove_redundant_voxels(const EsdfMap& esdf, double threshold, const Basins& basins,
                              VoxelMask& diagram) {
   const FreeSpace space(esdf);
-  std::vector<VoxelId> work = diagram.members();
+  std::vector<VoxelId> work = diagram.members(esdf.layout);
   while (!work.empty()) {
     std::sort(work.begin(), work.end(), [&](VoxelId a, VoxelId b) {
-      return std::pair(esdf.squared[a], a) < std::pair(esdf.squared[b], b);
+      return std::pair(esdf.squared[a], esdf.layout.order_of(a)) <
+             std::pair(esdf.squared[b], esdf.layout.order_of(b));
     });
     std::vector<VoxelId> deleted;
     for (const VoxelId id : work) {

@@ -66,10 +66,10 @@ bool matches_deletion_template(Cube27 cube) {
 }
 
 void thin(const BlockLayout& layout, VoxelMask& voxels) {
-  detail::delete_layers(layout, voxels, voxels.members(), [](VoxelId, Cube27 cube) {
+  detail::delete_layers(layout, voxels, voxels.members(layout), [](VoxelId, Cube27 cube) {
     return matches_deletion_template(cube) && may_go(cube);
   });
-  detail::delete_layers(layout, voxels, voxels.members(),
+  detail::delete_layers(layout, voxels, voxels.members(layout),
                         [](VoxelId, Cube27 cube) { return may_go(cube); });
 }
 

@@ -9,8 +9,6 @@
 #include <memory>
 #include <unordered_map>
 
-#include "voxel_reach.hpp"
-
 namespace ridgeway::detail {
 namespace {
 

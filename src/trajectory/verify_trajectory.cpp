@@ -8,7 +8,6 @@
 
 #include "bernstein.hpp"
 #include "ridgeway/esdf/free_space.hpp"
-#include "voxel_reach.hpp"
 
 namespace ridgeway {
 namespace {
@@ -104,8 +103,8 @@ std::vector<double> find_doubts(const EsdfMap& esdf, const Trajectory& trajector
   double begin = 0.0;
   for (const TrajectorySegment& segment : trajectory.segments) {
     const BezierPoints curve = detail::bezier_points(segment, 0, 0, 3);
-    const bool has_voxels = detail::has_voxel(curve.rowwise().minCoeff(), esdf.voxel_size) &&
-                            detail::has_voxel(curve.rowwise().maxCoeff(), esdf.voxel_size);
+    const bool has_voxels = has_voxel(curve.rowwise().minCoeff(), esdf.voxel_size) &&
+                            has_voxel(curve.rowwise().maxCoeff(), esdf.voxel_size);
     const std::optional<double> share = has_voxels ? verifier.first_doubt(curve) : 0.0;
     if (share) doubts.push_back(begin + *share * segment.duration);
     begin += segment.duration;

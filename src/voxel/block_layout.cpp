@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
+#include <unordered_set>
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
@@ -13,27 +15,103 @@ namespace {
 
 constexpr double kMostPlaces = 8.0;  // in the box around all blocks for each of them
 
+std::uint64_t stamped(std::uint64_t stamp, std::span<const BlockIndex> blocks) {
+  for (const BlockIndex& block : blocks) stamp = stamp * 0x9e3779b97f4a7c15ull + hash_of(block) + 1;
+  return stamp;
+}
+
+bool is_legal(const BlockIndex& block) {
+  constexpr int kFarthest = BlockLayout::kFarthestBlock;
+  const auto is_near = [](int k) { return k >= -kFarthest && k <= kFarthest; };
+  return is_near(block.x) && is_near(block.y) && is_near(block.z);
+}
+
 }  // namespace
 
 BlockLayout::BlockLayout(std::vector<BlockIndex> blocks) : blocks_(std::move(blocks)) {
   std::sort(blocks_.begin(), blocks_.end());
   blocks_.erase(std::unique(blocks_.begin(), blocks_.end()), blocks_.end());
-  if (blocks_.size() >= (1u << 23)) {
-    throw InputError("map", "needs more than 8 million blocks of 8x8x8 voxels",
-                     "use a larger --voxel-size or smaller --bounds");
-  }
+  require_legal();
   index_blocks();
   neighbours_.resize(blocks_.size());
   parallel_for_each_index(
-      blocks_.size(),
-      [&](std::size_t slot) {
-        for (int d = 0; d < 27; ++d) {
-          const VoxelIndex o = offset_of(d);
-          neighbours_[slot][static_cast<std::size_t>(d)] =
-              find_block(blocks_[slot] + BlockIndex{o.x, o.y, o.z});
-        }
-      },
+      blocks_.size(), [&](std::size_t slot) { find_neighbours(static_cast<std::uint32_t>(slot)); },
       256);
+  stamp_ = stamped(0, blocks_);
+}
+
+void BlockLayout::add(std::span<const BlockIndex> blocks) {
+  const std::uint32_t before = block_count();
+  try {
+    for (const BlockIndex& block : blocks)
+      if (find_block(block) == kNoBlock) blocks_.push_back(block);
+    drop_doubles(before);
+    require_legal();
+  } catch (...) {
+    blocks_.resize(before);
+    throw;
+  }
+  if (block_count() == before) return;
+  index_blocks();
+  neighbours_.resize(blocks_.size());
+  for (std::uint32_t slot = before; slot < blocks_.size(); ++slot) {
+    find_neighbours(slot);
+    for (int d = 0; d < 27; ++d)
+      if (const std::uint32_t n = neighbour_block(slot, d); n != kNoBlock)
+        neighbours_[n][static_cast<std::size_t>(opposite(d))] = slot;
+  }
+  order_blocks(before);
+  stamp_ = stamped(stamp_, this->blocks().subspan(before));
+}
+
+/// Of the blocks from a slot on, keeps the first of each.
+void BlockLayout::drop_doubles(std::uint32_t first) {
+  std::unordered_set<BlockIndex, BlockHash> seen;
+  const auto begin = blocks_.begin() + first;
+  blocks_.erase(std::remove_if(begin, blocks_.end(),
+                               [&](const BlockIndex& b) { return !seen.insert(b).second; }),
+                blocks_.end());
+}
+
+void BlockLayout::require_legal() const {
+  if (blocks_.size() > kMostBlocks)
+    throw InputError("map", "needs more than 8 million blocks of 8x8x8 voxels",
+                     "use larger voxels, or cut the map down to a smaller box");
+  if (!std::all_of(blocks_.begin(), blocks_.end(), is_legal))
+    throw InputError("map", "has a block farther than 1e9 voxels from its origin",
+                     "move the map to its origin, or use larger voxels");
+}
+
+void BlockLayout::find_neighbours(std::uint32_t slot) {
+  for (int d = 0; d < 27; ++d) {
+    const VoxelIndex o = offset_of(d);
+    neighbours_[slot][static_cast<std::size_t>(d)] =
+        find_block(blocks_[slot] + BlockIndex{o.x, o.y, o.z});
+  }
+}
+
+/// Merges the new blocks, from a slot on, into the order of those before.
+void BlockLayout::order_blocks(std::uint32_t first_new) {
+  const auto is_before = [&](std::uint32_t a, std::uint32_t b) { return blocks_[a] < blocks_[b]; };
+  const bool were_in_order = rank_.empty();
+  if (were_in_order &&
+      std::is_sorted(blocks_.begin() + (first_new > 0 ? first_new - 1 : 0), blocks_.end()))
+    return;
+  if (were_in_order) {
+    by_rank_.resize(first_new);
+    std::iota(by_rank_.begin(), by_rank_.end(), 0u);
+  }
+  by_rank_.resize(blocks_.size());
+  const auto middle = by_rank_.begin() + first_new;
+  std::iota(middle, by_rank_.end(), first_new);
+  std::sort(middle, by_rank_.end(), is_before);
+  std::inplace_merge(by_rank_.begin(), middle, by_rank_.end(), is_before);
+  rank_.resize(blocks_.size());
+  for (std::uint32_t rank = 0; rank < by_rank_.size(); ++rank) rank_[by_rank_[rank]] = rank;
+}
+
+std::uint64_t BlockLayout::stamp_of_first(std::uint32_t count) const {
+  return stamped(0, blocks().first(count));
 }
 
 void BlockLayout::index_blocks() {
@@ -75,7 +153,8 @@ std::uint32_t BlockLayout::find_hashed(const BlockIndex& block) const {
 }
 
 std::size_t BlockLayout::memory_bytes() const {
-  return blocks_.capacity() * sizeof(BlockIndex) + table_.capacity() * sizeof(std::uint32_t) +
+  return blocks_.capacity() * sizeof(BlockIndex) +
+         (table_.capacity() + rank_.capacity() + by_rank_.capacity()) * sizeof(std::uint32_t) +
          neighbours_.capacity() * sizeof(neighbours_[0]);
 }
 

@@ -69,7 +69,7 @@ TEST(Basins, ClimbWithoutADip) {
     const VoxelMask traversable = traversable_voxels(esdf, 0.05);
     const Basins basins = find_basins(esdf, traversable, 0.05);
     const FreeSpace space(esdf);
-    for (const VoxelId id : traversable.members()) {
+    for (const VoxelId id : traversable.members(esdf.layout)) {
       if (basins.next[id] == kCentre) continue;
       const VoxelId next = esdf.layout.neighbour(id, basins.next[id]);
       ASSERT_EQ(space.move_clearance(id, next, basins.next[id]), esdf.squared[id]);

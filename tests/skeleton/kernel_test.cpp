@@ -89,7 +89,8 @@ VoxelMask peel_in_order(const Stage& stage) {
   const BlockLayout& layout = stage.esdf.layout;
   const VoxelMask keep = significant_peaks(stage.esdf, stage.basins);
   std::map<std::uint32_t, std::vector<VoxelId>> levels;
-  for (const VoxelId id : stage.traversable.members()) levels[stage.esdf.squared[id]].push_back(id);
+  for (const VoxelId id : stage.traversable.members(stage.esdf.layout))
+    levels[stage.esdf.squared[id]].push_back(id);
   VoxelMask left = stage.traversable, due(layout);
   for (auto& [level, work] : levels) {
     for (const VoxelId id : work) due.set(id);

@@ -40,7 +40,7 @@ std::vector<fs::path> maps() {
 /// Simple voxels that end no curve.
 std::vector<VoxelId> simple_voxels(const EsdfMap& esdf, const VoxelMask& voxels) {
   std::vector<VoxelId> simple;
-  for (const VoxelId id : voxels.members()) {
+  for (const VoxelId id : voxels.members(esdf.layout)) {
     const Cube27 cube = cube_around(esdf.layout, voxels, id);
     if (is_simple(cube) && !is_curve_end(cube)) simple.push_back(id);
   }

@@ -106,7 +106,7 @@ TEST(Thinning, LeavesNoSimpleVoxelButEnds) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     RandomShape shape = random_shape(seed);
     thin(shape.layout, shape.voxels);
-    for (const VoxelId id : shape.voxels.members()) {
+    for (const VoxelId id : shape.voxels.members(shape.layout)) {
       const Cube27 cube = cube_around(shape.layout, shape.voxels, id);
       ASSERT_TRUE(!is_simple(cube) || is_curve_end(cube)) << "seed " << seed;
     }

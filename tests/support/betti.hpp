@@ -28,7 +28,7 @@ struct Betti {
 class BettiCounter {
  public:
   BettiCounter(const BlockLayout& layout, const VoxelMask& mask) {
-    const std::vector<VoxelId> members = mask.members();
+    const std::vector<VoxelId> members = mask.members(layout);
     if (members.empty()) return;
     VoxelIndex low = layout.index_of(members[0]), high = low;
     for (const VoxelId id : members) {

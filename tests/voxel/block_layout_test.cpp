@@ -9,10 +9,14 @@
 #include <random>
 #include <set>
 
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/voxel/voxel_field.hpp"
+#include "ridgeway/voxel/voxel_mask.hpp"
 
 namespace ridgeway {
 namespace {
+
+constexpr int kFarthestBlock = BlockLayout::kFarthestBlock;
 
 struct RandomLayout {
   std::set<BlockIndex> blocks;
@@ -24,7 +28,8 @@ struct RandomLayout {
     std::vector<BlockIndex> list;
     list.reserve(61);
     for (int i = 0; i < 60; ++i) list.push_back({near(random), near(random), near(random)});
-    if (seed % 2 == 0) list.push_back({-(1 << 27), 1 << 27, 5});  // else they fill their box
+    if (seed % 2 == 0)
+      list.push_back({-kFarthestBlock, kFarthestBlock, 5});  // else they fill their box
     blocks = {list.begin(), list.end()};
     layout = BlockLayout(list);  // doubles and all
   }
@@ -82,6 +87,130 @@ TEST(BlockLayout, FinderFindsWhatTheLayoutDoesInAnyOrder) {
                     : v + VoxelIndex{hop(random), hop(random), hop(random)};
     ASSERT_EQ(finder.find(v), layout.find(v));
   }
+}
+
+TEST(BlockLayout, RefusesBlocksBeyondTheCoordinateLimitAndStaysAsItWas) {
+  EXPECT_THROW(BlockLayout({{268435456, 0, 0}}), InputError);  // whose voxels would overflow
+  BlockLayout layout({{0, 0, 0}});
+  const BlockLayout before = layout;
+  for (const auto axis : {&BlockIndex::x, &BlockIndex::y, &BlockIndex::z})
+    for (const int sign : {-1, 1}) {
+      BlockIndex block{1, 2, 3};
+      block.*axis = sign * kFarthestBlock;
+      const BlockLayout farthest({block});
+      EXPECT_EQ(farthest.find(farthest.index_of(511)), 511u);
+      EXPECT_EQ(farthest.neighbour(0, 0), kNoVoxel);
+      block.*axis += sign;
+      EXPECT_THROW(BlockLayout({block}), InputError);
+      EXPECT_THROW(layout.add(std::vector{BlockIndex{1, 0, 0}, block}), InputError);
+      EXPECT_TRUE(layout == before);
+      EXPECT_EQ(layout.stamp(), before.stamp());
+      EXPECT_EQ(layout.find_block({1, 0, 0}), BlockLayout::kNoBlock);
+    }
+}
+
+/// Blocks in a random order, and in how many steps they come.
+struct Growth {
+  std::vector<BlockIndex> blocks;  // with doubles
+  std::vector<std::size_t> steps;  // how many at once
+
+  explicit Growth(unsigned seed) {
+    const RandomLayout whole(seed);
+    blocks.assign(whole.blocks.begin(), whole.blocks.end());
+    blocks.insert(blocks.end(), whole.blocks.begin(), whole.blocks.end());
+    std::mt19937 random(seed);
+    std::shuffle(blocks.begin(), blocks.end(), random);
+    for (std::size_t left = blocks.size(); left > 0; left -= steps.back())
+      steps.push_back(std::min<std::size_t>(left, 1 + random() % 20));
+  }
+};
+
+TEST(BlockLayout, KeepsItsSlotsAndKnowsItsOrderAsBlocksAreAdded) {
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    const Growth growth(seed);
+    BlockLayout layout;
+    std::set<BlockIndex> added;
+    std::size_t first = 0;
+    for (const std::size_t step : growth.steps) {
+      const std::vector<BlockIndex> before(layout.blocks().begin(), layout.blocks().end());
+      const auto more = std::span(growth.blocks).subspan(first, step);
+      layout.add(more);
+      first += step;
+      added.insert(more.begin(), more.end());
+      ASSERT_EQ(layout.block_count(), added.size());
+      ASSERT_TRUE(std::equal(before.begin(), before.end(), layout.blocks().begin()));
+      const BlockLayout at_once({added.begin(), added.end()});
+      for (std::uint32_t order = 0; order < layout.voxel_count(); order += 37) {
+        const VoxelId id = layout.voxel_at_order(order);
+        ASSERT_EQ(layout.order_of(id), order);
+        ASSERT_EQ(layout.index_of(id), at_once.index_of(order));
+        ASSERT_EQ(layout.find(at_once.index_of(order)), id);
+        for (int d = 0; d < 27; ++d) {
+          const VoxelId a = layout.neighbour(id, d), b = at_once.neighbour(order, d);
+          ASSERT_EQ(a == kNoVoxel ? kNoVoxel : layout.order_of(a), b);
+        }
+      }
+      ASSERT_EQ(layout.is_in_order(),
+                std::is_sorted(layout.blocks().begin(), layout.blocks().end()));
+    }
+  }
+}
+
+TEST(BlockLayout, BlocksAddedInOrderLeaveItInOrder) {
+  const RandomLayout random(3);
+  BlockLayout layout;
+  for (const BlockIndex& block : random.blocks) layout.add(std::span(&block, 1));
+  EXPECT_TRUE(layout.is_in_order());
+  EXPECT_TRUE(layout == random.layout);
+  EXPECT_EQ(layout.stamp(), random.layout.stamp());
+}
+
+TEST(BlockLayout, FieldsGrowWithItAndKeepTheirValues) {
+  const Growth growth(5);
+  BlockLayout layout;
+  VoxelField<int> field(layout);
+  VoxelMask mask(layout);
+  std::size_t first = 0;
+  for (const std::size_t step : growth.steps) {
+    const BlockLayout before = layout;
+    layout.add(std::span(growth.blocks).subspan(first, step));
+    first += step;
+    if (!(layout == before)) {
+      ASSERT_FALSE(field.is_of(layout));
+      ASSERT_FALSE(mask.is_of(layout));
+    }
+    field.grow(layout, -1);
+    mask.grow(layout);
+    ASSERT_TRUE(field.is_of(layout) && mask.is_of(layout));
+    for (VoxelId id = 0; id < layout.voxel_count(); ++id) {
+      const bool is_old = id < before.voxel_count();
+      ASSERT_EQ(field[id], is_old ? static_cast<int>(id) : -1);
+      ASSERT_EQ(mask.test(id), is_old && id % 3 == 0);
+      field[id] = static_cast<int>(id);
+      if (id % 3 == 0) mask.set(id);
+    }
+  }
+  std::vector<VoxelIndex> members;
+  for (const VoxelId id : mask.members(layout)) members.push_back(layout.index_of(id));
+  const auto in_order = [](const VoxelIndex& a, const VoxelIndex& b) {
+    return std::pair(block_of(a), a) < std::pair(block_of(b), b);
+  };
+  EXPECT_TRUE(std::is_sorted(members.begin(), members.end(), in_order));
+  EXPECT_EQ(members.size(), mask.count());
+}
+
+TEST(BlockLayout, FieldsOfAnotherLayoutAreAnErrorInDebugBuilds) {
+  const BlockLayout one({{0, 0, 0}, {1, 0, 0}}), other({{0, 0, 0}, {2, 0, 0}});
+  BlockLayout turned;
+  turned.add(std::vector{BlockIndex{1, 0, 0}, BlockIndex{0, 0, 0}});
+  const VoxelMask mask(one);
+  EXPECT_TRUE(mask.is_of(BlockLayout({{1, 0, 0}, {0, 0, 0}})));  // the same blocks and slots
+  EXPECT_FALSE(mask.is_of(other));
+  EXPECT_FALSE(mask.is_of(turned));
+  EXPECT_DEBUG_DEATH(mask.members(other), "is_of");
+  EXPECT_DEBUG_DEATH(cube_around(turned, mask, 0), "is_of");
+  EXPECT_DEBUG_DEATH(VoxelMask(mask).grow(other), "stamp");
+  EXPECT_DEBUG_DEATH(VoxelField<int>(one).grow(other), "stamp");
 }
 
 TEST(BlockLayout, EmptyHoldsNothing) {

@@ -38,7 +38,7 @@ TEST(VoxelMask, IsTheSetOfTheVoxelsThatWereSet) {
     }
   }
   EXPECT_EQ(mask.count(), set.size());
-  const std::vector<VoxelId> members = mask.members();
+  const std::vector<VoxelId> members = mask.members(layout);
   EXPECT_TRUE(std::equal(members.begin(), members.end(), set.begin(), set.end()));
   std::vector<VoxelId> by_block;
   for (std::uint32_t slot = 0; slot < layout.block_count(); ++slot)

@@ -24,9 +24,7 @@ struct VoxelRange {
   double block_count() const;
 };
 
-/// No voxel of a map lies farther from the world's zero, or from the map's origin, than this many
-/// voxels, so that index arithmetic is safe.
-inline constexpr int kMaxVoxelIndex = 1'000'000'000;
+/// All voxels that a map can hold.
 inline constexpr VoxelRange kAllVoxels = {{-kMaxVoxelIndex, -kMaxVoxelIndex, -kMaxVoxelIndex},
                                           {kMaxVoxelIndex, kMaxVoxelIndex, kMaxVoxelIndex}};
 

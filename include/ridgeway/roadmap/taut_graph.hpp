@@ -56,7 +56,7 @@ TautGraph build_taut_graph(const Roadmap& roadmap, const TautConfig& config = {}
 
 /// Numbers the cells of a layout, in the order of their first blocks.
 struct BlockCells {
-  std::vector<std::uint32_t> cell_of_block;
+  std::vector<std::uint32_t> cell_of_block;  ///< by slot
   std::uint32_t count = 0;
 };
 BlockCells number_cells(const BlockLayout& layout);

@@ -21,11 +21,14 @@ struct Pass {
   VoxelId to = kNoVoxel;
 };
 
-/// Order of a queue whose top is the widest pass; equally wide ones by their handles.
+/// Order of a queue whose top is the widest pass; equally wide ones in the order of their voxels.
 struct NarrowerPass {
+  const BlockLayout* layout;
+
   bool operator()(const Pass& a, const Pass& b) const {
     if (a.level != b.level) return a.level < b.level;
-    return a.from != b.from ? a.from > b.from : a.to > b.to;
+    return a.from != b.from ? layout->order_of(a.from) > layout->order_of(b.from)
+                            : layout->order_of(a.to) > layout->order_of(b.to);
   }
 };
 
@@ -44,11 +47,11 @@ struct BasinNumbers {
 /// maximum spanning forest of all basins over all legal moves. Together they tell exactly at which
 /// radius any two voxels part.
 ///
-/// Heights are ordered by (4 d^2 / s^2, smaller handle first), so there are no ties.
+/// Heights are ordered by (4 d^2 / s^2, earlier voxel first), so there are no ties.
 struct Basins {
   VoxelField<Direction> next;    ///< towards the peak; kCentre at a peak
   BasinNumbers basin;            ///< of the voxel
-  std::vector<VoxelId> peaks;    ///< by basin, ascending handles
+  std::vector<VoxelId> peaks;    ///< by basin, in the order of voxels
   std::vector<double> dynamics;  ///< by basin: height above its pass to a higher peak, voxels
   std::vector<Pass> passes;      ///< widest first
   /// Voxels that compute_kernel cannot delete at their first turn, even if all it asks before went.

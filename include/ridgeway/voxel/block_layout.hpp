@@ -12,22 +12,46 @@
 
 namespace ridgeway {
 
-/// Which blocks of the unbounded lattice are allocated, and where. Voxel values live in arrays
-/// beside it (VoxelField, VoxelMask), one per quantity, all indexed by VoxelId, so that a stage
-/// touches only the bytes it needs and memory follows what is known, not the bounding box.
+/// Which blocks of the lattice are allocated, and where. Voxel values live in arrays beside it
+/// (VoxelField, VoxelMask), one per quantity, all indexed by VoxelId, so that a stage touches only
+/// the bytes it needs and memory follows what is known, not the bounding box.
 ///
-/// Blocks are numbered ("slots") in (z, y, x) order, so the same set of blocks gives the same
-/// numbers. Immutable after construction: safe to read from many threads.
+/// A block's number, its slot, never changes: blocks that come later take the next numbers. What
+/// must not depend on how a layout came to be (ties, orders of results, files) goes by the order of
+/// the blocks, (z, y, x), and in a block of its voxels: `order_of`. A layout that is made at once
+/// has its slots in that order.
+///
+/// Blocks lie within kFarthestBlock along each axis and are kMostBlocks (4.29e9 voxels) or fewer;
+/// otherwise InputError is thrown. Safe to read from many threads, not while blocks are added.
 class BlockLayout {
  public:
   BlockLayout() = default;
 
-  /// Takes the blocks in any order; doubles count once. At most 2^23 - 1 blocks (4.29e9 voxels).
+  /// Takes the blocks in any order; doubles count once.
   explicit BlockLayout(std::vector<BlockIndex> blocks);
+
+  /// Adds blocks behind those that are there, in the order in which they come; those that are there
+  /// already do not count. All slots stay. Fields follow by their `grow`. Takes time linear in all
+  /// blocks: many are better added at once than one by one.
+  void add(std::span<const BlockIndex> blocks);
+
+  /// Whether slots are in the blocks' order.
+  bool is_in_order() const { return rank_.empty(); }
+  /// A block's place in the order of all blocks, and the slot at a place.
+  std::uint32_t rank(std::uint32_t slot) const { return rank_.empty() ? slot : rank_[slot]; }
+  std::uint32_t slot_at(std::uint32_t rank) const { return rank_.empty() ? rank : by_rank_[rank]; }
+  /// A voxel's place in the order of all voxels, by block and then by place in it, and the voxel at
+  /// a place.
+  std::uint32_t order_of(VoxelId id) const {
+    return rank_.empty() ? id : rank_[id / kBlockVoxels] * kBlockVoxels + id % kBlockVoxels;
+  }
+  VoxelId voxel_at_order(std::uint32_t order) const {
+    return slot_at(order / kBlockVoxels) * kBlockVoxels + order % kBlockVoxels;
+  }
 
   std::uint32_t block_count() const { return static_cast<std::uint32_t>(blocks_.size()); }
   std::size_t voxel_count() const { return blocks_.size() * kBlockVoxels; }
-  std::span<const BlockIndex> blocks() const { return blocks_; }
+  std::span<const BlockIndex> blocks() const { return blocks_; }  ///< by slot
   const BlockIndex& block(std::uint32_t slot) const { return blocks_[slot]; }
 
   /// Slot of a block, or kNoBlock.
@@ -76,25 +100,42 @@ class BlockLayout {
   std::size_t memory_bytes() const;
 
   static constexpr std::uint32_t kNoBlock = 0xffffffffu;
+  static constexpr std::uint32_t kMostBlocks = (1u << 23) - 1;
+  /// One more than maps reach: where unknown space is ignored, blocks are put around the map's.
+  static constexpr int kFarthestBlock = kMaxVoxelIndex / kBlockSide + 1;
 
+  /// The same blocks in the same slots.
   friend bool operator==(const BlockLayout& a, const BlockLayout& b) {
     return a.blocks_ == b.blocks_;
   }
+
+  /// What a field remembers of the layout that it belongs to: layouts with the same blocks in the
+  /// same slots have the same stamp, others hardly ever.
+  std::uint64_t stamp() const { return stamp_; }
+  /// The stamp of the layout as it was when it had so many blocks.
+  std::uint64_t stamp_of_first(std::uint32_t count) const;
 
  private:
   /// From one number up to another; downwards more than any extent.
   static std::uint32_t steps(int from, int to) {
     return static_cast<std::uint32_t>(to) - static_cast<std::uint32_t>(from);
   }
+  void require_legal() const;
+  void drop_doubles(std::uint32_t first);
   void index_blocks();
   void hash_blocks();
   std::uint32_t find_hashed(const BlockIndex& block) const;
+  void find_neighbours(std::uint32_t slot);
+  void order_blocks(std::uint32_t first_new);
 
   std::vector<BlockIndex> blocks_;
   std::vector<std::array<std::uint32_t, 27>> neighbours_;
+  // Empty where slots are in order: places in the order by slot, and slots by place.
+  std::vector<std::uint32_t> rank_, by_rank_;
   // Slots, kNoBlock where there is none: by place in the box around all blocks, or where they are
   // few in it by hash.
   std::vector<std::uint32_t> table_;
+  std::uint64_t stamp_ = 0;
   BlockIndex low_;
   std::array<std::uint32_t, 3> extent_{};
   bool is_spread_ = false;

@@ -21,6 +21,7 @@ void for_each_member(const VoxelMask& mask, std::uint32_t slot, const Body& body
 class CubeGather {
  public:
   CubeGather(const BlockLayout& layout, const VoxelMask& mask, std::uint32_t slot) {
+    assert(mask.is_of(layout));
     for (int z = -1; z <= kBlockSide; ++z)
       for (int y = -1; y <= kBlockSide; ++y) {
         unsigned row = 0;

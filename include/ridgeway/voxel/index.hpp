@@ -44,6 +44,11 @@ struct Index3 {
   }
 };
 
+/// No voxel of a map lies farther from the lattice's zero, or from the map's origin, than this along
+/// any axis, so that sums and differences of two
+/// indices are numbers too. BlockLayout::kFarthestBlock enforces it.
+inline constexpr int kMaxVoxelIndex = 1'000'000'000;
+
 /// A voxel of the unbounded lattice, whose centre is (index + 0.5) * voxel_size in the world; or
 /// one of a map's own voxels, counted from its `origin`, which is a voxel of the lattice: then the
 /// same is its centre in the map's local frame. Layouts, fields and graphs hold the map's own.
@@ -96,8 +101,12 @@ inline int floor_to_int(double x) {
   return truncated - (static_cast<double>(truncated) > x ? 1 : 0);
 }
 
-/// The voxel that holds a point, counted in the point's frame; the point must lie within +-1e9
-/// voxels.
+/// Whether a point is a number, and not so far out that its voxel has no index.
+inline bool has_voxel(const Point& p, double voxel_size) {
+  return (p.array().abs() < kMaxVoxelIndex * voxel_size).all();
+}
+
+/// The voxel that holds a point, counted in the point's frame, for which has_voxel must hold.
 inline VoxelIndex voxel_at(const Point& p, double voxel_size) {
   return {floor_to_int(p.x() / voxel_size), floor_to_int(p.y() / voxel_size),
           floor_to_int(p.z() / voxel_size)};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <memory>
 #include <new>
 #include <type_traits>
@@ -34,7 +35,7 @@ struct UnsetAllocator : std::allocator<Value> {
 /// In what pages memory is asked for: large ones are for what queries read here and there.
 enum class Pages { kUsual, kLarge };
 
-/// One value for every voxel of a layout's blocks, in the layout's order.
+/// One value for every voxel of a layout's blocks, by handle.
 template <typename Value>
 class VoxelField {
  public:
@@ -53,10 +54,23 @@ class VoxelField {
   /// Values as they come: every one must be written before it is read.
   static VoxelField unset(const BlockLayout& layout, Pages pages = Pages::kUsual) {
     VoxelField field;
+    field.stamp_ = layout.stamp();
     field.values_.resize(layout.voxel_count());
     if (pages == Pages::kLarge)
       detail::ask_for_large_pages(field.values_.data(), field.memory_bytes());
     return field;
+  }
+
+  /// Follows a layout to which blocks were added since; their voxels get a value, the others keep
+  /// theirs.
+  void grow(const BlockLayout& layout, Value initial = {}) {
+    assert(stamp_ == layout.stamp_of_first(static_cast<std::uint32_t>(size() / kBlockVoxels)));
+    values_.resize(layout.voxel_count(), initial);
+    stamp_ = layout.stamp();
+  }
+  /// Whether this is a field of a layout, for assertions where both are handed in.
+  bool is_of(const BlockLayout& layout) const {
+    return stamp_ == layout.stamp() && size() == layout.voxel_count();
   }
 
   Value& operator[](VoxelId id) { return values_[id]; }
@@ -73,6 +87,7 @@ class VoxelField {
 
  private:
   Values values_;
+  std::uint64_t stamp_ = 0;  // of the layout
 };
 
 }  // namespace ridgeway

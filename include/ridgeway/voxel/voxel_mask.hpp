@@ -4,6 +4,7 @@
 
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstdint>
 #include <cstring>
 #include <vector>
@@ -20,7 +21,19 @@ class VoxelMask {
   using Block = std::array<std::uint64_t, kBlockSide>;  // [z], bit x + 8 y
 
   VoxelMask() = default;
-  explicit VoxelMask(const BlockLayout& layout) : blocks_(layout.block_count()) {}
+  explicit VoxelMask(const BlockLayout& layout)
+      : blocks_(layout.block_count()), stamp_(layout.stamp()) {}
+
+  /// Follows a layout to which blocks were added since; none of their voxels is a member.
+  void grow(const BlockLayout& layout) {
+    assert(stamp_ == layout.stamp_of_first(static_cast<std::uint32_t>(blocks_.size())));
+    blocks_.resize(layout.block_count());
+    stamp_ = layout.stamp();
+  }
+  /// Whether this is a mask of a layout, for assertions where both are handed in.
+  bool is_of(const BlockLayout& layout) const {
+    return stamp_ == layout.stamp() && blocks_.size() == layout.block_count();
+  }
 
   bool test(VoxelId id) const { return word(id) >> (id & 63) & 1; }
   void set(VoxelId id) { word(id) |= 1ull << (id & 63); }
@@ -38,19 +51,22 @@ class VoxelMask {
     return total;
   }
 
-  /// Members in ascending order of their handle.
-  std::vector<VoxelId> members() const {
+  /// Members in the order of their voxels (BlockLayout::order_of).
+  std::vector<VoxelId> members(const BlockLayout& layout) const {
+    assert(is_of(layout));
     std::vector<VoxelId> ids;
     ids.reserve(count());
-    for (std::uint32_t slot = 0; slot < blocks_.size(); ++slot)
+    for (std::uint32_t rank = 0; rank < blocks_.size(); ++rank) {
+      const std::uint32_t slot = layout.slot_at(rank);
       for (std::uint32_t z = 0; z < kBlockSide; ++z)
         for (std::uint64_t bits = blocks_[slot][z]; bits != 0; bits &= bits - 1)
           ids.push_back(slot * kBlockVoxels + z * 64 +
                         static_cast<VoxelId>(std::countr_zero(bits)));
+    }
     return ids;
   }
 
-  friend bool operator==(const VoxelMask&, const VoxelMask&) = default;
+  friend bool operator==(const VoxelMask& a, const VoxelMask& b) { return a.blocks_ == b.blocks_; }
   std::size_t memory_bytes() const { return blocks_.capacity() * sizeof(Block); }
 
  private:
@@ -58,6 +74,7 @@ class VoxelMask {
   const std::uint64_t& word(VoxelId id) const { return blocks_[id >> 9][id >> 6 & 7]; }
 
   std::vector<Block> blocks_;
+  std::uint64_t stamp_ = 0;  // of the layout
 };
 
 /// The voxels of a block for which holds(place in the block) is true. It should not branch: then
@@ -83,6 +100,7 @@ VoxelMask::Block block_where(const Holds& holds) {
 /// The 3x3x3 cube around a voxel, voxels outside the allocated blocks counting as absent. The
 /// voxel's own bit is included.
 inline Cube27 cube_around(const BlockLayout& layout, const VoxelMask& mask, VoxelId id) {
+  assert(mask.is_of(layout));
   const int x = static_cast<int>(id & 7), y = static_cast<int>(id >> 3 & 7),
             z = static_cast<int>(id >> 6 & 7);
   const std::uint32_t slot = id >> 9;
