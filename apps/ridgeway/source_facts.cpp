@@ -3,11 +3,11 @@
 #include "source_facts.hpp"
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 
 #include "console.hpp"
+#include "json.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/files/read_file.hpp"
 #include "ridgeway/formats/benchmark_map.hpp"
@@ -68,7 +68,7 @@ std::optional<OccupancyMap> try_voxels(const std::filesystem::path& file, const 
     for (const std::string& text : notes.notes) note(globals, text);
     return map;
   } catch (const InputError& error) {
-    if (error.remedy().starts_with("give --voxel-size")) return std::nullopt;
+    if (error.remedy().starts_with("give voxel_size")) return std::nullopt;
     throw;
   }
 }

@@ -48,7 +48,7 @@ void validate_query(const EsdfMap& esdf, const Point& start, const Point& goal, 
   require_finite(goal, "goal");
   if (radius > largest_radius(esdf))
     throw InputError("radius " + number_text(radius), "is beyond the distances that the map holds",
-                     "build the map with a larger --max-distance, or without one");
+                     "build the map with a larger max_distance, or without one");
 }
 
 QueryEnds find_ends(const EsdfMap& esdf, const Point& start, const Point& goal, double radius) {
