@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <system_error>
 #include <utility>
 
 #include "bench.hpp"
@@ -48,7 +49,7 @@ fs::path scenario_file(const fs::path& map) {
   appended += ".3dscen";
   replaced.replace_extension(".3dscen");
   for (const fs::path& file : {appended, replaced})
-    if (fs::exists(file)) return file;
+    if (std::error_code error; fs::exists(file, error)) return file;
   throw InputError(
       map.string(), "has no scenarios beside it",
       "put " + appended.filename().string() + " or " + replaced.filename().string() + " there");

@@ -146,7 +146,8 @@ void add_scan_options(Command& command, ScanOptions& options) {
 void require_folder(const std::string& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder) || ::access(folder.c_str(), W_OK) != 0)
+  if (error) throw InputError(folder, "cannot be made: " + error.message(), "give another folder");
+  if (!fs::is_directory(folder, error) || ::access(folder.c_str(), W_OK) != 0)
     throw InputError("'" + folder + "'", "is no folder that can be written to",
                      "give another folder");
 }

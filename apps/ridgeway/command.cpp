@@ -226,11 +226,6 @@ Option Command::flag(const std::string& name, bool& value, const std::string& he
   return {option, facts};
 }
 
-Option Command::text(const std::string& names, std::string& value, const std::string& help) {
-  return add_option(names, {.type = "text", .shown = "TEXT", .help = help, .initial = value},
-                    [&value](const std::string& text, const std::string&) { value = text; });
-}
-
 Option Command::path(const std::string& names, std::string& value, const std::string& help) {
   return add_option(names, {.type = "path", .shown = "PATH", .help = help, .initial = value},
                     [&value](const std::string& text, const std::string&) { value = text; });
@@ -332,6 +327,18 @@ Option Command::wholes(const std::string& names, std::vector<int>& values, Whole
                       values.clear();
                       for (const std::string& word : split(text, name))
                         values.push_back(static_cast<int>(parse_whole(word, range, name)));
+                    });
+}
+
+Option Command::tuple(const std::string& names, std::vector<double>& values, std::size_t count,
+                      const std::string& shown, const std::string& help) {
+  return add_option(names, {.type = "tuple", .shown = shown, .help = help},
+                    [&values, count, shown](const std::string& text, const std::string& name) {
+                      values = parse_numbers(text, name);
+                      if (values.size() != count)
+                        throw InputError(name + " " + in_quotes(text),
+                                         "is not " + std::to_string(count) + " numbers",
+                                         "give " + shown);
                     });
 }
 

@@ -73,7 +73,6 @@ class Command {
   void footer(const std::string& text);
 
   Option flag(const std::string& name, bool& value, const std::string& help);
-  Option text(const std::string& names, std::string& value, const std::string& help);
   /// The name of a file or a folder.
   Option path(const std::string& names, std::string& value, const std::string& help);
   Option paths(const std::string& names, std::vector<std::string>& values, const std::string& help);
@@ -103,6 +102,9 @@ class Command {
   Option wholes(const std::string& names, std::vector<int>& values, Wholes range,
                 const std::string& help);
   Option point(const std::string& names, std::optional<Point>& value, const std::string& help);
+  /// So many numbers between commas, which the help shows as "fx,fy,cx,cy".
+  Option tuple(const std::string& names, std::vector<double>& values, std::size_t count,
+               const std::string& shown, const std::string& help);
   /// Given several times.
   Option points(const std::string& names, std::vector<Point>& values, const std::string& help);
   Option box(const std::string& names, std::optional<Box>& value, const std::string& help);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "arguments.hpp"
 #include "commands.hpp"
@@ -21,7 +22,8 @@ namespace ridgeway::cli {
 namespace {
 
 struct Options {
-  std::string folder, output, intrinsics, integrator;
+  std::string folder, output, integrator;
+  std::vector<double> intrinsics;
   std::optional<double> truncation;
   FusionConfig fusion;
 };
@@ -41,10 +43,7 @@ struct Fused {
 SequenceConfig sequence_config(const Options& options) {
   SequenceConfig config;
   if (options.intrinsics.empty()) return config;
-  const std::vector<double> v = parse_numbers(options.intrinsics, "--intrinsics");
-  if (v.size() != 4)
-    throw InputError("--intrinsics " + in_quotes(options.intrinsics), "are not four numbers",
-                     "give fx,fy,cx,cy in pixels");
+  const std::vector<double>& v = options.intrinsics;
   config.intrinsics = Eigen::Vector4d(v[0], v[1], v[2], v[3]);
   return config;
 }
@@ -125,7 +124,8 @@ Kind kind_of(const std::string& folder) {
   if (holds_scans(folder)) return Kind::kScans;
   std::error_code error;
   if (!std::filesystem::is_directory(folder, error))
-    throw InputError(folder, "is no folder", "give the folder of a recording");
+    throw InputError(folder, "is no folder" + (error ? ": " + error.message() : std::string()),
+                     "give the folder of a recording");
   throw InputError(folder, "holds no recording",
                    "give a folder with depth.txt (TUM RGB-D), frame-*.depth.png (7-Scenes, "
                    "3DMatch), or scans and their poses in poses.txt");
@@ -227,8 +227,8 @@ void add_fuse_command(Command& program) {
                  "Space this near to where the sensor was is free, metres");
   command.choice("--integrator", options->integrator, {"projective", "rays"},
                  "By voxels or by rays (default: projective; scans go by rays alone)");
-  command.text("--intrinsics", options->intrinsics,
-               "fx,fy,cx,cy in pixels (default: the recording's, or its layout's)");
+  command.tuple("--intrinsics", options->intrinsics, 4, "fx,fy,cx,cy",
+                "In pixels (default: the recording's, or its layout's)");
   command.footer(
       "Folders:\n"
       "  TUM RGB-D          depth.txt, groundtruth.txt, images of 1/5000 m\n"

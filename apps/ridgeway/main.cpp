@@ -55,9 +55,17 @@ int fail(bool json, const std::string& text) {
   return kExitBadInput;
 }
 
+/// Without its middle where it is long, as a line of a file may be that is no text.
+std::string shortened(const std::string& text) {
+  constexpr std::size_t kMost = 400, kEnd = 100;
+  if (text.size() <= kMost) return text;
+  return text.substr(0, kMost - kEnd) + " ... " + text.substr(text.size() - kEnd);
+}
+
 /// Of its parts, for what() ends at a NUL that bytes of a file may hold.
 int fail(bool json, const InputError& error) {
-  return fail(json, error.where() + ": " + error.problem() + " (" + error.remedy() + ")");
+  return fail(json, shortened(error.where()) + ": " + shortened(error.problem()) + " (" +
+                        shortened(error.remedy()) + ")");
 }
 
 /// Nothing was printed yet, so that with --json there is one object all the same.

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <optional>
 #include <string_view>
+#include <system_error>
 
 #include "console.hpp"
 #include "json.hpp"
@@ -79,7 +80,9 @@ bool is_roadmap_file(const std::filesystem::path& file) {
   constexpr std::string_view kMagic = "RIDGEWAY";
   if (is_tsdf_file(file)) return false;
   if (file.extension() == ".ridge") return true;
-  if (!std::filesystem::is_regular_file(file)) return false;  // opening a pipe would wait for ever
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))
+    return false;  // opening a pipe would wait for ever
   std::string head(kMagic.size(), '\0');
   std::ifstream stream(file, std::ios::binary);
   stream.read(head.data(), static_cast<std::streamsize>(head.size()));

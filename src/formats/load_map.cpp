@@ -33,8 +33,8 @@ struct VoxelSource {
   std::function<OccupancyMap(const VoxelPlacement&)> read;
 };
 
-void tell(LoadNotes* notes, std::string note) {
-  if (notes != nullptr) notes->notes.push_back(std::move(note));
+void tell(LoadNotes* notes, std::string_view note) {
+  if (notes != nullptr) notes->notes.emplace_back(note);
 }
 
 OccupancyMap without_specks(OccupancyMap map, const LoadConfig& config, LoadNotes* notes) {

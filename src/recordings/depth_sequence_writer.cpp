@@ -27,7 +27,8 @@ SequenceWriter::SequenceWriter(const fs::path& folder, const PinholeCamera& came
   std::error_code error;
   folder_ = fs::weakly_canonical(fs::absolute(folder, error), error);  // "run/.", and links
   if (!folder_.has_filename()) folder_ = folder_.parent_path();        // "run/"
-  if (error || !folder_.has_filename())
+  if (error) detail::fail_file(folder, kProblem, error.value());
+  if (!folder_.has_filename())
     throw InputError("'" + folder.string() + "'", "is no folder that can be made",
                      "give a new folder");
   if (fs::exists(folder_, error) &&
