@@ -23,13 +23,13 @@ struct Range {
 };
 
 /// Metres: from micrometres to the size of a country.
-inline constexpr Range kLengths = {.least = 0.0, .most = 1e6, .above = true};
+inline constexpr Range kLengths = {1e-6, 1e6};
 inline constexpr Range kLengthsFromZero = {0.0, 1e6};
-inline constexpr Range kReaches = {.least = 0.0, .most = 1e6, .above = true, .endless = true};
+inline constexpr Range kReaches = {.least = 1e-6, .most = 1e6, .endless = true};
 /// Seconds of patience.
 inline constexpr Range kTimeLimits = {.least = 0.0, .most = 1e9, .above = true, .endless = true};
 /// Metres a second, a second^2, a second^3.
-inline constexpr Range kMotions = {.least = 0.0, .most = 1e6, .above = true};
+inline constexpr Range kMotions = {1e-6, 1e6};
 inline constexpr Range kDegrees = {-1e6, 1e6};
 
 /// What a whole number may be.

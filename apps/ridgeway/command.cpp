@@ -42,6 +42,7 @@ struct Program {
   std::string version;
   Globals globals;
   Job job;
+  std::string subject;  // the first positional value
   std::vector<Entry> options;
 };
 
@@ -203,8 +204,11 @@ void Command::footer(const std::string& text) {
 
 Option Command::add_option(const std::string& names, OptionFacts facts, const Reader& read) {
   const auto shared = std::make_shared<OptionFacts>(std::move(facts));
-  const auto take = [read, name = long_name(names)](const CLI::results_t& texts) {
+  const bool positional = names.front() != '-';
+  const auto take = [read, name = long_name(names), positional,
+                     program = program_.get()](const CLI::results_t& texts) {
     for (const std::string& text : texts) {
+      if (positional && program->subject.empty()) program->subject = text;
       if (text.empty())
         throw InputError(name + " ''", "is empty", "give a value, or leave the option out");
       read(text, name);
@@ -214,7 +218,7 @@ Option Command::add_option(const std::string& names, OptionFacts facts, const Re
   CLI::Option* option = app_->add_option(names, CLI::callback_t(take), shared->help);
   option->type_name(shared->shown);
   if (!shared->initial.empty()) option->default_str(shared->initial);
-  if (shared->repeated) option->expected(1, kAnyNumber)->allow_extra_args(names.front() != '-');
+  if (shared->repeated) option->expected(1, kAnyNumber)->allow_extra_args(positional);
   program_->options.push_back({app_, option, shared});
   return {option, shared};
 }
@@ -399,6 +403,8 @@ Command CommandLine::root() const { return Command(program_, program_->app); }
 
 Globals& CommandLine::globals() const { return program_->globals; }
 
+const std::string& CommandLine::subject() const { return program_->subject; }
+
 Job CommandLine::parse(std::vector<std::string> words) {
   CLI::App& app = program_->app;
   try {
@@ -430,8 +436,12 @@ Job CommandLine::parse(std::vector<std::string> words) {
 
 InputError CommandLine::with_options(const InputError& error) const {
   std::vector<std::string> options;
-  for (const CLI::Option* option : last_command(program_->app)->get_options())
-    for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+  const auto add = [&](const CLI::App& command) {
+    for (const CLI::Option* option : command.get_options())
+      for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+  };
+  add(*last_command(program_->app));
+  if (error.remedy().starts_with("build the map")) add(*program_->app.get_subcommand("build"));
   return with_option_names(error, options);
 }
 

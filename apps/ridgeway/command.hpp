@@ -146,6 +146,9 @@ class CommandLine {
   /// every option. Throws InputError for words that are not understood.
   Job parse(std::vector<std::string> words);
 
+  /// What the command was given to work on, for errors; empty where nothing was.
+  const std::string& subject() const;
+
   /// An error of the library, whose fields are named as the options of the command that was given.
   InputError with_options(const InputError& error) const;
 

@@ -89,9 +89,10 @@ int run(const CommandLine& line, const Job& job) {
     if (is_interrupted()) return report_interrupted(globals);
     return fail(globals.json, line.with_options(error));
   } catch (const std::bad_alloc&) {
+    const std::string& subject = line.subject();
     return fail(globals.json,
-                "memory: there is not enough for this (close other programs, or use "
-                "a machine with more)");
+                {subject.empty() ? "memory" : subject, "needs more memory than there is",
+                 "close other programs, or use a machine with more"});
   } catch (const std::filesystem::filesystem_error& error) {
     return fail(globals.json, error.path1().string() + ": " + error.code().message() +
                                   " (check the path and who may use it)");

@@ -24,7 +24,8 @@ constexpr Naming kNamings[] = {
     // Fields that are words of the language, too, with those around them.
     {"--bounds", "give bounds", "give --bounds"},
     {"--bounds", "larger bounds", "larger --bounds"},
-    {"--bounds", "smaller bounds", "smaller --bounds"},
+    {"--bounds", "cut the map down to a smaller box", "smaller --bounds"},
+    {"--voxel-size", "use larger voxels", "give a larger --voxel-size"},
     {"--bounds", "check bounds,", "check --bounds,"},
     {"--exclude", ", exclude and", ", --exclude and"},
     {"--unknown", "ignore the unknown", "--unknown ignore"}};

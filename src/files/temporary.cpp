@@ -13,6 +13,7 @@
 #include <cctype>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <mutex>
 #include <set>
@@ -150,8 +151,8 @@ int Temporary::move_to(const fs::path& target) {
 }
 
 void remove_temporaries() noexcept {
-  for (std::atomic<char*>& name : names)
-    if (const char* path = name.exchange(nullptr); path != nullptr) detail::remove_tree(path);
+  for (const std::atomic<char*>& name : names)
+    if (const char* path = name.load(); path != nullptr) detail::remove_tree(path);
 }
 
 }  // namespace ridgeway

@@ -56,7 +56,7 @@ void require_memory(double bytes, const std::string& name, const std::string& re
 
 void require_memory_for_blocks(double blocks, int bytes_per_voxel, const std::string& name) {
   require_memory(blocks * kBlockVoxels * bytes_per_voxel, name,
-                 "use a larger voxel_size or smaller bounds");
+                 "use larger voxels, or cut the map down to a smaller box");
 }
 
 }  // namespace ridgeway

@@ -20,7 +20,7 @@ BlockLayout::BlockLayout(std::vector<BlockIndex> blocks) : blocks_(std::move(blo
   blocks_.erase(std::unique(blocks_.begin(), blocks_.end()), blocks_.end());
   if (blocks_.size() >= (1u << 23)) {
     throw InputError("map", "needs more than 8 million blocks of 8x8x8 voxels",
-                     "use a larger voxel_size or smaller bounds");
+                     "use larger voxels, or cut the map down to a smaller box");
   }
   index_blocks();
   neighbours_.resize(blocks_.size());
