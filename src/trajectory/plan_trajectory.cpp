@@ -125,7 +125,7 @@ TrajectoryResult fly_locally(const EsdfMap& esdf, std::span<const Point> path,
   if (config.radius > largest_radius(esdf))
     throw InputError("radius " + number_text(config.radius),
                      "is beyond the distances that the map holds",
-                     "build the map with a larger --max-distance, or without one");
+                     "build the map with a larger max_distance, or without one");
   const std::vector<Point> points = distinct_points(path);
   const double began = detail::seconds_now();
   TrajectoryResult result;
