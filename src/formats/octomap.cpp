@@ -117,8 +117,9 @@ std::string describe_span(std::string_view bytes, const std::string& name,
   });
   const double s = header.voxel_size;
   std::ostringstream text;
-  text << std::setprecision(12) << range.min.x * s << ',' << range.min.y * s << ',' << range.min.z * s << " to "
-       << (range.max.x + 1) * s << ',' << (range.max.y + 1) * s << ',' << (range.max.z + 1) * s;
+  text << std::setprecision(12) << range.min.x * s << ',' << range.min.y * s << ','
+       << range.min.z * s << " to " << (range.max.x + 1) * s << ',' << (range.max.y + 1) * s << ','
+       << (range.max.z + 1) * s;
   return text.str();
 }
 

@@ -18,8 +18,8 @@ constexpr double kMostBlocks = 1e8;  // looked through for one image
 /// Which blocks an image can touch, from the farthest depth in tiles of it.
 class View {
  public:
-  View(const DepthImage& image, const PinholeCamera& camera,
-       const Eigen::Isometry3d& T_map_camera, const FusionConfig& config)
+  View(const DepthImage& image, const PinholeCamera& camera, const Eigen::Isometry3d& T_map_camera,
+       const FusionConfig& config)
       : camera_(camera),
         T_camera_map_(T_map_camera.inverse()),
         side_(kBlockSide * config.voxel_size),

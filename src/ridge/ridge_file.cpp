@@ -44,7 +44,9 @@ Roadmap load_roadmap(const std::filesystem::path& path) {
   load_voxels(reader, header, roadmap);
   load_graph(reader, header, roadmap);
 
-  auto defect = find_graph_defect(roadmap);
+  auto defect = find_size_defect(roadmap);
+  if (!defect) defect = find_site_defect(roadmap);
+  if (!defect) defect = find_graph_defect(roadmap);
   if (!defect) defect = find_taut_defect(roadmap);
   if (!defect) defect = find_attach_defect(roadmap);
   if (defect) reader.damaged(defect->part, defect->what);
@@ -53,6 +55,7 @@ Roadmap load_roadmap(const std::filesystem::path& path) {
   if (TautGraph& taut = roadmap.taut; !taut.graph.vertices.empty()) {
     index_links(taut.graph);
     taut.hubs = label_hubs(taut.graph);
+    if (taut.hubs.first.empty()) reader.damaged("taut_edges", "has too many shortest ways");
   }
   return roadmap;
 }

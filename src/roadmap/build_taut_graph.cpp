@@ -19,7 +19,6 @@ using detail::MergedCorners;
 using detail::SampledPath;
 
 constexpr double kMergeDistance = 1.0;    // radii: nearer corners may become one
-constexpr std::size_t kMostSeen = 24;     // corners listed for a cell
 constexpr std::size_t kMostTried = 72;    // looks at corners for it
 constexpr std::size_t kFirstPairs = 250;  // of places to learn from
 constexpr std::size_t kAskedPairs = 100;  // between which new paths show how much is known
@@ -52,7 +51,7 @@ std::vector<VertexId> look_around(const FreeSpace& space, double radius,
            [&](std::uint32_t j) { return detail::may_turn(corners[j], place); })) {
     if (!space.is_free(place, corners[i].place, radius)) continue;
     seen.push_back(VertexId{i});
-    if (seen.size() == kMostSeen) break;
+    if (seen.size() == TautGraph::kMostSeen) break;
   }
   return seen;
 }
@@ -82,6 +81,7 @@ class Learning {
       if (known < kKnown) continue;
       if (!link()) break;
       taut_.hubs = label_hubs(taut_.graph);
+      if (taut_.hubs.first.empty()) break;
       list_seen();
       return std::move(taut_);
     }

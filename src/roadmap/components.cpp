@@ -67,8 +67,7 @@ std::vector<Component> count_components(const EsdfMap& esdf, const VoxelMask& tr
     component_of[set] = components.size();
     components.push_back({voxels[set],
                           static_cast<double>(voxels[set]) * std::pow(esdf.voxel_size, 3),
-                          centre_in_world(esdf, widest[set]),
-                          esdf.distance(widest[set])});
+                          centre_in_world(esdf, widest[set]), esdf.distance(widest[set])});
   }
   return components;
 }

@@ -14,10 +14,10 @@
 
 namespace ridgeway {
 
-/// Makes an OccupancyMap from voxels and boxes of voxels of the lattice that come in any order. Where they
-/// overlap, occupied wins over free, free over unknown, so the order does not matter. Memory
-/// follows the touched blocks; a map that would not fit the machine is refused before its memory
-/// is taken. For one thread.
+/// Makes an OccupancyMap from voxels and boxes of voxels of the lattice that come in any order.
+/// Where they overlap, occupied wins over free, free over unknown, so the order does not matter.
+/// Memory follows the touched blocks; a map that would not fit the machine is refused before its
+/// memory is taken. For one thread.
 class OccupancyBuilder {
  public:
   struct Config {

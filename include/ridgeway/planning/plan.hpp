@@ -100,7 +100,7 @@ struct PlanResult {
   Planner answered_by = Planner::kGraph;
   /// World frame; start first, goal last: two or more where ok, else none.
   std::vector<Point> waypoints;
-  double length = 0.0;           ///< metres
+  double length = 0.0;  ///< metres
   /// Smallest distance along the path, without its escapes, to an obstacle, metres: to what is
   /// occupied and, under UnknownPolicy::kObstacle, to what is unknown. How near the path comes to
   /// either of them under any policy: Surroundings (esdf/surroundings.hpp).
@@ -115,13 +115,13 @@ struct PlanResult {
 /// unless it was computed with a max_distance.
 double largest_radius(const EsdfMap& esdf);
 
-/// Plans from start to goal (metres, world frame) for a sphere of the asked radius. Every segment of
-/// the path, but for escapes, has been verified by the free-space predicate (esdf/free_space.hpp),
-/// in the map's local frame; the waypoints given back are those moved into the world, which rounds
-/// them there (in UTM by a nanometre).
-/// The answer is exact on the voxel lattice: a path is found exactly when A* through the ESDF would
-/// find one. Thread-safe on one roadmap. Throws InputError where the configuration or a point is no
-/// number, or the radius is larger than the map knows distances for.
+/// Plans from start to goal (metres, world frame) for a sphere of the asked radius. Every segment
+/// of the path, but for escapes, has been verified by the free-space predicate
+/// (esdf/free_space.hpp), in the map's local frame; the waypoints given back are those moved into
+/// the world, which rounds them there (in UTM by a nanometre). The answer is exact on the voxel
+/// lattice: a path is found exactly when A* through the ESDF would find one. Thread-safe on one
+/// roadmap. Throws InputError where the configuration or a point is no number, or the radius is
+/// larger than the map knows distances for.
 PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
                 const PlanConfig& config = {});
 

@@ -24,6 +24,8 @@ struct Roadmap;
 struct TautGraph {
   /// More are not learnt: hub labels grow with their square, in the worst case.
   static constexpr std::size_t kMostCorners = 8192;
+  /// More are not listed for a cell.
+  static constexpr std::size_t kMostSeen = 24;
 
   SparseGraph graph;  ///< its vertices are the corners; free at its min_clearance
   HubLabels hubs;     ///< of the graph; not in the file, found when it is loaded

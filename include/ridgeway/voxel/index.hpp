@@ -44,9 +44,9 @@ struct Index3 {
   }
 };
 
-/// No voxel of a map lies farther from the lattice's zero, or from the map's origin, than this along
-/// any axis, so that sums and differences of two
-/// indices are numbers too. BlockLayout::kFarthestBlock enforces it.
+/// No voxel of a map lies farther from the lattice's zero, or from the map's origin, than this
+/// along any axis, so that sums and differences of two indices are numbers too.
+/// BlockLayout::kFarthestBlock enforces it.
 inline constexpr int kMaxVoxelIndex = 1'000'000'000;
 
 /// A voxel of the unbounded lattice, whose centre is (index + 0.5) * voxel_size in the world; or
