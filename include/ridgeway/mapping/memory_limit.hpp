@@ -15,11 +15,11 @@ inline constexpr int kMapBytesPerVoxel = 3;
 
 /// What the system says of memory: the contents of its files, empty where there is none.
 struct MemoryReadings {
-  std::string meminfo;       ///< /proc/meminfo
-  std::string group_limit;   ///< memory.max of the process's control group, bytes or "max"
-  std::string group_used;    ///< memory.current
-  std::string group_stat;    ///< memory.stat
-  std::string process_used;  ///< /proc/self/statm
+  std::string meminfo = {};       ///< /proc/meminfo
+  std::string group_limit = {};   ///< memory.max of the process's control group, bytes or "max"
+  std::string group_used = {};    ///< memory.current
+  std::string group_stat = {};    ///< memory.stat
+  std::string process_used = {};  ///< /proc/self/statm
   std::uint64_t process_limit = 1ull << 63;  ///< of its address space, bytes (ulimit -v)
 };
 MemoryReadings read_memory();
