@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <vector>
 
 #include "line_envelope.hpp"
@@ -203,6 +204,7 @@ class EnvelopeSweep {
 
 NearestSites sweep_distances(const BlockLayout& layout, const VoxelMask& obstacle,
                              bool solid_outside) {
+  assert(obstacle.is_of(layout));
   NearestSites nearest{VoxelField<std::uint32_t>::unset(layout, Pages::kLarge),
                        VoxelField<SiteOffset>::unset(layout)};
   const FirstSweep first(obstacle, solid_outside, nearest);

@@ -3,12 +3,14 @@
 #include "ridgeway/esdf/esdf.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <vector>
 
 #include "distance_sweeps.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/number_text.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "ridgeway/mapping/memory_limit.hpp"
 #include "work_domain.hpp"
 
 namespace ridgeway {
@@ -16,8 +18,11 @@ namespace {
 
 using detail::NearestSites;
 
+constexpr int kSweepBytesPerVoxel = 11;  // of blocks that sweeps pass through, with the layout
+
 VoxelMask find_obstacles(const BlockLayout& layout, const VoxelField<VoxelState>& state,
                          UnknownPolicy unknown) {
+  assert(state.is_of(layout));
   const bool solid_unknown = unknown == UnknownPolicy::kObstacle;
   VoxelMask obstacle(layout);
   parallel_for_each_index(
@@ -38,6 +43,7 @@ VoxelMask find_obstacles(const BlockLayout& layout, const VoxelField<VoxelState>
 template <typename Value>
 VoxelField<Value> move_to_layout(const BlockLayout& from, const VoxelField<Value>& field,
                                  const BlockLayout& to, Value absent, Pages pages = Pages::kUsual) {
+  assert(field.is_of(from));
   auto result = VoxelField<Value>::unset(to, pages);
   parallel_for_each_index(
       to.block_count(),
@@ -60,11 +66,13 @@ NearestSites sweep_through_unknown(const EsdfMap& map, double farthest) {
   std::vector<bool> occupied(map.layout.block_count());
   for (std::uint32_t slot = 0; slot < map.layout.block_count(); ++slot)
     occupied[slot] = map.obstacle.block(slot) != VoxelMask::Block{};
-  const BlockLayout domain = detail::sweep_domain(map.layout, occupied, farthest);
+  const BlockLayout domain =
+      detail::sweep_domain(map.layout, occupied, farthest, kSweepBytesPerVoxel);
   VoxelMask obstacle(domain);
   for (std::uint32_t slot = 0; slot < map.layout.block_count(); ++slot)
     obstacle.block(domain.find_block(map.layout.block(slot))) = map.obstacle.block(slot);
-  const NearestSites nearest = detail::sweep_distances(domain, obstacle, false);
+  NearestSites nearest = detail::sweep_distances(domain, obstacle, false);
+  if (domain == map.layout) return nearest;
   return {move_to_layout(domain, nearest.squared, map.layout, kNoSite, Pages::kLarge),
           move_to_layout(domain, nearest.offset, map.layout, SiteOffset{})};
 }
@@ -89,7 +97,13 @@ void drop_far_sites(EsdfMap& map, double farthest) {
 
 }  // namespace
 
+void validate_policy(UnknownPolicy policy) {
+  if (policy != UnknownPolicy::kObstacle && policy != UnknownPolicy::kIgnore)
+    throw InputError("unknown", "is no enumerator of UnknownPolicy", "give kObstacle or kIgnore");
+}
+
 void EsdfConfig::validate() const {
+  validate_policy(unknown);
   if (!(max_distance > 0.0))
     throw InputError("max_distance", "is " + number_text(max_distance),
                      "give a length above 0 metres, or leave it out for no limit");
@@ -108,6 +122,7 @@ EsdfMap compute_esdf(OccupancyMap map, const EsdfConfig& config) {
     esdf.state = std::move(map.state);
   } else {
     esdf.layout = detail::with_neighbour_blocks(map.layout);
+    require_memory_for_blocks(esdf.layout.block_count(), kEsdfBytesPerVoxel, "map");
     esdf.state = move_to_layout(map.layout, map.state, esdf.layout, VoxelState::kUnknown);
   }
   esdf.obstacle = find_obstacles(esdf.layout, esdf.state, esdf.unknown);

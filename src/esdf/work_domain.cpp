@@ -5,7 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
 #include <vector>
+
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/mapping/memory_limit.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -44,52 +51,141 @@ std::vector<int> blocks_to_obstacle(const BlockLayout& layout, const std::vector
   return steps;
 }
 
+/// Of the blocks that hold an obstacle, the x of each row (y, z), ascending, by y, by z.
+using ObstacleRows = std::map<int, std::map<int, std::vector<int>>>;
+
+ObstacleRows rows_of(const BlockLayout& layout, const std::vector<bool>& occupied) {
+  ObstacleRows rows;
+  for (std::uint32_t rank = 0; rank < layout.block_count(); ++rank)
+    if (const std::uint32_t slot = layout.slot_at(rank); occupied[slot]) {
+      const BlockIndex& block = layout.block(slot);
+      rows[block.z][block.y].push_back(block.x);
+    }
+  return rows;
+}
+
+/// Blocks that are collected up to what memory allows.
+class BlockSet {
+ public:
+  explicit BlockSet(int bytes_per_voxel)
+      : most_(std::min<std::uint64_t>(
+            BlockLayout::kMostBlocks,
+            available_memory_bytes() / (static_cast<std::uint64_t>(kBlockVoxels) *
+                                        static_cast<std::uint64_t>(bytes_per_voxel)))) {}
+
+  /// Adds the blocks along an axis in line with a block, from `first` to `last`.
+  void add_run(BlockIndex block, int BlockIndex::*axis, int first, int last) {
+    for (block.*axis = first; block.*axis <= last; ++(block.*axis)) {
+      blocks_.insert(block);
+      if (blocks_.size() > most_)
+        throw InputError(
+            "map", "with unknown space ignored needs more memory than is available",
+            "give a max_distance, take unknown space as an obstacle, or use larger voxels");
+    }
+  }
+
+  std::vector<BlockIndex> list() const { return {blocks_.begin(), blocks_.end()}; }
+
+ private:
+  const std::uint64_t most_;
+  std::unordered_set<BlockIndex, BlockHash> blocks_;
+};
+
+/// How far from a block, in blocks along each axis, obstacles count for target blocks that the
+/// sweeps reach from there.
+using Reach = std::unordered_map<BlockIndex, int, BlockHash>;
+
+void raise(Reach& reach, const BlockIndex& block, int radius) {
+  int& known = reach.try_emplace(block, radius).first->second;
+  known = std::max(known, radius);
+}
+
+/// The sweep along z: from the planes with obstacles in reach. Returns where it begins in them.
+Reach run_along_z(const Reach& targets, const ObstacleRows& rows, BlockSet& domain) {
+  Reach begins;
+  for (const auto& [block, radius] : targets) {
+    int first = block.z, last = block.z;
+    const auto end = rows.upper_bound(block.z + radius);
+    for (auto plane = rows.lower_bound(block.z - radius); plane != end; ++plane) {
+      raise(begins, {block.x, block.y, plane->first}, radius);
+      first = std::min(first, plane->first);
+      last = std::max(last, plane->first);
+    }
+    domain.add_run(block, &BlockIndex::z, first, last);
+  }
+  return begins;
+}
+
+/// The first and the last of some ascending numbers that are within a radius of one, if any.
+std::optional<std::pair<int, int>> range_near(const std::vector<int>& numbers, int middle,
+                                              int radius) {
+  const auto first = std::lower_bound(numbers.begin(), numbers.end(), middle - radius);
+  const auto end = std::upper_bound(first, numbers.end(), middle + radius);
+  if (first == end) return std::nullopt;
+  return std::pair(*first, *(end - 1));
+}
+
+/// Before that the sweep along y, within planes, from the rows with obstacles in reach.
+Reach run_along_y(const Reach& ends, const ObstacleRows& rows, BlockSet& domain) {
+  Reach begins;
+  for (const auto& [block, radius] : ends) {
+    int first = block.y, last = block.y;
+    const std::map<int, std::vector<int>>& plane = rows.at(block.z);
+    const auto end = plane.upper_bound(block.y + radius);
+    for (auto row = plane.lower_bound(block.y - radius); row != end; ++row) {
+      if (!range_near(row->second, block.x, radius)) continue;
+      raise(begins, {block.x, row->first, block.z}, radius);
+      first = std::min(first, row->first);
+      last = std::max(last, row->first);
+    }
+    domain.add_run(block, &BlockIndex::y, first, last);
+  }
+  return begins;
+}
+
+/// And before that the sweep along x, within rows, from their obstacles in reach.
+void run_along_x(const Reach& ends, const ObstacleRows& rows, BlockSet& domain) {
+  for (const auto& [block, radius] : ends)
+    if (const auto range = range_near(rows.at(block.z).at(block.y), block.x, radius))
+      domain.add_run(block, &BlockIndex::x, std::min(block.x, range->first),
+                     std::max(block.x, range->second));
+}
+
 }  // namespace
 
 BlockLayout with_neighbour_blocks(const BlockLayout& layout) {
-  std::vector<BlockIndex> blocks(layout.blocks().begin(), layout.blocks().end());
+  std::vector<BlockIndex> around;
   for (std::uint32_t slot = 0; slot < layout.block_count(); ++slot)
     for (int d = 0; d < 27; ++d)
       if (layout.neighbour_block(slot, d) == BlockLayout::kNoBlock) {
         const VoxelIndex o = offset_of(d);
-        blocks.push_back(layout.block(slot) + BlockIndex{o.x, o.y, o.z});
+        around.push_back(layout.block(slot) + BlockIndex{o.x, o.y, o.z});
       }
-  return BlockLayout(std::move(blocks));
+  if (layout.is_in_order()) {  // and so it stays
+    around.insert(around.end(), layout.blocks().begin(), layout.blocks().end());
+    return BlockLayout(std::move(around));
+  }
+  BlockLayout grown = layout;
+  grown.add(around);
+  return grown;
 }
 
 BlockLayout sweep_domain(const BlockLayout& target, const std::vector<bool>& occupied,
-                         double farthest) {
-  if (std::none_of(occupied.begin(), occupied.end(), [](bool any) { return any; })) return target;
+                         double farthest, int bytes_per_voxel) {
+  const ObstacleRows rows = rows_of(target, occupied);
+  if (rows.empty()) return target;
   const std::vector<int> steps = blocks_to_obstacle(target, occupied);
-  // A block k steps away lies within (k + 1) block diagonals of an obstacle voxel.
-  std::map<BlockIndex, int> reach;
-  std::vector<std::vector<BlockIndex>> by_reach;
-  const auto raise = [&](const BlockIndex& block, int radius) {
-    int& known = reach.try_emplace(block, -1).first->second;
-    if (radius <= known) return;
-    known = radius;
-    if (by_reach.size() <= static_cast<std::size_t>(radius))
-      by_reach.resize(static_cast<std::size_t>(radius) + 1);
-    by_reach[static_cast<std::size_t>(radius)].push_back(block);
-  };
+  const double most = std::min(farthest, static_cast<double>(kFarthestSite));
+  Reach targets;
   for (std::uint32_t slot = 0; slot < target.block_count(); ++slot) {
-    const double bound = std::min(std::sqrt(3.0) * kBlockSide * (steps[slot] + 1), farthest);
-    raise(target.block(slot), static_cast<int>(std::ceil(bound / kBlockSide)));
+    // A block k steps away lies within (k + 1) block diagonals of an obstacle voxel.
+    const double bound = std::min(std::sqrt(3.0) * kBlockSide * (steps[slot] + 1), most);
+    targets[target.block(slot)] = static_cast<int>(std::ceil(bound / kBlockSide));
   }
-  for (int radius = static_cast<int>(by_reach.size()) - 1; radius > 0; --radius) {
-    const std::vector<BlockIndex> blocks = by_reach[static_cast<std::size_t>(radius)];
-    for (const BlockIndex& block : blocks) {
-      if (reach[block] != radius) continue;
-      for (int d = 0; d < 27; ++d) {
-        const VoxelIndex o = offset_of(d);
-        raise(block + BlockIndex{o.x, o.y, o.z}, radius - 1);
-      }
-    }
-  }
-  std::vector<BlockIndex> blocks;
-  blocks.reserve(reach.size());
-  for (const auto& [block, radius] : reach) blocks.push_back(block);
-  return BlockLayout(std::move(blocks));
+  BlockSet domain(bytes_per_voxel);
+  const Reach in_planes = run_along_z(targets, rows, domain);
+  run_along_x(run_along_y(in_planes, rows, domain), rows, domain);
+  return BlockLayout(domain.list());
 }
 
 }  // namespace ridgeway::detail

@@ -22,7 +22,7 @@ using detail::require;
 
 constexpr double kDefaultTruncation = 4.0, kDefaultDepth = 2.0;  // voxels
 constexpr double kMostVoxels = 1e8;                              // along a ray
-constexpr double kFarthestVoxel = 0.5 * kMaxVoxelIndex;          // as .ridge files have it
+constexpr double kFarthestVoxel = 0.5 * kMaxVoxelIndex;  // so that all a ray reaches has an index
 
 void require_fits(const DepthImage& image, const PinholeCamera& camera) {
   camera.validate();
@@ -82,6 +82,9 @@ void clear_sphere(const Point& centre, double radius, TsdfMap& map) {
 }  // namespace
 
 void FusionConfig::validate() const {
+  if (integrator != Integrator::kProjective && integrator != Integrator::kRayCasting)
+    throw InputError("integrator", "is no enumerator of Integrator",
+                     "give kProjective or kRayCasting");
   validate_voxel_size(voxel_size, "voxel_size");
   require(min_range >= 0.0 && std::isfinite(min_range), "min_range", min_range,
           "give metres, 0 or more");

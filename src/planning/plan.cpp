@@ -14,6 +14,7 @@
 #include "paths/shorten.hpp"
 #include "query.hpp"
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/common/name_table.hpp"
 #include "ridgeway/common/number_text.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "route.hpp"
@@ -37,7 +38,7 @@ std::string_view name_of(PlanStatus status) {
                                                     "no_route",
                                                     "radius_too_small",
                                                     "timeout"};
-  return kNames[static_cast<std::size_t>(status)];
+  return name_in(kNames, status);
 }
 
 namespace {
@@ -46,9 +47,7 @@ constexpr std::array<std::string_view, 9> kPlannerNames{"graph",   "diagram", "e
                                                         "bitstar", "prmstar", "informedrrtstar"};
 }  // namespace
 
-std::string_view name_of(Planner planner) {
-  return kPlannerNames[static_cast<std::size_t>(planner)];
-}
+std::string_view name_of(Planner planner) { return name_in(kPlannerNames, planner); }
 
 std::string_view name_of(UnknownPolicy policy) {
   return policy == UnknownPolicy::kObstacle ? "obstacle" : "ignore";
@@ -60,9 +59,15 @@ std::optional<Planner> planner_named(std::string_view name) {
   return static_cast<Planner>(found - kPlannerNames.begin());
 }
 
+void validate_planner(Planner planner) {
+  if (!is_in(kPlannerNames, planner))
+    throw InputError("planner", "is no enumerator of Planner", "give one of those, or none");
+}
+
 double largest_radius(const EsdfMap& esdf) { return esdf.max_distance - 2.0 * esdf.voxel_size; }
 
 void PlanConfig::validate() const {
+  validate_planner(planner);
   if (is_sampling(planner))
     throw InputError("planner", "is " + std::string(name_of(planner)) + ", which samples",
                      "call plan_by_sampling");

@@ -12,6 +12,7 @@
 #include "ridgeway/common/require.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/mapping/map_edits.hpp"
+#include "ridgeway/mapping/memory_limit.hpp"
 #include "ridgeway/roadmap/build_graph.hpp"
 #include "ridgeway/roadmap/simplify_graph.hpp"
 #include "ridgeway/skeleton/diagram.hpp"
@@ -65,6 +66,7 @@ TautConfig corners_of(const BuildConfig& config) { return {.most_pairs = config.
 }  // namespace
 
 void BuildConfig::validate() const {
+  validate_policy(unknown);
   require(min_clearance > 0.0 && std::isfinite(min_clearance), "min_clearance", min_clearance,
           "give the robot's radius in metres, above 0");
   require(max_distance > min_clearance, "max_distance", max_distance,
@@ -86,6 +88,8 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
   BuildReport& report = result.report;
   Roadmap& roadmap = result.roadmap;
   StageClock clock(progress);
+  require_memory_for_blocks(map.layout.block_count(), kPipelineBytesPerVoxel - kMapBytesPerVoxel,
+                            "map");  // of which there is only the map so far
   report.voxels = count_voxels(map);
   if (report.voxels.free == 0)
     throw InputError("map", "has no free space",
@@ -98,6 +102,8 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
     map = remove_pockets(std::move(map), ball_volume(config.min_clearance));
   roadmap.esdf = compute_esdf(std::move(map), {config.unknown, config.max_distance});
   const EsdfMap& esdf = roadmap.esdf;
+  require_memory_for_blocks(esdf.layout.block_count(), kPipelineBytesPerVoxel - kEsdfBytesPerVoxel,
+                            "map");  // it may have grown
   const VoxelMask traversable = traversable_voxels(esdf, config.min_clearance);
   clock.end(report.seconds.esdf);
   report.allocated_voxels = esdf.layout.voxel_count();

@@ -91,6 +91,7 @@ std::vector<Point> sample(const EsdfMap& esdf, const Point& start, const Point& 
 }  // namespace
 
 void SamplingConfig::validate() const {
+  validate_planner(planner);
   if (!is_sampling(planner))
     throw InputError("planner", "is " + std::string(name_of(planner)) + ", which does not sample",
                      "call plan");

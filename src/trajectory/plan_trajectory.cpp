@@ -10,13 +10,13 @@
 #include "initial_spline.hpp"
 #include "ridgeway/common/clock.hpp"
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/common/name_table.hpp"
 #include "ridgeway/common/number_text.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/trajectory/verify_trajectory.hpp"
 #include "smooth_path.hpp"
 #include "speed_scaling.hpp"
 #include "straight_motion.hpp"
-#include "voxel_reach.hpp"
 #include "yaw.hpp"
 
 namespace ridgeway {
@@ -41,7 +41,7 @@ std::vector<Point> distinct_points(std::span<const Point> path) {
 bool is_free(const EsdfMap& esdf, const std::vector<Point>& path, double radius) {
   const FreeSpace space(esdf);
   for (const Point& p : path)
-    if (!detail::has_voxel(p, esdf.voxel_size)) return false;
+    if (!has_voxel(p, esdf.voxel_size)) return false;
   if (path.size() == 1) return space.is_free(path.front(), radius);
   for (std::size_t i = 1; i < path.size(); ++i)
     if (!space.is_free(path[i - 1], path[i], radius)) return false;
@@ -80,13 +80,13 @@ void require_start_within_limits(const TrajectoryConfig& config) {
 
 std::string_view name_of(TrajectoryStatus status) {
   constexpr std::array<std::string_view, 3> kNames{"ok", "path_not_free", "cannot_stop_in_time"};
-  return kNames[static_cast<std::size_t>(status)];
+  return name_in(kNames, status);
 }
 
 std::string_view name_of(TrajectoryStep step) {
   constexpr std::array<std::string_view, 5> kNames{"smooth", "pushed", "inserted", "with_stops",
                                                    "stop_and_go"};
-  return kNames[static_cast<std::size_t>(step)];
+  return name_in(kNames, step);
 }
 
 void MotionLimits::validate() const {

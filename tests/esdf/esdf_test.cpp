@@ -87,6 +87,32 @@ TEST(Esdf, IsExactThroughSpaceThatIsNotAllocated) {
   expect_equal_to_brute_force(map, config, compute_esdf(map, config));
 }
 
+TEST(Esdf, IsExactWhereFewBlocksLieScatteredAndUnknownIsIgnored) {
+  // Sites far off over gaps, and on lattices that make ties; some policies bound the distance.
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const auto below = [&](unsigned n) { return static_cast<int>(random() % n); };
+    std::vector<BlockIndex> blocks;
+    for (int i = 2 + below(8); i > 0; --i) blocks.push_back({below(6), below(6) - 3, below(6)});
+    OccupancyMap map;
+    map.voxel_size = 0.1;
+    map.layout = BlockLayout(blocks);
+    map.state = VoxelField<VoxelState>(map.layout, VoxelState::kFree);
+    const int lattice = 1 + below(4);
+    for (int i = 1 + below(6); i > 0; --i) {
+      VoxelIndex v = map.layout.index_of(static_cast<VoxelId>(random() % map.state.size()));
+      v = {v.x / lattice * lattice, v.y / lattice * lattice, v.z / lattice * lattice};
+      if (const VoxelId id = map.layout.find(v); id != kNoVoxel)
+        map.state[id] = VoxelState::kOccupied;
+    }
+    EsdfConfig config{.unknown = UnknownPolicy::kIgnore};
+    if (seed % 3 == 2) config.max_distance = 0.1 * (1 + below(20));
+    expect_equal_to_brute_force(map, config, compute_esdf(map, config));
+    if (HasFatalFailure()) return;
+  }
+}
+
 TEST(Esdf, AllocatesTheNeighboursOfKnownVoxelsWhereUnknownIsIgnored) {
   const OccupancyMap map = random_map(3);
   const EsdfMap esdf = compute_esdf(map, {.unknown = UnknownPolicy::kIgnore});
@@ -94,6 +120,10 @@ TEST(Esdf, AllocatesTheNeighboursOfKnownVoxelsWhereUnknownIsIgnored) {
     if (esdf.state[id] == VoxelState::kUnknown) continue;
     for (int d = 0; d < 27; ++d) ASSERT_NE(esdf.layout.neighbour(id, d), kNoVoxel);
   }
+}
+
+TEST(Esdf, RefusesAPolicyThatIsNone) {
+  EXPECT_THROW(compute_esdf(random_map(1), {.unknown = static_cast<UnknownPolicy>(7)}), InputError);
 }
 
 TEST(Esdf, RefusesAMaxDistanceThatIsNoLength) {

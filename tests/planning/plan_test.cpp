@@ -277,6 +277,18 @@ TEST(Roadmap, PaperDiagramStillAnswersExactly) {
   EXPECT_GE(solved, 200u);
 }
 
+TEST(Plan, EnumeratorsMadeByACastAreRefusedAndHaveNoName) {
+  for (const int value : {9, 10, 200, 255}) {
+    const auto planner = static_cast<Planner>(value);
+    EXPECT_EQ(name_of(planner), "invalid");
+    EXPECT_THROW(PlanConfig{.planner = planner}.validate(), InputError);
+  }
+  EXPECT_EQ(name_of(static_cast<PlanStatus>(10)), "invalid");
+  for (const char* name : {"graph", "informedrrtstar"})
+    EXPECT_EQ(name_of(planner_named(name).value()), name);
+  EXPECT_FALSE(planner_named("invalid"));
+}
+
 TEST(Components, TellAtWhichRadiusAndWhereTheyWouldJoin) {
   // Two rooms joined by a window of 4 x 4 voxels: a robot of 0.2 fits, one of 0.3 does not.
   const OccupancyMap map = testing::make_map(0.1, {0, 0, 0}, {61, 23, 23}, [](const VoxelIndex& v) {

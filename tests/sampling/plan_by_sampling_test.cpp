@@ -114,6 +114,12 @@ TEST(Sampling, OptimalPlannersComeCloseToTheShortestPathAndNeverBelowIt) {
   }
 }
 
+TEST(Sampling, RefusesAPlannerThatIsNone) {
+  SamplingConfig config = limited(Planner::kRrtConnect, 10);
+  config.planner = static_cast<Planner>(200);
+  EXPECT_THROW(config.validate(), InputError);
+}
+
 TEST(Sampling, FirstSolutionEndsTheSearchWithTheFirstPath) {
   const EsdfMap esdf = compute_esdf(two_rooms(false));
   for (const Planner planner : kSamplers) {

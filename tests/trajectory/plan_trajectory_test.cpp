@@ -347,6 +347,11 @@ TEST(PlanTrajectory, SaysWhenThePathIsNotFree) {
   }
 }
 
+TEST(PlanTrajectory, StatusesAndStepsMadeByACastHaveNoName) {
+  EXPECT_EQ(name_of(static_cast<TrajectoryStatus>(3)), "invalid");
+  EXPECT_EQ(name_of(static_cast<TrajectoryStep>(200)), "invalid");
+}
+
 TEST(PlanTrajectory, IsTheSameFromManyThreads) {
   const std::vector<Point> path{{5, 10, 2}, {8.7, 8.6, 2}, {11.3, 8.6, 2}, {15, 10, 2}};
   const TrajectoryResult alone = plan_trajectory(esdf(), path, {});

@@ -18,7 +18,10 @@ struct EsdfConfig {
 /// sweeps, linear in voxels, parallel, the same bytes for any number of threads. Consumes the map.
 ///
 /// Under UnknownPolicy::kIgnore the result also allocates the blocks around the map's blocks, so
-/// that every known voxel has its 26 neighbours.
+/// that every known voxel has its 26 neighbours. Throws InputError where memory would not do.
+///
+/// The map is taken by value, as its states become the field's: who moves it in spares a byte a
+/// voxel, who hands in a copy keeps the map.
 EsdfMap compute_esdf(OccupancyMap map, const EsdfConfig& config = {});
 
 }  // namespace ridgeway

@@ -17,6 +17,9 @@ enum class UnknownPolicy : std::uint8_t {
   kIgnore = 1,    ///< pushes no distances, but a path stays in known-free voxels
 };
 
+/// Throws InputError where a policy is no enumerator.
+void validate_policy(UnknownPolicy policy);
+
 /// Offset from a voxel to its nearest site, voxels.
 struct SiteOffset {
   std::int16_t x = 0;

@@ -40,14 +40,17 @@ enum class Planner : std::uint8_t {
 };
 constexpr bool is_sampling(Planner planner) { return planner >= Planner::kRrtStar; }
 
-/// Names as in the JSON output: "ok", "start_outside_map", ...; "graph", "diagram", "esdf",
-/// "theta", "rrtstar", "rrtconnect", "bitstar", "prmstar", "informedrrtstar".
+/// Names as in the JSON output, "invalid" for what is no enumerator: "ok", "start_outside_map",
+/// ...; "graph", "diagram", "esdf", "theta", "rrtstar", "rrtconnect", "bitstar", "prmstar",
+/// "informedrrtstar".
 std::string_view name_of(PlanStatus status);
 std::string_view name_of(Planner planner);
 /// "obstacle" or "ignore".
 std::string_view name_of(UnknownPolicy policy);
 /// The planner of a name, or nothing.
 std::optional<Planner> planner_named(std::string_view name);
+/// Throws InputError where a planner is no enumerator.
+void validate_planner(Planner planner);
 
 struct PlanConfig {
   Planner planner = Planner::kGraph;

@@ -54,7 +54,8 @@ struct BuildResult {
 /// The whole pipeline: ESDF, GVD, edges, thinning, kernel, diagram, graph, attach field, taut
 /// graph. Consumes the map. Under UnknownPolicy::kIgnore free pockets smaller than the robot are
 /// taken as unknown. Same map and configuration give the same bytes for any number of threads (set
-/// by with_threads, common/parallel.hpp). Throws InputError where nothing is free.
+/// by with_threads, common/parallel.hpp). Throws InputError where nothing is free, or memory would
+/// not do.
 BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config = {},
                           const Progress& progress = {});
 

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/roadmap/build_roadmap.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/common/parallel.hpp"
+#include "support/random_maps.hpp"
+
+namespace ridgeway {
+namespace {
+
+/// Exit code: 0 where build_roadmap refuses a map for the memory that it would take. To be called
+/// in a process of its own, whose address space it bounds to a few megabytes more than it has.
+[[noreturn]] void build_with_little_memory(const OccupancyMap& map) {
+  std::ifstream statm("/proc/self/statm");
+  rlim_t pages = 0;
+  statm >> pages;
+  statm.close();
+  const rlim_t megabytes = 64;
+  const rlimit limit{pages * 4096 + megabytes * 1000000, RLIM_INFINITY};
+  if (setrlimit(RLIMIT_AS, &limit) != 0) std::_Exit(3);
+  try {
+    with_threads(1, [&] { build_roadmap(map, {.min_clearance = 0.3}); });
+  } catch (const InputError& error) {
+    std::_Exit(
+        error.where() == "map" && error.problem().find("of memory") != std::string::npos ? 0 : 2);
+  } catch (...) {
+  }
+  std::_Exit(1);
+}
+
+TEST(BuildRoadmapDeathTest, RefusesAMapThatMemoryWouldNotDoFor) {
+  const OccupancyMap map =  // of 2 MB; 78 MB as a roadmap is made of it
+      testing::make_map(0.1, {0, 0, 0}, {127, 127, 127}, [](const VoxelIndex& v) {
+        return v.z == 0 ? VoxelState::kOccupied : VoxelState::kFree;
+      });
+  EXPECT_EXIT(build_with_little_memory(map), ::testing::ExitedWithCode(0), "");
+}
+
+TEST(BuildRoadmap, RefusesAMapAtTheEndOfTheWorldAndAPolicyThatIsNone) {
+  const auto build_at = [](int block) {
+    OccupancyMap map;
+    map.voxel_size = 0.1;
+    map.layout = BlockLayout({{block, 0, 0}});
+    map.state = VoxelField<VoxelState>(map.layout, VoxelState::kFree);
+    return build_roadmap(std::move(map), {.min_clearance = 0.1}).report.traversable_voxels;
+  };
+  constexpr int kFarthest = kMaxVoxelIndex / kBlockSide;
+  for (const int block : {-kFarthest, 0, kFarthest}) EXPECT_GT(build_at(block), 0u);
+  for (const int block : {268435456, -268435456, 1 << 30, kFarthest + 2})
+    EXPECT_THROW(build_at(block), InputError);
+  EXPECT_THROW(build_roadmap(testing::random_map(1), {.unknown = static_cast<UnknownPolicy>(2)}),
+               InputError);
+}
+
+}  // namespace
+}  // namespace ridgeway
