@@ -105,7 +105,7 @@ class BlockOrder : public ::testing::TestWithParam<UnknownPolicy> {};
 
 TEST_P(BlockOrder, OfRandomMapsLeavesNoTraceInTheFileAndThePlans) {
   int built = 0, shuffled = 0;
-  for (unsigned seed = 0; seed < 100; ++seed) {
+  for (unsigned seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
     const OccupancyMap map = testing::random_map(seed, seed % 5 == 0 ? 60 : 24);
     const BuildConfig config{.min_clearance = 0.06 + 0.03 * (seed % 3), .unknown = GetParam()};
@@ -114,8 +114,8 @@ TEST_P(BlockOrder, OfRandomMapsLeavesNoTraceInTheFileAndThePlans) {
     shuffled += !grown(map, seed, 1).layout.is_in_order();
     if (HasFailure()) return;
   }
-  EXPECT_GT(built, 50);
-  EXPECT_GT(shuffled, 80);
+  EXPECT_GT(built, 30);
+  EXPECT_GT(shuffled, 30);
 }
 
 TEST_P(BlockOrder, OfARealScanLeavesNoTraceInTheFileAndThePlans) {
