@@ -50,7 +50,8 @@ constexpr std::array<std::string_view, 9> kPlannerNames{"graph",   "diagram", "e
 std::string_view name_of(Planner planner) { return name_in(kPlannerNames, planner); }
 
 std::string_view name_of(UnknownPolicy policy) {
-  return policy == UnknownPolicy::kObstacle ? "obstacle" : "ignore";
+  constexpr std::array<std::string_view, 2> kNames{"obstacle", "ignore"};
+  return name_in(kNames, policy);
 }
 
 std::optional<Planner> planner_named(std::string_view name) {

@@ -284,6 +284,7 @@ TEST(Plan, EnumeratorsMadeByACastAreRefusedAndHaveNoName) {
     EXPECT_THROW(PlanConfig{.planner = planner}.validate(), InputError);
   }
   EXPECT_EQ(name_of(static_cast<PlanStatus>(10)), "invalid");
+  EXPECT_EQ(name_of(static_cast<UnknownPolicy>(2)), "invalid");
   for (const char* name : {"graph", "informedrrtstar"})
     EXPECT_EQ(name_of(planner_named(name).value()), name);
   EXPECT_FALSE(planner_named("invalid"));
