@@ -21,7 +21,7 @@ TEST(Landscape, IsTheSameHoweverFarFromObstaclesItLies) {
     EsdfMap esdf = compute_esdf(testing::random_map(seed, 30));
     const VoxelMask traversable = traversable_voxels(esdf, 0.05);
     const detail::Landscape near = detail::survey(esdf, traversable);
-    const std::vector<VoxelId> members = traversable.members();
+    const std::vector<VoxelId> members = traversable.members(esdf.layout);
     for (const VoxelId id : members) esdf.squared[id] += kHigher;
     const detail::Landscape far = detail::survey(esdf, traversable);
     EXPECT_EQ(near.critical, far.critical);
