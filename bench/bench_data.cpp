@@ -16,6 +16,7 @@ namespace {
 Pipeline run_all() {
   Pipeline p;
   p.map = load_map(RIDGEWAY_DATA_DIR "/fr_079.bt", {});
+  p.map.origin = {};  // so that the same points do for queries and for kernels of the local frame
   p.esdf = compute_esdf(p.map, {});
   p.traversable = traversable_voxels(p.esdf, kRadius);
   p.gvd = compute_gvd(p.esdf, p.traversable);

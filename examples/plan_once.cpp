@@ -17,6 +17,7 @@ int main(int argc, char** argv) try {
   }
   const auto built =
       ridgeway::build_roadmap(ridgeway::load_map(argv[1], {}), {.min_clearance = 0.3});
+  const ridgeway::EsdfMap& esdf = built.roadmap.esdf;
   const ridgeway::SparseGraph& graph = built.roadmap.graph;
   const ridgeway::GraphComponents parts = ridgeway::connected_components(graph);
   std::size_t widest = 0;
@@ -30,7 +31,8 @@ int main(int argc, char** argv) try {
             (graph.vertices[farthest].position - start).norm())
       farthest = v;
   const ridgeway::PlanResult path =
-      ridgeway::plan(built.roadmap, start, graph.vertices[farthest].position);
+      ridgeway::plan(built.roadmap, ridgeway::to_world(esdf, start),
+                     ridgeway::to_world(esdf, graph.vertices[farthest].position));
   if (!path.ok()) {
     std::printf("no path: %s\n", ridgeway::name_of(path.status).data());
     return 2;

@@ -63,13 +63,13 @@ std::vector<std::filesystem::path> list_outputs(const Options& options) {
 void write(const Roadmap& roadmap, const std::vector<Point>& path, const Options& options,
            const std::filesystem::path& file) {
   if (file == options.json_graph)
-    write_graph_json(roadmap.graph, file);
+    write_graph_json(roadmap, file);
   else if (is_picture(file))
     draw_floor_plan(roadmap, path, file);
   else if (options.what == "diagram")
     write_diagram_ply(roadmap, file);
   else
-    write_graph(roadmap.graph, file);
+    write_graph(roadmap, file);
 }
 
 int report(const std::vector<std::filesystem::path>& files, const Globals& globals) {

@@ -12,8 +12,9 @@ namespace ridgeway::cli {
 namespace {
 
 /// Speed, acceleration and clearance over time.
-std::vector<Chart> charts_of(const FreeSpace& space, const std::vector<TrajectoryState>& states,
+std::vector<Chart> charts_of(const EsdfMap& esdf, const std::vector<TrajectoryState>& states,
                              const TrajectoryConfig& config) {
+  const FreeSpace space(esdf);
   Chart speed{"speed (m/s)", {}, {}, config.limits.max_speed, "limit"};
   Chart acceleration{"acceleration (m/s\u00b2)", {}, {}, config.limits.max_acceleration, "limit"};
   Chart clearance{"clearance (m)", {}, {}, config.radius, "robot's radius"};
@@ -21,7 +22,7 @@ std::vector<Chart> charts_of(const FreeSpace& space, const std::vector<Trajector
     for (Chart* chart : {&speed, &acceleration, &clearance}) chart->times.push_back(state.time);
     speed.values.push_back(state.velocity.norm());
     acceleration.values.push_back(state.acceleration.norm());
-    clearance.values.push_back(space.distance(state.position));
+    clearance.values.push_back(space.distance(to_local(esdf, state.position)));
   }
   return {speed, acceleration, clearance};
 }
@@ -42,7 +43,7 @@ void draw_flight(const Roadmap& roadmap, std::span<const Point> path, const Traj
   picture.raw_path.assign(path.begin(), path.end());
   picture.path_label = "trajectory";
   picture.raw_path_label = "path";
-  picture.charts = charts_of(FreeSpace(roadmap.esdf), states, config);
+  picture.charts = charts_of(roadmap.esdf, states, config);
   draw_floor_plan(roadmap, curve, out, picture);
 }
 

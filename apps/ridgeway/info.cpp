@@ -78,6 +78,7 @@ Json roadmap_json(const Options& options, const Roadmap& roadmap, const RidgeInf
                {"file_bytes", std::filesystem::file_size(options.file)},
                {"source", roadmap.source},
                {"voxel_size", roadmap.esdf.voxel_size},
+               {"origin", {roadmap.esdf.origin.x, roadmap.esdf.origin.y, roadmap.esdf.origin.z}},
                {"unknown_policy", name_of(roadmap.esdf.unknown)},
                {"max_distance", roadmap.esdf.max_distance},
                {"min_clearance", roadmap.min_clearance}};

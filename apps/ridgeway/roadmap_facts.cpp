@@ -17,7 +17,7 @@ std::string metres_at_most(double value) { return metres(rounded_down(value)); }
 
 std::string explain_collision(const Roadmap& roadmap, const Query& query, const Point& place,
                               bool escapes) {
-  const double distance = FreeSpace(roadmap.esdf).distance(place);
+  const double distance = FreeSpace(roadmap.esdf).distance(to_local(roadmap.esdf, place));
   std::string text = "it is " + metres(distance) + " from the nearest obstacle";
   if (distance >= query.radius)
     return text + ", but no voxel beside it can be reached at a radius of " + metres(query.radius) +
@@ -62,7 +62,7 @@ std::string explain_endpoint(const Roadmap& roadmap, const Query& query, PlanSta
 }  // namespace
 
 OccupancyMap occupancy_of(const EsdfMap& esdf) {
-  return {esdf.voxel_size, esdf.layout, esdf.state};
+  return {esdf.voxel_size, esdf.origin, esdf.layout, esdf.state};
 }
 
 std::string AnswerFacts::explain_no_route(const Query& query) {

@@ -113,6 +113,7 @@ EsdfMap compute_esdf(OccupancyMap map, const EsdfConfig& config) {
   config.validate();
   EsdfMap esdf;
   esdf.voxel_size = map.voxel_size;
+  esdf.origin = map.origin;
   esdf.unknown = config.unknown;
   esdf.max_distance = config.max_distance;
   const double farthest = config.max_distance / map.voxel_size;

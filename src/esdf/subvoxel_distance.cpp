@@ -49,12 +49,16 @@ Eigen::Vector3d offset_to_surface(const TsdfMap& tsdf, const VoxelIndex& site) {
 class Refinement {
  public:
   Refinement(const EsdfMap& esdf, const TsdfMap& tsdf)
-      : esdf_(esdf), tsdf_(tsdf), to_surface_(esdf.layout, Eigen::Vector3f::Zero()) {}
+      : esdf_(esdf),
+        tsdf_(tsdf),
+        to_tsdf_(esdf.origin - tsdf.origin),
+        to_surface_(esdf.layout, Eigen::Vector3f::Zero()) {}
 
   SubvoxelDistances run() {
     detail::for_each_voxel(esdf_.layout, [&](VoxelId id) {
       if (esdf_.obstacle.test(id))
-        to_surface_[id] = offset_to_surface(tsdf_, esdf_.layout.index_of(id)).cast<float>();
+        to_surface_[id] =
+            offset_to_surface(tsdf_, esdf_.layout.index_of(id) + to_tsdf_).cast<float>();
     });
     SubvoxelDistances result{VoxelField<float>(esdf_.layout)};
     std::vector<double> change(esdf_.layout.block_count(), 0.0);  // the largest of each block
@@ -74,7 +78,7 @@ class Refinement {
     const VoxelIndex voxel = esdf_.layout.index_of(id);
     if (esdf_.obstacle.test(id)) {
       double value = 0.0;
-      value_at(tsdf_, voxel, value);
+      value_at(tsdf_, voxel + to_tsdf_, value);
       return std::min(value, 0.0);
     }
     double nearest = std::numeric_limits<double>::infinity();
@@ -104,6 +108,7 @@ class Refinement {
 
   const EsdfMap& esdf_;
   const TsdfMap& tsdf_;
+  const VoxelIndex to_tsdf_;                // from the ESDF's voxels to the others
   VoxelField<Eigen::Vector3f> to_surface_;  // of obstacle voxels
 };
 

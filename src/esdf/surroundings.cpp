@@ -148,7 +148,9 @@ Surroundings::Kind Surroundings::voxels_of(VoxelState state) const {
   return kind;
 }
 
-PathSurroundings Surroundings::along(std::span<const Point> path, double radius) const {
+PathSurroundings Surroundings::along(std::span<const Point> path_world, double radius) const {
+  std::vector<Point> path;
+  for (const Point& p : path_world) path.push_back(to_local(esdf_, p));
   PathSurroundings result;
   const double s = esdf_.voxel_size;
   result.known = s * Nearest(*this, known_).along(path);

@@ -104,7 +104,7 @@ std::string complaint_about_motion(const FlightVerdict& seen, const MotionLimits
 }  // namespace
 
 FlightJudge::FlightJudge(const OccupancyMap& map, UnknownPolicy policy)
-    : voxel_size_(map.voxel_size), policy_(policy) {
+    : voxel_size_(map.voxel_size), to_own_(VoxelIndex{} - map.origin), policy_(policy) {
   if (map.layout.block_count() == 0)
     throw InputError("the map", "has no voxels", "give a map of something");
   low_ = high_ = map.layout.index_of(0);
@@ -123,10 +123,16 @@ FlightJudge::FlightJudge(const OccupancyMap& map, UnknownPolicy policy)
       for (int x = low_.x; x <= high_.x; ++x) states_.push_back(map.at({x, y, z}));
 }
 
-FlightVerdict FlightJudge::judge(const TrajectoryResult& flown, const Point& start,
-                                 const Point& goal, const TrajectoryConfig& config) const {
+FlightVerdict FlightJudge::judge(const TrajectoryResult& flown, const Point& start_world,
+                                 const Point& goal_world, const TrajectoryConfig& config) const {
   FlightVerdict verdict;
-  const std::vector<TrajectorySegment>& segments = flown.trajectory.segments;
+  const Point start = moved(start_world, to_own_, voxel_size_),
+              goal = moved(goal_world, to_own_, voxel_size_);
+  std::vector<TrajectorySegment> segments = flown.trajectory.segments;
+  for (TrajectorySegment& segment : segments) {
+    const Point begin = segment.coefficients.col(0).head<3>();
+    segment.coefficients.col(0).head<3>() = moved(begin, to_own_, voxel_size_);
+  }
   if (segments.empty()) {
     verdict.complaint = "no segments";
     return verdict;

@@ -41,7 +41,8 @@ std::vector<Flight> draw_queries(const Roadmap& roadmap, const FlightsConfig& co
   Random random(config.seed);
   const auto place = [&] {
     const VoxelId id = places[random.below(places.size())];
-    return centre_of(roadmap.esdf.layout.index_of(id), roadmap.esdf.voxel_size);
+    const EsdfMap& esdf = roadmap.esdf;
+    return to_world(esdf, centre_of(esdf.layout.index_of(id), esdf.voxel_size));
   };
   std::vector<Flight> flights;
   for (std::size_t draw = 0;

@@ -43,7 +43,7 @@ FusionSpeed measure(const World& world, const std::vector<Scan>& scans,
   for (VoxelId id = 0; id < map.layout.voxel_count(); ++id) {
     const auto distance = static_cast<double>(map.distance[id]);
     if (!(map.weight[id] > 0.0f) || std::abs(distance) >= 0.99 * map.truncation) continue;
-    const Point centre = centre_of(map.layout.index_of(id), map.voxel_size);
+    const Point centre = to_world(map, centre_of(map.layout.index_of(id), map.voxel_size));
     const double exact = surface_distance(world, centre).distance;
     errors.push_back(std::abs(distance - exact) / map.voxel_size);
     result.mean_error += errors.back();

@@ -37,7 +37,8 @@ std::vector<Query> draw_queries(const Roadmap& roadmap, std::size_t count, std::
       traversable_voxels(esdf, roadmap.min_clearance).members(esdf.layout);
   Random random(seed);
   const auto place = [&] {
-    return centre_of(esdf.layout.index_of(places[random.below(places.size())]), esdf.voxel_size);
+    const VoxelIndex voxel = esdf.layout.index_of(places[random.below(places.size())]);
+    return to_world(esdf, centre_of(voxel, esdf.voxel_size));
   };
   std::vector<Query> queries;
   while (queries.size() < count) {

@@ -99,9 +99,10 @@ std::vector<Pair> common_pairs(const World& world, const NoiseConfig& config,
     for (std::size_t i = 0; i < maps.size(); ++i) {
       if (distance < config.min_clearance + maps[i].voxel_size) return false;
       const EsdfMap& esdf = maps[i].built.roadmap.esdf;
-      const VoxelId id = esdf.layout.find(voxel_at(p, maps[i].voxel_size));
+      const Point p_local = to_local(esdf, p);
+      const VoxelId id = esdf.layout.find(voxel_at(p_local, maps[i].voxel_size));
       if (id == kNoVoxel || !main[i].test(id)) return false;
-      if (!FreeSpace(esdf).is_free(p, config.min_clearance)) return false;
+      if (!FreeSpace(esdf).is_free(p_local, config.min_clearance)) return false;
     }
     return true;
   };

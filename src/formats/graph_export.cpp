@@ -63,14 +63,16 @@ void write_bytes(const std::filesystem::path& path, const Bytes& bytes) {
 
 }  // namespace
 
-void write_graph_json(const SparseGraph& graph, const std::filesystem::path& path) {
+void write_graph_json(const Roadmap& roadmap, const std::filesystem::path& path) {
+  const SparseGraph& graph = roadmap.graph;
   std::string text = "{\n\"directed\": false,\n\"multigraph\": false,\n\"graph\": {";
   text += "\"min_clearance\": " + json_number(graph.min_clearance) + "},\n\"nodes\": [";
   for (std::size_t i = 0; i < graph.vertices.size(); ++i) {
     const Vertex& v = graph.vertices[i];
+    const Point place = to_world(roadmap.esdf, v.position);
     text += i == 0 ? "\n" : ",\n";
-    text += "{\"id\": " + number_text(i) + ", \"x\": " + json_number(v.position.x()) +
-            ", \"y\": " + json_number(v.position.y()) + ", \"z\": " + json_number(v.position.z()) +
+    text += "{\"id\": " + number_text(i) + ", \"x\": " + json_number(place.x()) +
+            ", \"y\": " + json_number(place.y()) + ", \"z\": " + json_number(place.z()) +
             ", \"clearance\": " + json_number(v.clearance) + "}";
   }
   text += "],\n\"links\": [";
@@ -86,7 +88,8 @@ void write_graph_json(const SparseGraph& graph, const std::filesystem::path& pat
   write_text_file(path, text);
 }
 
-void write_graph_graphml(const SparseGraph& graph, const std::filesystem::path& path) {
+void write_graph_graphml(const Roadmap& roadmap, const std::filesystem::path& path) {
+  const SparseGraph& graph = roadmap.graph;
   std::string text =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n"
@@ -101,8 +104,9 @@ void write_graph_graphml(const SparseGraph& graph, const std::filesystem::path& 
   text += data_element("m", graph.min_clearance) + "\n";
   for (std::size_t i = 0; i < graph.vertices.size(); ++i) {
     const Vertex& v = graph.vertices[i];
-    text += "<node id=\"n" + number_text(i) + "\">" + data_element("x", v.position.x()) +
-            data_element("y", v.position.y()) + data_element("z", v.position.z()) +
+    const Point place = to_world(roadmap.esdf, v.position);
+    text += "<node id=\"n" + number_text(i) + "\">" + data_element("x", place.x()) +
+            data_element("y", place.y()) + data_element("z", place.z()) +
             data_element("c", v.clearance) + "</node>\n";
   }
   for (const Edge& edge : graph.edges) {
@@ -114,7 +118,8 @@ void write_graph_graphml(const SparseGraph& graph, const std::filesystem::path& 
   write_text_file(path, text);
 }
 
-void write_graph_ply(const SparseGraph& graph, const std::filesystem::path& path) {
+void write_graph_ply(const Roadmap& roadmap, const std::filesystem::path& path) {
+  const SparseGraph& graph = roadmap.graph;
   std::vector<double> clearances;
   for (const Vertex& v : graph.vertices) clearances.push_back(v.clearance);
   const double widest = widest_clearance(clearances);
@@ -126,7 +131,7 @@ void write_graph_ply(const SparseGraph& graph, const std::filesystem::path& path
                          "\nproperty int vertex1\nproperty int vertex2\n"
                          "property double clearance\nend_header\n");
   for (const Vertex& v : graph.vertices) {
-    append_ply_vertex(bytes, v.position, v.clearance, widest);
+    append_ply_vertex(bytes, to_world(roadmap.esdf, v.position), v.clearance, widest);
   }
   for (const Edge& edge : graph.edges) {
     append_number(bytes, static_cast<std::uint32_t>(edge.from));
@@ -149,16 +154,16 @@ void write_diagram_ply(const Roadmap& roadmap, const std::filesystem::path& path
   append_text(bytes, std::string(kPlyVertexProperties) + "end_header\n");
   for (std::size_t i = 0; i < voxels.size(); ++i) {
     const Point centre = centre_of(esdf.layout.index_of(voxels[i]), esdf.voxel_size);
-    append_ply_vertex(bytes, centre, clearances[i], widest);
+    append_ply_vertex(bytes, to_world(esdf, centre), clearances[i], widest);
   }
   write_bytes(path, bytes);
 }
 
-void write_graph(const SparseGraph& graph, const std::filesystem::path& path) {
+void write_graph(const Roadmap& roadmap, const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
-  if (extension == ".json") return write_graph_json(graph, path);
-  if (extension == ".graphml") return write_graph_graphml(graph, path);
-  if (extension == ".ply") return write_graph_ply(graph, path);
+  if (extension == ".json") return write_graph_json(roadmap, path);
+  if (extension == ".graphml") return write_graph_graphml(roadmap, path);
+  if (extension == ".ply") return write_graph_ply(roadmap, path);
   throw InputError(path.string(), "names no format that a graph can be written in",
                    "use .json, .graphml or .ply");
 }

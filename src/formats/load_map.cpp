@@ -158,7 +158,7 @@ OccupancyMap load_fused_map(const std::filesystem::path& file, const LoadConfig&
             fused.voxel_size,
             {.clip = placement.clip, .bytes_per_voxel = placement.bytes_per_voxel, .name = name});
         for (VoxelId id = 0; id < fused.layout.voxel_count(); ++id) {
-          const VoxelIndex voxel = fused.layout.index_of(id);
+          const VoxelIndex voxel = fused.origin + fused.layout.index_of(id);
           if (fused.state[id] != VoxelState::kUnknown)
             builder.set(placement.motion({voxel, voxel}).min, fused.state[id]);
         }

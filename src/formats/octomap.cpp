@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iomanip>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -116,7 +117,7 @@ std::string describe_span(std::string_view bytes, const std::string& name,
   });
   const double s = header.voxel_size;
   std::ostringstream text;
-  text << range.min.x * s << ',' << range.min.y * s << ',' << range.min.z * s << " to "
+  text << std::setprecision(12) << range.min.x * s << ',' << range.min.y * s << ',' << range.min.z * s << " to "
        << (range.max.x + 1) * s << ',' << (range.max.y + 1) * s << ',' << (range.max.z + 1) * s;
   return text.str();
 }
@@ -132,6 +133,7 @@ double check_tree(std::string_view bytes, const std::string& name, const Octomap
   std::optional<BlockIndex> last;
   const std::uint64_t nodes = walk_tree(reader, header, [&](const Cube& cube, VoxelState state) {
     any_free |= state == VoxelState::kFree;
+    if (placement.clip == kAllVoxels) require_within_reach(placement.motion(cube.voxels()), name);
     if (cube.side >= kBlockSide) {
       const VoxelRange kept = intersection(placement.motion(cube.voxels()), placement.clip);
       if (kept.empty()) return;

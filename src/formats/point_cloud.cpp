@@ -2,11 +2,14 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "ridgeway/formats/point_cloud.hpp"
 
+#include <iomanip>
+#include <optional>
 #include <sstream>
 #include <utility>
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/number_text.hpp"
+#include "ridgeway/mapping/map_transform.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
 
 namespace ridgeway {
@@ -14,7 +17,7 @@ namespace {
 
 std::string describe(const Point& p) {
   std::ostringstream text;
-  text << p.x() << ',' << p.y() << ',' << p.z();
+  text << std::setprecision(12) << p.x() << ',' << p.y() << ',' << p.z();
   return text.str();
 }
 
@@ -32,6 +35,26 @@ VoxelRange checked_range(const Box& bounds, double voxel_size) {
   }
   return range;
 }
+
+/// Finds the voxels of points. A transform by whole voxels moves the voxels, not the points: that
+/// leaves them where they are in their voxels, however far it goes.
+class CloudVoxels {
+ public:
+  CloudVoxels(const Eigen::Isometry3d& T_map_cloud, double voxel_size) : voxel_size_(voxel_size) {
+    const auto motion = find_lattice_transform(T_map_cloud, voxel_size);
+    if (motion && motion->source_axis == LatticeTransform{}.source_axis &&
+        motion->flipped == LatticeTransform{}.flipped)
+      shift_ = {motion->shift[0], motion->shift[1], motion->shift[2]};
+  }
+
+  VoxelIndex find(const Point& point_cloud, const Point& point_map) const {
+    return shift_ ? voxel_at(point_cloud, voxel_size_) + *shift_ : voxel_at(point_map, voxel_size_);
+  }
+
+ private:
+  double voxel_size_;
+  std::optional<VoxelIndex> shift_;
+};
 
 }  // namespace
 
@@ -51,14 +74,15 @@ OccupancyMap map_from_points(const PointCloud& cloud, const CloudMapConfig& conf
   OccupancyBuilder builder(config.voxel_size, {.clip = grown(known, config.margin), .name = name});
   builder.fill(known, VoxelState::kFree);
   const double reach = kMaxVoxelIndex * config.voxel_size;
+  const CloudVoxels voxels(config.T_map_cloud, config.voxel_size);
   std::size_t inside = 0;
   for (const Point& point_cloud : cloud.points) {
     const Point point = config.T_map_cloud * point_cloud;
-    if (!(point.cwiseAbs().maxCoeff() < reach)) {
+    if (!(point.cwiseAbs().maxCoeff() < reach && point_cloud.cwiseAbs().maxCoeff() < reach)) {
       throw InputError(name, "has a point at " + describe(point) + ", beyond 1e9 voxels",
                        "check the units of the cloud and --voxel-size");
     }
-    const VoxelIndex voxel = voxel_at(point, config.voxel_size);
+    const VoxelIndex voxel = voxels.find(point_cloud, point);
     inside += known.contains(voxel) ? 1 : 0;
     builder.set(voxel, VoxelState::kOccupied);
   }

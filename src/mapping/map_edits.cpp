@@ -42,6 +42,7 @@ OccupancyMap with_blocks(OccupancyMap map, std::vector<BlockIndex> more) {
   more.insert(more.end(), map.layout.blocks().begin(), map.layout.blocks().end());
   OccupancyMap result;
   result.voxel_size = map.voxel_size;
+  result.origin = map.origin;
   result.layout = BlockLayout(std::move(more));
   result.state = VoxelField<VoxelState>(result.layout);
   for_each_block(map.layout, [&](std::uint32_t slot, const VoxelRange&) {
@@ -52,12 +53,9 @@ OccupancyMap with_blocks(OccupancyMap map, std::vector<BlockIndex> more) {
   return result;
 }
 
-/// Voxels of the known bounds and one block around them.
-VoxelRange reach_of_no_fly(const OccupancyMap& map) {
-  const std::optional<Box> bounds = known_bounds(map);
-  if (!bounds) return {{0, 0, 0}, {-1, -1, -1}};
-  const VoxelRange known = grown(voxels_inside(*bounds, map.voxel_size), kBlockSide);
-  return {voxel_of(block_of(known.min), 0), voxel_of(block_of(known.max), kBlockVoxels - 1)};
+/// A range of the lattice's voxels as the map's own.
+VoxelRange own_voxels(const OccupancyMap& map, const VoxelRange& lattice) {
+  return moved(lattice, VoxelIndex{} - map.origin);
 }
 
 /// Gives every 26-connected cluster of fewer than `enough` voxels of a state another state.
@@ -86,7 +84,7 @@ void change_small_clusters(OccupancyMap& map, VoxelState state, double enough, V
 
 OccupancyMap crop(OccupancyMap map, const Box& box) {
   validate_box(box, "bounds");
-  const VoxelRange inside = voxels_inside(box, map.voxel_size);
+  const VoxelRange inside = own_voxels(map, voxels_inside(box, map.voxel_size));
   for_each_block(map.layout, [&](std::uint32_t slot, const VoxelRange& block) {
     if (inside.contains(block.min) && inside.contains(block.max)) return;
     VoxelState* states = map.state.block(slot);
@@ -94,7 +92,7 @@ OccupancyMap crop(OccupancyMap map, const Box& box) {
       if (!inside.contains(voxel_of(map.layout.block(slot), local)))
         states[local] = VoxelState::kUnknown;
   });
-  return without_unknown_blocks(std::move(map));
+  return normalised(std::move(map));
 }
 
 OccupancyMap add_no_fly(OccupancyMap map, std::span<const Box> boxes) {
@@ -102,12 +100,13 @@ OccupancyMap add_no_fly(OccupancyMap map, std::span<const Box> boxes) {
     validate_box(boxes[i], "no-fly box " + std::to_string(i + 1));
   if (boxes.empty()) return map;
 
-  const VoxelRange reach = reach_of_no_fly(map);
+  const VoxelRange reach = grown(known_range(map), kBlockSide);
   std::vector<VoxelRange> closed;
   std::vector<BlockIndex> missing;
   double block_count = map.layout.block_count();
   for (const Box& box : boxes) {
-    const VoxelRange range = intersection(voxels_overlapping(box, map.voxel_size), reach);
+    const VoxelRange range =
+        intersection(own_voxels(map, voxels_overlapping(box, map.voxel_size)), reach);
     if (range.empty()) continue;
     closed.push_back(range);
     block_count = std::max(block_count, range.block_count());
@@ -132,7 +131,7 @@ OccupancyMap add_no_fly(OccupancyMap map, std::span<const Box> boxes) {
             states[local_of({x, y, z})] = VoxelState::kOccupied;
     }
   });
-  return result;
+  return normalised(std::move(result));
 }
 
 OccupancyMap remove_isolated(OccupancyMap map, int min_cluster) {

@@ -73,7 +73,8 @@ class CachedReader {
   bool valid_ = false;
 };
 
-/// Blocks of the target lattice that the moved blocks of the source may touch.
+/// Blocks of the target that the moved blocks of the source may touch; `motion` between their own
+/// frames.
 std::vector<BlockIndex> touched_blocks(const OccupancyMap& map, const Eigen::Isometry3d& motion,
                                        double voxel_size) {
   const double side = kBlockSide * map.voxel_size, target_side = kBlockSide * voxel_size;
@@ -126,10 +127,11 @@ VoxelRange LatticeTransform::operator()(const VoxelRange& source) const {
   std::array<int, 3> first, last;
   for (std::size_t a = 0; a < 3; ++a) {
     const auto s = static_cast<std::size_t>(source_axis[a]);
-    first[a] = (flipped[a] ? -1 - high[s] : low[s]) + shift[a];
-    last[a] = (flipped[a] ? -1 - low[s] : high[s]) + shift[a];
+    first[a] = flipped[a] ? -1 - high[s] : low[s];
+    last[a] = flipped[a] ? -1 - low[s] : high[s];
   }
-  return {{first[0], first[1], first[2]}, {last[0], last[1], last[2]}};
+  return moved({{first[0], first[1], first[2]}, {last[0], last[1], last[2]}},
+               {shift[0], shift[1], shift[2]});
 }
 
 void validate_transform(const Eigen::Isometry3d& transform) {
@@ -154,7 +156,7 @@ std::optional<LatticeTransform> find_lattice_transform(const Eigen::Isometry3d& 
     const double moved = T_target_source.translation()[a] / voxel_size;
     const double off_axis = T_target_source.linear().row(a).cwiseAbs().sum() - entry;
     if (std::abs(entry - 1.0) > slack || off_axis > straight ||
-        std::abs(moved - std::round(moved)) > slack || std::abs(moved) > 0.5 * kMaxVoxelIndex)
+        std::abs(moved - std::round(moved)) > slack || std::abs(moved) > kMaxVoxelIndex)
       return std::nullopt;
     const auto place = static_cast<std::size_t>(a);
     result.source_axis[place] = axis;
@@ -174,33 +176,37 @@ OccupancyMap transform_map(const OccupancyMap& map, const Eigen::Isometry3d& T_t
     what << voxel_size << " m is finer than the map's own " << map.voxel_size << " m";
     throw InputError("voxel_size", what.str(), "leave it out, or give a larger one");
   }
-  if (T_target_source.translation().cwiseAbs().maxCoeff() / voxel_size > 0.5 * kMaxVoxelIndex)
-    throw InputError("transform", "moves the map by more than 5e8 voxels", "check its units");
+  if (T_target_source.translation().cwiseAbs().maxCoeff() / voxel_size > kMaxVoxelIndex)
+    throw InputError("transform", "moves the map by more than 1e9 voxels", "check its units");
 
   // Much coarser voxels would each read very many: turn at about the map's own size first.
   if (const double parts = std::floor(ratio + 1e-6); parts > 1.0)
     return resample(transform_map(map, T_target_source, voxel_size / parts), voxel_size);
 
+  const Point zero = T_target_source * to_world(map, Point::Zero());
   OccupancyMap result;
   result.voxel_size = voxel_size;
-  result.layout = BlockLayout(touched_blocks(map, T_target_source, voxel_size));
+  result.origin = voxel_at(zero, voxel_size);
+  Eigen::Isometry3d T_result_map = T_target_source;  // between their own frames
+  T_result_map.translation() = moved(zero, VoxelIndex{} - result.origin, voxel_size);
+  result.layout = BlockLayout(touched_blocks(map, T_result_map, voxel_size));
   require_memory_for_blocks(result.layout.block_count(), kMapBytesPerVoxel, "map");
   result.state = VoxelField<VoxelState>(result.layout);
 
-  const Eigen::Isometry3d T_source_target = T_target_source.inverse();
-  const CubeOverlap overlaps(T_source_target.linear(), ratio);
+  const Eigen::Isometry3d T_map_result = T_result_map.inverse();
+  const CubeOverlap overlaps(T_map_result.linear(), ratio);
   const Eigen::Vector3d half =
-      0.5 * ratio * T_source_target.linear().cwiseAbs() * Eigen::Vector3d::Ones();
+      0.5 * ratio * T_map_result.linear().cwiseAbs() * Eigen::Vector3d::Ones();
   parallel_for_each_index(result.layout.block_count(), [&](std::size_t i) {
     const auto slot = static_cast<std::uint32_t>(i);
     CachedReader read(map);
     for (int local = 0; local < kBlockVoxels; ++local) {
       const VoxelIndex v = voxel_of(result.layout.block(slot), local);
-      const Point centre = T_source_target * centre_of(v, voxel_size) / map.voxel_size;
+      const Point centre = T_map_result * centre_of(v, voxel_size) / map.voxel_size;
       result.state.block(slot)[local] = state_around(centre, half, overlaps, read);
     }
   });
-  return without_unknown_blocks(std::move(result));
+  return normalised(std::move(result));
 }
 
 }  // namespace ridgeway

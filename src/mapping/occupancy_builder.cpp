@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/parallel.hpp"
 
 namespace ridgeway {
 
@@ -42,7 +41,12 @@ OccupancyBuilder::Block& OccupancyBuilder::find_or_add(const BlockIndex& index) 
   return *place->second;
 }
 
+void OccupancyBuilder::require_reach_of(const VoxelRange& range) const {
+  if (config_.clip == kAllVoxels) require_within_reach(range, config_.name);
+}
+
 void OccupancyBuilder::fill(const VoxelRange& range, VoxelState state) {
+  require_reach_of(range);
   const VoxelRange clipped = intersection(range, config_.clip);
   if (clipped.empty() || state == VoxelState::kUnknown) return;
   if (clipped.block_count() > static_cast<double>(block_limit_))
@@ -78,31 +82,9 @@ OccupancyMap OccupancyBuilder::finish() && {
   map.state = VoxelField<VoxelState>(map.layout);
   for (const auto& [index, block] : table_)
     std::copy(block->begin(), block->end(), map.state.block(map.layout.find_block(index)));
-  return map;
-}
-
-OccupancyMap without_unknown_blocks(OccupancyMap map) {
-  std::vector<BlockIndex> kept;
-  for (std::uint32_t slot = 0; slot < map.layout.block_count(); ++slot) {
-    const VoxelState* states = map.state.block(slot);
-    if (std::any_of(states, states + kBlockVoxels,
-                    [](VoxelState s) { return s != VoxelState::kUnknown; }))
-      kept.push_back(map.layout.block(slot));
-  }
-  if (kept.size() == map.layout.block_count()) return map;
-  OccupancyMap result;
-  result.voxel_size = map.voxel_size;
-  result.layout = BlockLayout(std::move(kept));
-  result.state = VoxelField<VoxelState>(result.layout);
-  parallel_for_each_index(
-      result.layout.block_count(),
-      [&](std::size_t i) {
-        const auto slot = static_cast<std::uint32_t>(i);
-        const VoxelState* from = map.state.block(map.layout.find_block(result.layout.block(slot)));
-        std::copy(from, from + kBlockVoxels, result.state.block(slot));
-      },
-      64);
-  return result;
+  table_.clear();
+  blocks_.clear();
+  return normalised(std::move(map));
 }
 
 }  // namespace ridgeway

@@ -3,7 +3,8 @@
 #include "ridgeway/mapping/occupancy_map.hpp"
 
 #include <algorithm>
-#include <array>
+
+#include "ridgeway/mapping/voxel_range.hpp"
 
 namespace ridgeway {
 
@@ -16,31 +17,33 @@ VoxelCounts count_voxels(const OccupancyMap& map) {
   return {.free = free, .occupied = occupied, .unknown = states.size() - free - occupied};
 }
 
-std::optional<Box> known_bounds(const OccupancyMap& map) {
-  std::optional<std::array<VoxelIndex, 2>> range;
-  const auto include = [&range](const VoxelIndex& v) {
-    if (!range) range = {v, v};
-    auto& [low, high] = *range;
-    low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
-    high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
-  };
-  const auto inside = [&range](const VoxelIndex& v) {
-    if (!range) return false;
-    const auto& [low, high] = *range;
-    return v.x >= low.x && v.y >= low.y && v.z >= low.z && v.x <= high.x && v.y <= high.y &&
-           v.z <= high.z;
-  };
+VoxelRange known_range(const OccupancyMap& map) {
+  VoxelRange known = {kAllVoxels.max, kAllVoxels.min};
   for (std::uint32_t slot = 0; slot < map.layout.block_count(); ++slot) {
     const BlockIndex& block = map.layout.block(slot);
-    if (inside(voxel_of(block, 0)) && inside(voxel_of(block, kBlockVoxels - 1))) continue;
+    if (known.contains(voxel_of(block, 0)) && known.contains(voxel_of(block, kBlockVoxels - 1)))
+      continue;
     const VoxelState* states = map.state.block(slot);
-    for (int local = 0; local < kBlockVoxels; ++local)
-      if (states[local] != VoxelState::kUnknown) include(voxel_of(block, local));
+    for (int local = 0; local < kBlockVoxels; ++local) {
+      if (states[local] == VoxelState::kUnknown) continue;
+      const VoxelIndex v = voxel_of(block, local);
+      known.min = {std::min(known.min.x, v.x), std::min(known.min.y, v.y),
+                   std::min(known.min.z, v.z)};
+      known.max = {std::max(known.max.x, v.x), std::max(known.max.y, v.y),
+                   std::max(known.max.z, v.z)};
+    }
   }
-  if (!range) return std::nullopt;
-  const auto& [low, high] = *range;
-  return Box{Point(low.x, low.y, low.z) * map.voxel_size,
-             Point(high.x + 1.0, high.y + 1.0, high.z + 1.0) * map.voxel_size};
+  return known;
+}
+
+std::optional<Box> known_bounds(const OccupancyMap& map) {
+  const VoxelRange known = known_range(map);
+  if (known.empty()) return std::nullopt;
+  const auto corner = [&map](const VoxelIndex& own) -> Point {
+    const VoxelIndex v = map.origin + own;
+    return Point(v.x, v.y, v.z) * map.voxel_size;
+  };
+  return Box{corner(known.min), corner(known.max + VoxelIndex{1, 1, 1})};
 }
 
 }  // namespace ridgeway

@@ -19,9 +19,9 @@ constexpr double kMostBlocks = 1e8;  // looked through for one image
 class View {
  public:
   View(const DepthImage& image, const PinholeCamera& camera,
-       const Eigen::Isometry3d& T_world_camera, const FusionConfig& config)
+       const Eigen::Isometry3d& T_map_camera, const FusionConfig& config)
       : camera_(camera),
-        T_camera_world_(T_world_camera.inverse()),
+        T_camera_map_(T_map_camera.inverse()),
         side_(kBlockSide * config.voxel_size),
         reach_(0.5 * std::sqrt(3.0) * side_),
         behind_(config.depth_behind),
@@ -39,17 +39,17 @@ class View {
         farthest_ = std::max(farthest_, depth);
       }
     const double end = farthest_ + behind_;
-    low_ = high_ = T_world_camera.translation();
+    low_ = high_ = T_map_camera.translation();
     for (const double u : {-0.5, image.width - 0.5})
       for (const double v : {-0.5, image.height - 0.5}) {
-        const Point corner = T_world_camera * Point(end * camera.ray(u, v));
+        const Point corner = T_map_camera * Point(end * camera.ray(u, v));
         low_ = low_.cwiseMin(corner);
         high_ = high_.cwiseMax(corner);
       }
     // Corners lie farther out than the pixels that are in range.
     const Eigen::Vector3d reach = Eigen::Vector3d::Constant(config.max_range + behind_);
-    low_ = low_.cwiseMax(T_world_camera.translation() - reach);
-    high_ = high_.cwiseMin(T_world_camera.translation() + reach);
+    low_ = low_.cwiseMax(T_map_camera.translation() - reach);
+    high_ = high_.cwiseMin(T_map_camera.translation() + reach);
   }
 
   bool sees_nothing() const { return farthest_ == 0.0; }
@@ -60,7 +60,7 @@ class View {
 
   bool sees(const BlockIndex& block) const {
     const Point centre =
-        T_camera_world_ * Point(Point(block.x + 0.5, block.y + 0.5, block.z + 0.5) * side_);
+        T_camera_map_ * Point(Point(block.x + 0.5, block.y + 0.5, block.z + 0.5) * side_);
     const double z0 = centre.z() - reach_, z1 = centre.z() + reach_;
     if (z1 <= 0.0 || z0 > farthest_ + behind_) return false;
     int u0 = 0, v0 = 0, u1 = across_ - 1, v1 = down_ - 1;
@@ -97,7 +97,7 @@ class View {
   }
 
   const PinholeCamera& camera_;
-  const Eigen::Isometry3d T_camera_world_;
+  const Eigen::Isometry3d T_camera_map_;
   const double side_, reach_, behind_;
   const bool carve_;
   const int across_, down_;
@@ -126,10 +126,10 @@ std::vector<BlockIndex> blocks_in(const View& view) {
 class BlockUpdate {
  public:
   BlockUpdate(const DepthSurfaces& surfaces, const PinholeCamera& camera,
-              const Eigen::Isometry3d& T_world_camera, const FusionConfig& config)
+              const Eigen::Isometry3d& T_map_camera, const FusionConfig& config)
       : surfaces_(surfaces),
         image_(surfaces.image()),
-        T_camera_world_(T_world_camera.inverse()),
+        T_camera_map_(T_map_camera.inverse()),
         voxel_size_(config.voxel_size),
         fx_(static_cast<float>(camera.fx)),
         fy_(static_cast<float>(camera.fy)),
@@ -142,8 +142,8 @@ class BlockUpdate {
 
   void run(const BlockIndex& index, TsdfBlock& block) const {
     const Eigen::Vector3f origin =
-        (T_camera_world_ * centre_of(voxel_of(index, 0), voxel_size_)).cast<float>();
-    const Eigen::Matrix3f step = (T_camera_world_.linear() * voxel_size_).cast<float>();
+        (T_camera_map_ * centre_of(voxel_of(index, 0), voxel_size_)).cast<float>();
+    const Eigen::Matrix3f step = (T_camera_map_.linear() * voxel_size_).cast<float>();
     int voxel = 0;
     for (int z = 0; z < kBlockSide; ++z)
       for (int y = 0; y < kBlockSide; ++y) {
@@ -207,7 +207,7 @@ class BlockUpdate {
 
   const DepthSurfaces& surfaces_;
   const DepthImage& image_;
-  const Eigen::Isometry3d T_camera_world_;
+  const Eigen::Isometry3d T_camera_map_;
   const double voxel_size_;
   const float fx_, fy_, cx_, cy_, nearby_, truncation_, behind_;
   const FusionConfig& config_;
@@ -216,9 +216,9 @@ class BlockUpdate {
 }  // namespace
 
 void integrate_projective(const DepthSurfaces& surfaces, const PinholeCamera& camera,
-                          const Eigen::Isometry3d& T_world_camera, const FusionConfig& config,
+                          const Eigen::Isometry3d& T_map_camera, const FusionConfig& config,
                           TsdfBlocks& blocks) {
-  const View view(surfaces.image(), camera, T_world_camera, config);
+  const View view(surfaces.image(), camera, T_map_camera, config);
   if (view.sees_nothing()) return;
   if (view.block_count() > kMostBlocks)
     throw InputError("voxel_size " + number_text(config.voxel_size),
@@ -229,7 +229,7 @@ void integrate_projective(const DepthSurfaces& surfaces, const PinholeCamera& ca
   std::vector<TsdfBlock*> targets;
   targets.reserve(seen.size());
   for (const BlockIndex& index : seen) targets.push_back(&blocks.find_or_add(index));
-  const BlockUpdate update(surfaces, camera, T_world_camera, config);
+  const BlockUpdate update(surfaces, camera, T_map_camera, config);
   parallel_for_each_index(seen.size(), [&](std::size_t i) { update.run(seen[i], *targets[i]); });
 }
 

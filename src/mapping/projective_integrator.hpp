@@ -11,7 +11,7 @@ namespace ridgeway::detail {
 /// Updates every voxel that a pixel of an image sees. Depths outside the range limits are 0
 /// already.
 void integrate_projective(const DepthSurfaces& surfaces, const PinholeCamera& camera,
-                          const Eigen::Isometry3d& T_world_camera, const FusionConfig& config,
+                          const Eigen::Isometry3d& T_map_camera, const FusionConfig& config,
                           TsdfBlocks& blocks);
 
 }  // namespace ridgeway::detail

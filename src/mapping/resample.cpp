@@ -22,9 +22,17 @@ struct Interval {
 };
 
 /// How voxels of two sizes overlap along one axis; `ratio` > 1 fine voxels make one coarse one.
+/// Both are counted from where their maps begin: fine voxel 0 is the lattice's voxel `origin`, and
+/// coarse voxel 0 that voxel of the coarse lattice which holds its lower plane.
 class Overlap {
  public:
-  explicit Overlap(double ratio) : ratio_(ratio) {}
+  Overlap(double ratio, int origin)
+      : ratio_(ratio),
+        coarse_origin_(static_cast<int>(std::floor(on_plane(origin / ratio)))),
+        begin_(on_plane(std::fma(ratio, coarse_origin_, -static_cast<double>(origin)))) {}
+
+  /// The coarse lattice's voxel that counts as 0.
+  int coarse_origin() const { return coarse_origin_; }
 
   /// Fine voxels that share length with a coarse one.
   Interval fine(int coarse) const {
@@ -33,7 +41,7 @@ class Overlap {
   }
   /// Coarse voxels that share length with a fine one: one or two.
   Interval coarse(int fine_index) const {
-    const int middle = static_cast<int>(std::floor((fine_index + 0.5) / ratio_));
+    const int middle = static_cast<int>(std::floor((fine_index + 0.5 - begin_) / ratio_));
     return {fine(middle - 1).last >= fine_index ? middle - 1 : middle,
             fine(middle + 1).first <= fine_index ? middle + 1 : middle};
   }
@@ -45,12 +53,28 @@ class Overlap {
  private:
   static constexpr double kFar = 2e9;  // beyond all voxels, within int
 
-  /// Lower plane of a coarse voxel in fine voxels, put onto a fine plane where it is meant to be.
-  double plane(int coarse) const {
-    const double at = std::clamp(coarse * ratio_, -kFar, kFar), nearest = std::round(at);
-    return std::abs(at - nearest) <= 1e-9 * std::max(1.0, std::abs(at)) ? nearest : at;
+  /// A coordinate in voxels, put onto a plane between them where it is meant to lie on it.
+  static double on_plane(double at) {
+    constexpr double kSlack = 1e-6;  // rounding of 1e9 voxels is less
+    const double nearest = std::round(at);
+    return std::abs(at - nearest) <= kSlack ? nearest : at;
   }
+  /// Lower plane of a coarse voxel in fine voxels.
+  double plane(int coarse) const {
+    return on_plane(std::clamp(begin_ + coarse * ratio_, -kFar, kFar));
+  }
+
   double ratio_;
+  int coarse_origin_;
+  double begin_;  // lower plane of coarse voxel 0 in fine voxels, from -ratio to 0
+};
+
+/// One along each axis.
+struct Overlaps {
+  Overlap x, y, z;
+
+  Overlaps(double ratio, const VoxelIndex& origin)
+      : x(ratio, origin.x), y(ratio, origin.y), z(ratio, origin.z) {}
 };
 
 /// A block of the coarse map and a block of the fine map that overlap.
@@ -62,15 +86,16 @@ struct BlockPair {
   }
 };
 
-std::vector<BlockPair> overlapping_blocks(const BlockLayout& fine, const Overlap& overlap) {
+std::vector<BlockPair> overlapping_blocks(const BlockLayout& fine, const Overlaps& overlaps) {
   std::vector<BlockPair> pairs;
-  const auto blocks_along = [&overlap](int fine_block) {
+  const auto blocks_along = [](const Overlap& overlap, int fine_block) {
     return Interval{overlap.coarse(fine_block * kBlockSide).first >> kBlockBits,
                     overlap.coarse(fine_block * kBlockSide + kBlockSide - 1).last >> kBlockBits};
   };
   for (std::uint32_t slot = 0; slot < fine.block_count(); ++slot) {
     const BlockIndex& block = fine.block(slot);
-    const Interval x = blocks_along(block.x), y = blocks_along(block.y), z = blocks_along(block.z);
+    const Interval x = blocks_along(overlaps.x, block.x), y = blocks_along(overlaps.y, block.y),
+                   z = blocks_along(overlaps.z, block.z);
     for (int bz = z.first; bz <= z.last; ++bz)
       for (int by = y.first; by <= y.last; ++by)
         for (int bx = x.first; bx <= x.last; ++bx) pairs.push_back({{bx, by, bz}, slot});
@@ -85,12 +110,12 @@ struct CoarseBlock {
   std::array<bool, kBlockVoxels> occupied{};
 };
 
-void accumulate(const OccupancyMap& fine, const BlockPair& pair, const Overlap& overlap,
+void accumulate(const OccupancyMap& fine, const BlockPair& pair, const Overlaps& overlaps,
                 CoarseBlock& target) {
   const BlockIndex& block = fine.layout.block(pair.fine_slot);
   const VoxelState* states = fine.state.block(pair.fine_slot);
   // Per axis and fine voxel: the part of its coarse voxels that lies in the target block.
-  const auto places = [&overlap](int fine_block, int coarse_block) {
+  const auto places = [](const Overlap& overlap, int fine_block, int coarse_block) {
     std::array<Interval, kBlockSide> result;
     for (int i = 0; i < kBlockSide; ++i) {
       const Interval coarse = overlap.coarse(fine_block * kBlockSide + i);
@@ -100,8 +125,9 @@ void accumulate(const OccupancyMap& fine, const BlockPair& pair, const Overlap& 
     }
     return result;
   };
-  const auto xs = places(block.x, pair.coarse.x), ys = places(block.y, pair.coarse.y),
-             zs = places(block.z, pair.coarse.z);
+  const auto xs = places(overlaps.x, block.x, pair.coarse.x),
+             ys = places(overlaps.y, block.y, pair.coarse.y),
+             zs = places(overlaps.z, block.z, pair.coarse.z);
   for (std::size_t local = 0; local < kBlockVoxels; ++local) {
     if (states[local] == VoxelState::kUnknown) continue;
     const Interval px = xs[local & 7], py = ys[local >> 3 & 7], pz = zs[local >> 6];
@@ -130,14 +156,16 @@ OccupancyMap resample(OccupancyMap map, double voxel_size) {
   }
   if (ratio == 1.0) return map;
 
-  const Overlap overlap(ratio);
-  const std::vector<BlockPair> pairs = overlapping_blocks(map.layout, overlap);
+  const Overlaps overlaps(ratio, map.origin);
+  const std::vector<BlockPair> pairs = overlapping_blocks(map.layout, overlaps);
   std::vector<BlockIndex> blocks;
   for (const BlockPair& pair : pairs)
     if (blocks.empty() || blocks.back() != pair.coarse) blocks.push_back(pair.coarse);
 
   OccupancyMap result;
   result.voxel_size = ratio == std::round(ratio) ? ratio * map.voxel_size : voxel_size;
+  result.origin = {overlaps.x.coarse_origin(), overlaps.y.coarse_origin(),
+                   overlaps.z.coarse_origin()};
   result.layout = BlockLayout(std::move(blocks));
   result.state = VoxelField<VoxelState>(result.layout);
   parallel_for_each_index(result.layout.block_count(), [&](std::size_t i) {
@@ -146,18 +174,18 @@ OccupancyMap resample(OccupancyMap map, double voxel_size) {
     CoarseBlock met;
     for (auto pair = std::lower_bound(pairs.begin(), pairs.end(), BlockPair{block, 0});
          pair != pairs.end() && pair->coarse == block; ++pair)
-      accumulate(map, *pair, overlap, met);
+      accumulate(map, *pair, overlaps, met);
     for (int local = 0; local < kBlockVoxels; ++local) {
       const VoxelIndex v = voxel_of(block, local);
       const double parts =
-          overlap.fine_count(v.x) * overlap.fine_count(v.y) * overlap.fine_count(v.z);
+          overlaps.x.fine_count(v.x) * overlaps.y.fine_count(v.y) * overlaps.z.fine_count(v.z);
       const auto place = static_cast<std::size_t>(local);
       result.state.block(slot)[local] = met.occupied[place]              ? VoxelState::kOccupied
                                         : met.free_count[place] == parts ? VoxelState::kFree
                                                                          : VoxelState::kUnknown;
     }
   });
-  return without_unknown_blocks(std::move(result));
+  return normalised(std::move(result));
 }
 
 }  // namespace ridgeway

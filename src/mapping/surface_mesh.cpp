@@ -97,6 +97,7 @@ Crossings find_crossings(const TsdfMap& tsdf, const VoxelMask& cells) {
   return crossings;
 }
 
+/// In the map's own frame.
 std::vector<Point> place_vertices(const TsdfMap& tsdf, const Crossings& crossings) {
   constexpr double kLeast = 1e-3;  // of an edge, so that no triangle vanishes at a distance of 0
   std::vector<Point> vertices(crossings.count);
@@ -203,6 +204,7 @@ SurfaceMesh surface_of(const TsdfMap& tsdf) {
   mesh.vertices = place_vertices(tsdf, crossings);
   mesh.triangles = find_triangles(tsdf, cells, crossings);
   mesh.normals = find_normals(mesh);
+  for (Point& vertex : mesh.vertices) vertex = to_world(tsdf, vertex);
   return mesh;
 }
 

@@ -3,7 +3,9 @@
 #include "ridgeway/mapping/tsdf_fusion.hpp"
 
 #include <cmath>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "depth_surfaces.hpp"
 #include "projective_integrator.hpp"
@@ -50,20 +52,20 @@ DepthImage within_range(const DepthImage& image, const PinholeCamera& camera,
 
 std::vector<detail::SurfacePoint> points_of(const detail::DepthSurfaces& surfaces,
                                             const PinholeCamera& camera,
-                                            const Eigen::Isometry3d& T_world_camera) {
+                                            const Eigen::Isometry3d& T_map_camera) {
   const DepthImage& image = surfaces.image();
   std::vector<detail::SurfacePoint> points;
   for (int v = 0; v < image.height; ++v)
     for (int u = 0; u < image.width; ++u) {
       const auto depth = static_cast<double>(image.at(u, v));
       if (depth > 0.0)
-        points.push_back({T_world_camera * Point(depth * camera.ray(u, v)),
-                          T_world_camera.linear() * surfaces.normal_at(u, v).cast<double>()});
+        points.push_back({T_map_camera * Point(depth * camera.ray(u, v)),
+                          T_map_camera.linear() * surfaces.normal_at(u, v).cast<double>()});
     }
   return points;
 }
 
-/// Where the robot has been is free, whatever was measured there.
+/// Where the robot has been is free, whatever was measured there. All is in the map's own frame.
 void clear_sphere(const Point& centre, double radius, TsdfMap& map) {
   const VoxelIndex low = voxel_at(centre - Point::Constant(radius), map.voxel_size);
   const VoxelIndex high = voxel_at(centre + Point::Constant(radius), map.voxel_size);
@@ -103,28 +105,39 @@ void FusionConfig::validate() const {
           "give metres, 0 for none");
 }
 
+/// Blocks and places are in the map's own frame.
 struct TsdfFusion::State {
   FusionConfig config;
+  std::optional<VoxelIndex> origin;  // the voxel that held the sensor at first
   detail::TsdfBlocks blocks;
   std::vector<Point> places;  // of the sensor
 
   /// A pose is recorded only once its measurements are in: what throws on the way leaves no trace
-  /// of it. `measure` adds the measurements from a place of the sensor.
+  /// of it, nor of the origin that the first pose gives. `measure` adds the measurements from a
+  /// pose in the map's own frame.
   template <typename Measure>
-  void visit(const Point& place, const Measure& measure) {
-    require_within_map(place);
+  void visit(const Eigen::Isometry3d& T_world_sensor, const Measure& measure) {
+    const Point place_world = T_world_sensor.translation();
+    require_reach(place_world, kMaxVoxelIndex,
+                  "lies farther than 1e9 voxels from the origin of its coordinates");
+    const VoxelIndex first = origin.value_or(voxel_at(place_world, config.voxel_size));
+    const Point place = moved(place_world, VoxelIndex{} - first, config.voxel_size);
+    require_reach(place, kFarthestVoxel, "lies farther than 5e8 voxels from the first");
     const std::vector<BlockIndex> around = blocks_to_clear(place);
     if (places.size() == places.capacity()) places.reserve(2 * places.size() + 1);
-    measure();
+    Eigen::Isometry3d T_map_sensor = T_world_sensor;
+    T_map_sensor.translation() = place;
+    measure(T_map_sensor);
     for (const BlockIndex& block : around) blocks.find_or_add(block);
     places.push_back(place);
+    origin = first;
   }
 
-  void require_within_map(const Point& place) const {
-    const double farthest = place.cwiseAbs().maxCoeff() + config.max_range + config.depth_behind;
-    if (!(farthest < kFarthestVoxel * config.voxel_size))
-      throw InputError("pose", "lies farther than 5e8 voxels from the origin",
-                       "check its units and the voxel size");
+  /// Throws InputError where what a sensor can see lies too far from a frame's zero.
+  void require_reach(const Point& sensor, double most_voxels, const char* what) const {
+    const double farthest = sensor.cwiseAbs().maxCoeff() + config.max_range + config.depth_behind;
+    if (!(farthest < most_voxels * config.voxel_size))
+      throw InputError("pose", what, "check its units and the voxel size");
   }
 
   std::vector<BlockIndex> blocks_to_clear(const Point& place) const {
@@ -159,26 +172,24 @@ void TsdfFusion::integrate(const DepthImage& image, const PinholeCamera& camera,
   require_fits(image, camera);
   validate_transform(T_world_camera);
   State& s = *state_;
-  const Point place = T_world_camera.translation();
-  s.visit(place, [&] {
+  s.visit(T_world_camera, [&](const Eigen::Isometry3d& T_map_camera) {
     const detail::DepthSurfaces surfaces(within_range(image, camera, s.config), camera);
     if (s.config.integrator == Integrator::kProjective)
-      detail::integrate_projective(surfaces, camera, T_world_camera, s.config, s.blocks);
+      detail::integrate_projective(surfaces, camera, T_map_camera, s.config, s.blocks);
     else
-      detail::integrate_rays(points_of(surfaces, camera, T_world_camera), place, s.config,
-                             s.blocks);
+      detail::integrate_rays(points_of(surfaces, camera, T_map_camera), T_map_camera.translation(),
+                             s.config, s.blocks);
   });
 }
 
 void TsdfFusion::integrate(std::span<const Point> points, const Eigen::Isometry3d& T_world_sensor) {
   validate_transform(T_world_sensor);
   State& s = *state_;
-  const Point place = T_world_sensor.translation();
-  s.visit(place, [&] {
+  s.visit(T_world_sensor, [&](const Eigen::Isometry3d& T_map_sensor) {
     std::vector<detail::SurfacePoint> kept;
     for (const Point& p : points)
-      if (s.config.takes(p.norm())) kept.push_back({T_world_sensor * p});
-    detail::integrate_rays(kept, place, s.config, s.blocks);
+      if (s.config.takes(p.norm())) kept.push_back({T_map_sensor * p});
+    detail::integrate_rays(kept, T_map_sensor.translation(), s.config, s.blocks);
   });
 }
 
@@ -186,6 +197,7 @@ TsdfMap TsdfFusion::map() const {
   const State& s = *state_;
   TsdfMap map;
   map.voxel_size = s.config.voxel_size;
+  map.origin = s.origin.value_or(VoxelIndex{});
   map.truncation = s.config.truncation;
   s.blocks.copy_to(map);
   if (s.config.clear_radius > 0.0)
@@ -196,12 +208,13 @@ TsdfMap TsdfFusion::map() const {
 OccupancyMap occupancy_of(const TsdfMap& tsdf) {
   OccupancyMap map;
   map.voxel_size = tsdf.voxel_size;
+  map.origin = tsdf.origin;
   map.layout = tsdf.layout;
   map.state = VoxelField<VoxelState>(tsdf.layout);
   for (VoxelId id = 0; id < tsdf.layout.voxel_count(); ++id)
     if (tsdf.weight[id] > 0.0f)
       map.state[id] = tsdf.distance[id] > 0.0f ? VoxelState::kFree : VoxelState::kOccupied;
-  return map;
+  return normalised(std::move(map));
 }
 
 }  // namespace ridgeway

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 
 #include "ridgeway/common/error.hpp"
@@ -16,8 +17,8 @@ namespace {
 double lattice_coordinate(double metres, double voxel_size) {
   const double voxels = metres / voxel_size;
   const double nearest = std::round(voxels);
-  const double slack = 1e-9 * std::max(1.0, std::abs(voxels));
-  return std::abs(voxels - nearest) <= slack ? nearest : voxels;
+  constexpr double kSlack = 1e-6;  // rounding of 1e9 voxels is less
+  return std::abs(voxels - nearest) <= kSlack ? nearest : voxels;
 }
 
 int clamped_index(double voxels) {
@@ -48,11 +49,26 @@ VoxelRange grown(const VoxelRange& range, std::int64_t voxels) {
           {moved(range.max.x, voxels), moved(range.max.y, voxels), moved(range.max.z, voxels)}};
 }
 
+VoxelRange moved(const VoxelRange& range, const VoxelIndex& voxels) {
+  const std::int64_t end = std::int64_t{2} * kMaxVoxelIndex;
+  const auto add = [end](int a, int b) {
+    return static_cast<int>(std::clamp(std::int64_t{a} + b, -end, end));
+  };
+  return {{add(range.min.x, voxels.x), add(range.min.y, voxels.y), add(range.min.z, voxels.z)},
+          {add(range.max.x, voxels.x), add(range.max.y, voxels.y), add(range.max.z, voxels.z)}};
+}
+
+void require_within_reach(const VoxelRange& range, const std::string& name) {
+  if (range.empty() || intersection(range, kAllVoxels) == range) return;
+  throw InputError(name, "has a voxel farther than 1e9 voxels from the origin of its coordinates",
+                   "check the units of its transform, or use a larger voxel size");
+}
+
 void validate_box(const Box& box, const std::string& name) {
   for (int axis = 0; axis < 3; ++axis) {
     if (box.min[axis] <= box.max[axis]) continue;  // false where either is not a number
     std::ostringstream what;
-    what << "along "
+    what << std::setprecision(12) << "along "
          << "xyz"[axis] << " runs from " << box.min[axis] << " to " << box.max[axis];
     throw InputError(name, what.str(), "give numbers with min <= max");
   }

@@ -12,8 +12,9 @@
 namespace ridgeway {
 namespace {
 
-std::vector<BlockIndex> blocks_of(const VoxelRange& range) {
-  const BlockIndex first = block_of(range.min), last = block_of(range.max);
+/// Blocks of a map's own voxels from (0, 0, 0) up to one.
+std::vector<BlockIndex> blocks_up_to(const VoxelIndex& end) {
+  const BlockIndex first, last = block_of(end);
   std::vector<BlockIndex> blocks;
   for (int z = first.z; z <= last.z; ++z)
     for (int y = first.y; y <= last.y; ++y)
@@ -29,14 +30,16 @@ OccupancyMap occupancy_of(const World& world, double voxel_size, const Box& boun
   validate_box(bounds, "bounds");
   const VoxelRange range = grown(voxels_overlapping(bounds, voxel_size), 1);
   require_memory_for_blocks(range.block_count(), kPipelineBytesPerVoxel, "the world");
+  require_within_reach(range, "bounds");
   OccupancyMap map;
   map.voxel_size = voxel_size;
-  map.layout = BlockLayout(blocks_of(range));
+  map.origin = range.min;
+  map.layout = BlockLayout(blocks_up_to(range.max - range.min));
   map.state = VoxelField<VoxelState>(map.layout);
   parallel_for_each_index(map.layout.block_count(), [&](std::size_t slot) {
     const auto first = static_cast<VoxelId>(slot * kBlockVoxels);
     for (VoxelId id = first; id < first + kBlockVoxels; ++id) {
-      const VoxelIndex voxel = map.layout.index_of(id);
+      const VoxelIndex voxel = map.origin + map.layout.index_of(id);
       if (!range.contains(voxel)) continue;
       const bool free = surface_distance(world, centre_of(voxel, voxel_size)).distance > 0.0;
       map.state[id] = free ? VoxelState::kFree : VoxelState::kOccupied;

@@ -11,18 +11,19 @@
 namespace ridgeway {
 namespace {
 
-/// Calls visit(voxel, state) for every known voxel.
+/// Calls visit(voxel of the lattice, state) for every known voxel.
 template <typename Visit>
 void for_each_known(const EsdfMap& esdf, const Visit& visit) {
   for (std::uint32_t slot = 0; slot < esdf.layout.block_count(); ++slot) {
     const VoxelState* state = esdf.state.block(slot);
     for (int i = 0; i < kBlockVoxels; ++i) {
-      if (state[i] != VoxelState::kUnknown) visit(voxel_of(esdf.layout.block(slot), i), state[i]);
+      if (state[i] != VoxelState::kUnknown)
+        visit(esdf.origin + voxel_of(esdf.layout.block(slot), i), state[i]);
     }
   }
 }
 
-/// Extent of the known voxels, and how many free ones there are at each height.
+/// Extent of the known voxels in the lattice, and how many free ones there are at each height.
 struct Survey {
   VoxelIndex min{INT_MAX, INT_MAX, INT_MAX}, max{INT_MIN, INT_MIN, INT_MIN};
   std::map<int, std::size_t> free_at_height;
@@ -36,7 +37,7 @@ Survey survey(const EsdfMap& esdf) {
     free_in_layer.fill(0);
     for (int i = 0; i < kBlockVoxels; ++i) {
       if (state[i] == VoxelState::kUnknown) continue;
-      const VoxelIndex v = voxel_of(esdf.layout.block(slot), i);
+      const VoxelIndex v = esdf.origin + voxel_of(esdf.layout.block(slot), i);
       found.min = {std::min(found.min.x, v.x), std::min(found.min.y, v.y),
                    std::min(found.min.z, v.z)};
       found.max = {std::max(found.max.x, v.x), std::max(found.max.y, v.y),
@@ -45,7 +46,7 @@ Survey survey(const EsdfMap& esdf) {
     }
     for (int z = 0; z < kBlockSide; ++z) {
       if (const std::size_t free = free_in_layer[static_cast<std::size_t>(z)]; free > 0) {
-        found.free_at_height[esdf.layout.block(slot).z * kBlockSide + z] += free;
+        found.free_at_height[esdf.origin.z + esdf.layout.block(slot).z * kBlockSide + z] += free;
       }
     }
   }

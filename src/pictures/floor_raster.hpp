@@ -18,12 +18,13 @@ struct FloorRaster {
     std::uint32_t free = 0;
     std::uint32_t occupied = 0;
   };
-  HeightBand band;          ///< metres
-  VoxelIndex first;         ///< column of the corner with the smallest x and y
+  HeightBand band;          ///< metres, world
+  VoxelIndex first;         ///< column of the lattice of the corner with the smallest x and y
   int side = 1;             ///< voxels
   int nx = 0, ny = 0;       ///< cells
   std::vector<Cell> cells;  ///< x fastest
 
+  /// In the world.
   Point min_corner(double voxel_size) const { return Point(first.x, first.y, 0.0) * voxel_size; }
   double width(double voxel_size) const { return nx * side * voxel_size; }
   double height(double voxel_size) const { return ny * side * voxel_size; }

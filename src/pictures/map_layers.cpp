@@ -39,8 +39,9 @@ double vertex_size(const SparseGraph& graph, const MapFrame& frame) {
 
 std::vector<DiagramDot> diagram_dots(const Roadmap& roadmap, DiagramColour colour) {
   std::vector<DiagramDot> dots;
-  for (const VoxelId id : roadmap.diagram.voxels.members(roadmap.esdf.layout)) {
-    const Point centre = centre_of(roadmap.esdf.layout.index_of(id), roadmap.esdf.voxel_size);
+  const EsdfMap& esdf = roadmap.esdf;
+  for (const VoxelId id : roadmap.diagram.voxels.members(esdf.layout)) {
+    const Point centre = to_world(esdf, centre_of(esdf.layout.index_of(id), esdf.voxel_size));
     const bool height = colour == DiagramColour::kHeight;
     dots.push_back({centre, height ? centre.z() : roadmap.esdf.distance(id)});
   }
@@ -103,19 +104,21 @@ void draw_diagram(Canvas& canvas, const std::vector<DiagramDot>& dots, const Ran
   }
 }
 
-void draw_graph(Canvas& canvas, const SparseGraph& graph, const MapFrame& frame) {
+void draw_graph(Canvas& canvas, const Roadmap& roadmap, const MapFrame& frame) {
+  const SparseGraph& graph = roadmap.graph;
+  std::vector<Point> places;
+  for (const Vertex& v : graph.vertices) places.push_back(to_world(roadmap.esdf, v.position));
   cairo_t* cairo = canvas.cairo();
   const double dot = vertex_size(graph, frame);
   for (const Edge& edge : graph.edges) {
-    const Point& a = graph.vertices[number(edge.from)].position;
-    const Point& b = graph.vertices[number(edge.to)].position;
+    const Point &a = places[number(edge.from)], &b = places[number(edge.to)];
     cairo_move_to(cairo, frame.x(a), frame.y(a));
     cairo_line_to(cairo, frame.x(b), frame.y(b));
   }
   canvas.set_colour(ink::kGraph, 0.7);
   canvas.set_line(std::min(1.2 * frame.unit, 0.3 * dot));
   cairo_stroke(cairo);
-  for (const Vertex& v : graph.vertices) add_dot(canvas, frame.x(v.position), frame.y(v.position));
+  for (const Point& p : places) add_dot(canvas, frame.x(p), frame.y(p));
   canvas.set_line(dot);
   canvas.set_colour(ink::kGraph);
   cairo_stroke(cairo);

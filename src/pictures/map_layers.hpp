@@ -20,7 +20,7 @@ struct Range {
 
 /// A diagram voxel with the value that gives its colour.
 struct DiagramDot {
-  Point centre;
+  Point centre;  ///< world
   double value = 0.0;
 };
 
@@ -35,6 +35,6 @@ void draw_raster(Canvas& canvas, const FloorRaster& raster, const MapFrame& fram
 void draw_diagram(Canvas& canvas, const std::vector<DiagramDot>& dots, const Range& range,
                   double voxel_size, const MapFrame& frame);
 
-void draw_graph(Canvas& canvas, const SparseGraph& graph, const MapFrame& frame);
+void draw_graph(Canvas& canvas, const Roadmap& roadmap, const MapFrame& frame);
 
 }  // namespace ridgeway

@@ -49,7 +49,7 @@ void draw_map_sheet(std::span<const SheetMap> maps, int columns, const std::stri
     draw_raster(canvas, rasters[i], frame);
     const std::vector<DiagramDot> dots = diagram_dots(roadmap, config.diagram_colour);
     if (config.diagram) draw_diagram(canvas, dots, middle_range(dots), s, frame);
-    if (config.graph) draw_graph(canvas, roadmap.graph, frame);
+    if (config.graph) draw_graph(canvas, roadmap, frame);
     canvas.set_colour(ink::kText);
     canvas.set_font(17.0 * u);
     canvas.draw_text(frame.left, frame.top - 10.0 * u, canvas.fitted(maps[i].caption, cell));

@@ -196,7 +196,7 @@ void draw_floor_plan(const Roadmap& roadmap, std::span<const Point> path,
   Canvas canvas(out, config.width, page.height);
   draw_raster(canvas, raster, frame);
   draw_diagram(canvas, dots, range, voxel_size, frame);
-  if (config.graph) draw_graph(canvas, roadmap.graph, frame);
+  if (config.graph) draw_graph(canvas, roadmap, frame);
   draw_border(canvas, frame);
   draw_paths(canvas, layers, frame);
   draw_ends(canvas, marked, frame);

@@ -26,7 +26,7 @@ inline constexpr Colour kStart{0.10, 0.55, 0.27};
 inline constexpr Colour kHalo{1.0, 1.0, 1.0};
 }  // namespace ink
 
-/// Where the map lies on the page, pixels.
+/// Where the map lies on the page, pixels. Points are in the world.
 struct MapFrame {
   double left = 0.0, top = 0.0, width = 0.0, height = 0.0;
   double scale = 1.0;         ///< pixels a metre

@@ -108,10 +108,9 @@ PlanResult tighten(const FreeSpace& space, detail::Route route, double radius,
   return result;
 }
 
-}  // namespace
-
-Alternatives plan_alternatives(const Roadmap& roadmap, const Point& start, const Point& goal,
-                               std::size_t count, const PlanConfig& config) {
+/// plan_alternatives() between points of the local frame, with waypoints there.
+Alternatives alternatives_locally(const Roadmap& roadmap, const Point& start, const Point& goal,
+                                  std::size_t count, const PlanConfig& config) {
   if (config.planner != Planner::kGraph || !config.shorten || config.prefer_clearance != 0.0 ||
       config.escape)
     throw InputError("alternatives", "are planned on the graph and pulled tight",
@@ -120,7 +119,7 @@ Alternatives plan_alternatives(const Roadmap& roadmap, const Point& start, const
   const double began = detail::seconds_now();
   const Deadline deadline(config.time_limit);
   Alternatives result;
-  PlanResult shortest = plan(roadmap, start, goal, config);
+  PlanResult shortest = detail::plan_locally(roadmap, start, goal, config);
   result.status = shortest.status;
   if (shortest.ok()) {
     const EsdfMap& esdf = roadmap.esdf;
@@ -142,6 +141,19 @@ Alternatives plan_alternatives(const Roadmap& roadmap, const Point& start, const
     result.routes = std::move(routes).first(count);
   }
   result.seconds = detail::seconds_now() - began;
+  return result;
+}
+
+}  // namespace
+
+Alternatives plan_alternatives(const Roadmap& roadmap, const Point& start, const Point& goal,
+                               std::size_t count, const PlanConfig& config) {
+  const EsdfMap& esdf = roadmap.esdf;
+  const double radius = config.radius.value_or(roadmap.min_clearance);
+  const Point from = detail::place_in_local(esdf, start, radius);
+  const Point to = detail::place_in_local(esdf, goal, radius);
+  Alternatives result = alternatives_locally(roadmap, from, to, count, config);
+  for (PlanResult& route : result.routes) detail::move_to_world(esdf, start, goal, route);
   return result;
 }
 

@@ -84,7 +84,9 @@ RouteBlocks::RouteBlocks(const Roadmap& roadmap)
 
 std::optional<BlockedRoute> RouteBlocks::between(const Point& start, const Point& goal,
                                                  double radius) const {
-  const detail::QueryEnds ends = detail::find_ends(esdf_, start, goal, radius);
+  const detail::QueryEnds ends =
+      detail::find_ends(esdf_, detail::place_in_local(esdf_, start, radius),
+                        detail::place_in_local(esdf_, goal, radius), radius);
   if (ends.status != PlanStatus::kOk) return std::nullopt;
   BlockedRoute blocked;
   const ComponentReport report = parts_.report(radius, {ends.from, ends.to});
@@ -92,7 +94,9 @@ std::optional<BlockedRoute> RouteBlocks::between(const Point& start, const Point
   blocked.goal_number = report.asked[1];
   blocked.start_component = report.components[blocked.start_number];
   blocked.goal_component = report.components[blocked.goal_number];
-  const auto place_of = [&](const VoxelIndex& voxel) { return centre_of(voxel, esdf_.voxel_size); };
+  const auto place_of = [&](const VoxelIndex& voxel) {
+    return to_world(esdf_, centre_of(voxel, esdf_.voxel_size));
+  };
   if (const std::optional<Pass> narrow = parts_.narrowest_move(ends.from, ends.to)) {
     blocked.radius = 0.5 * esdf_.voxel_size * std::sqrt(narrow->level);
     VoxelId from = narrow->from, to = narrow->to;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "query.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
@@ -18,7 +19,7 @@ constexpr std::array<double, 4> kRadiusFactors{1.0, 1.25, 1.5, 2.0};
 constexpr std::size_t kBatch = 64;  // queries between two reports of progress
 
 struct Query {
-  Point start, goal;
+  Point start, goal;  // local
   double radius;
 };
 
@@ -84,6 +85,7 @@ void summarise(const Roadmap& roadmap, const std::vector<Query>& queries,
           path->ok() && !holds_clearance(space, *path, queries[i].radius);
     if (o.esdf.ok() && o.roadmap.length > 0.0)
       ratios.push_back(o.roadmap.length / std::min(o.roadmap.length, o.esdf.length));
+    for (Point& p : o.roadmap.waypoints) p = to_world(roadmap.esdf, p);
     report.paths.push_back({queries[i].radius, std::move(o.roadmap.waypoints)});
   }
   report.length_ratio = spread_of(std::move(ratios));
@@ -116,8 +118,8 @@ CheckReport check_roadmap(const Roadmap& roadmap, const CheckConfig& config,
       throw Cancelled();
     const std::size_t count = std::min(kBatch, queries.size() - first);
     const auto ask = [&](const Query& q, Planner planner, bool shorten) {
-      return plan(roadmap, q.start, q.goal,
-                  {.planner = planner, .radius = q.radius, .shorten = shorten});
+      return detail::plan_locally(roadmap, q.start, q.goal,
+                                  {.planner = planner, .radius = q.radius, .shorten = shorten});
     };
     parallel_for_each_index(count, [&](std::size_t k) {
       outcomes[first + k].roadmap = ask(queries[first + k], Planner::kGraph, true);

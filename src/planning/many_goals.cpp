@@ -24,6 +24,7 @@ struct Entry {
   double length = 0.0;
 };
 
+/// `point`: in the local frame.
 Entry find_entry(const Roadmap& roadmap, const Point& point, double radius) {
   Entry entry;
   entry.voxel = detail::find_endpoint(roadmap.esdf, point, radius).voxel;
@@ -38,11 +39,17 @@ Entry find_entry(const Roadmap& roadmap, const Point& point, double radius) {
 
 }  // namespace
 
-std::vector<double> distances_to_goals(const Roadmap& roadmap, const Point& start,
-                                       std::span<const Point> goals, std::optional<double> radius) {
+std::vector<double> distances_to_goals(const Roadmap& roadmap, const Point& start_world,
+                                       std::span<const Point> goals_world,
+                                       std::optional<double> radius) {
   PlanConfig{.radius = radius}.validate();
   const double r = radius.value_or(roadmap.min_clearance);
-  for (const Point& goal : goals) detail::validate_query(roadmap.esdf, start, goal, r);
+  const Point start = detail::place_in_local(roadmap.esdf, start_world, r);
+  std::vector<Point> goals;
+  for (const Point& goal : goals_world) {
+    goals.push_back(detail::place_in_local(roadmap.esdf, goal, r));
+    detail::validate_query(roadmap.esdf, start, goals.back(), r);
+  }
   std::vector<double> distances(goals.size(), std::numeric_limits<double>::infinity());
   if (r < roadmap.min_clearance * (1.0 - 1e-9)) return distances;
   const Entry from = find_entry(roadmap, start, r);

@@ -202,14 +202,25 @@ PlanResult plan_with_escapes(const Roadmap& roadmap, const Point& start, const P
 
 }  // namespace
 
-PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
-                const PlanConfig& config) {
+PlanResult detail::plan_locally(const Roadmap& roadmap, const Point& start, const Point& goal,
+                                const PlanConfig& config) {
   config.validate();
   const double radius = config.radius.value_or(roadmap.min_clearance);
-  detail::validate_query(roadmap.esdf, start, goal, radius);
+  validate_query(roadmap.esdf, start, goal, radius);
   const Deadline deadline(config.time_limit);
   return config.escape ? plan_with_escapes(roadmap, start, goal, radius, config, deadline)
                        : plan_between(roadmap, start, goal, radius, config, deadline);
+}
+
+PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
+                const PlanConfig& config) {
+  const EsdfMap& esdf = roadmap.esdf;
+  const double radius = config.radius.value_or(roadmap.min_clearance);
+  const Point from = detail::place_in_local(esdf, start, radius);
+  const Point to = detail::place_in_local(esdf, goal, radius);
+  PlanResult result = detail::plan_locally(roadmap, from, to, config);
+  detail::move_to_world(esdf, start, goal, result);
+  return result;
 }
 
 }  // namespace ridgeway

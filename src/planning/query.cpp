@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "endpoint.hpp"
@@ -70,6 +71,31 @@ bool is_verified(const EsdfMap& esdf, const FreeSpace& space, const PlanResult& 
   for (std::size_t i = 1; i < result.waypoints.size(); ++i)
     if (!space.is_known_free(result.waypoints[i - 1], result.waypoints[i])) return false;
   return true;
+}
+
+Point place_in_local(const EsdfMap& esdf, const Point& point_world, double radius) {
+  constexpr double kExact = 1e-10;  // of the radius: a tenth of what free means leaves for rounding
+  const Point place = to_local(esdf, point_world);
+  const double rounding =
+      2.0 * std::numeric_limits<double>::epsilon() * point_world.cwiseAbs().maxCoeff();
+  if (esdf.origin == VoxelIndex{} || !(rounding > kExact * radius && rounding < 1e-3 * radius) ||
+      find_endpoint(esdf, place, radius).status != EndpointStatus::kInCollision)
+    return place;
+  const FreeSpace space(esdf);
+  for (int direction = 0; direction < 27; ++direction) {
+    const VoxelIndex o = offset_of(direction);
+    const Point beside = place + rounding * Point(o.x, o.y, o.z);
+    if (space.is_free(beside, radius)) return beside;
+  }
+  return place;
+}
+
+void move_to_world(const EsdfMap& esdf, const Point& start_world, const Point& goal_world,
+                   PlanResult& result) {
+  if (result.waypoints.empty()) return;
+  for (Point& p : result.waypoints) p = to_world(esdf, p);
+  result.waypoints.front() = start_world;
+  result.waypoints.back() = goal_world;
 }
 
 }  // namespace ridgeway::detail

@@ -9,7 +9,8 @@
 
 namespace ridgeway::detail {
 
-// What every planner does with a query before its search, and with a path after it.
+// What every planner does with a query before its search, and with a path after it. All points are
+// in the map's local frame: the public functions come from the world and go back to it.
 
 /// Throws InputError where a point is no number, or the radius is larger than the map knows
 /// distances for.
@@ -37,5 +38,19 @@ void describe(const FreeSpace& space, const KnownStretch& known, PlanResult& res
 /// must keep to what is known. The result must have been described.
 bool is_verified(const EsdfMap& esdf, const FreeSpace& space, const PlanResult& result,
                  double radius);
+
+/// A start or goal of the world in the local frame. Where the world's coordinates are so large that
+/// their rounding counts, one that is within it of a place where a sphere of the radius fits is
+/// taken to mean that place: waypoints of paths close around obstacles are places to plan from.
+Point place_in_local(const EsdfMap& esdf, const Point& point_world, double radius);
+
+/// plan() between points of the local frame, with waypoints there.
+PlanResult plan_locally(const Roadmap& roadmap, const Point& start, const Point& goal,
+                        const PlanConfig& config);
+
+/// Waypoints moved into the world; the first and the last become the points that were asked for, to
+/// the bit.
+void move_to_world(const EsdfMap& esdf, const Point& start_world, const Point& goal_world,
+                   PlanResult& result);
 
 }  // namespace ridgeway::detail

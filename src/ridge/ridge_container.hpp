@@ -23,7 +23,7 @@ namespace ridgeway {
 ///               u64 compressed size; then a chunk: u32 raw size, u32 compressed size, u32 checksum
 ///   data        the sections' chunks in the directory's order, each a zstd frame of its own
 /// Checksums are CRC-32C, those of the chunks over the compressed bytes.
-inline constexpr std::uint32_t kRidgeVersion = 1;
+inline constexpr std::uint32_t kRidgeVersion = 2;
 inline constexpr std::size_t kLargestChunk = std::size_t{1} << 22;
 
 struct RidgeChunk {
@@ -65,6 +65,7 @@ class RidgeReader {
   RidgeReader(const RidgeReader&) = delete;
   RidgeReader& operator=(const RidgeReader&) = delete;
 
+  std::uint32_t version() const { return version_; }
   const std::string& header() const { return header_; }
   std::span<const RidgeSectionEntry> sections() const { return sections_; }
   std::string path() const { return path_.string(); }
@@ -105,6 +106,7 @@ class RidgeReader {
   std::filesystem::path path_;
   int descriptor_ = -1;
   std::uint64_t file_bytes_ = 0;
+  std::uint32_t version_ = 0;
   std::string header_;
   std::vector<RidgeSectionEntry> sections_;
 };

@@ -37,6 +37,7 @@ Roadmap load_roadmap(const std::filesystem::path& path) {
   roadmap.source = header.source;
   roadmap.config = header.config;
   roadmap.esdf.voxel_size = header.voxel_size;
+  roadmap.esdf.origin = header.origin;
   roadmap.esdf.unknown = header.unknown;
   roadmap.esdf.max_distance = header.max_distance;
   roadmap.esdf.layout = load_blocks(reader, header.blocks);
@@ -58,7 +59,7 @@ Roadmap load_roadmap(const std::filesystem::path& path) {
 
 RidgeInfo read_ridge_info(const std::filesystem::path& path) {
   const RidgeReader reader(path);
-  RidgeInfo info{kRidgeVersion, reader.header(), {}};
+  RidgeInfo info{reader.version(), reader.header(), {}};
   for (const RidgeSectionEntry& section : reader.sections()) {
     info.sections.push_back({section.name, section.raw_bytes, section.compressed_bytes});
   }

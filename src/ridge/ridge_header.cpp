@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "ridge_origin.hpp"
 #include "ridgeway/common/error.hpp"
 
 namespace ridgeway {
@@ -42,6 +43,7 @@ RidgeHeader header_from(const Json& json) {
   const Json& counts = json.at("counts");
   RidgeHeader header;
   header.voxel_size = get_number(json, "voxel_size", 0.0);
+  header.origin = origin_in(json);
   header.unknown = parse_policy(json.at("unknown").get<std::string>());
   header.max_distance = get_number(json, "max_distance", kInfinity);
   header.min_clearance = get_number(json, "min_clearance", kInfinity);
@@ -68,6 +70,7 @@ RidgeHeader header_from(const Json& json) {
 
 RidgeHeader header_of(const Roadmap& roadmap) {
   return {roadmap.esdf.voxel_size,
+          roadmap.esdf.origin,
           roadmap.esdf.unknown,
           roadmap.esdf.max_distance,
           roadmap.min_clearance,
@@ -86,6 +89,7 @@ std::string header_text(const RidgeHeader& header) {
   Json json;
   json["content"] = "roadmap";
   json["voxel_size"] = header.voxel_size;
+  json["origin"] = json_of_origin(header.origin);
   json["unknown"] = header.unknown == UnknownPolicy::kObstacle ? "obstacle" : "ignore";
   json["max_distance"] = number_or_null(header.max_distance);
   json["min_clearance"] = number_or_null(header.min_clearance);

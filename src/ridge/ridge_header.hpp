@@ -13,6 +13,7 @@ namespace ridgeway {
 /// The numbers that say how a roadmap's sections are to be read; JSON text in the file.
 struct RidgeHeader {
   double voxel_size = 0.0;
+  VoxelIndex origin;
   UnknownPolicy unknown = UnknownPolicy::kObstacle;
   double max_distance = 0.0;
   double min_clearance = 0.0;

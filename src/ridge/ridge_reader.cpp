@@ -82,16 +82,16 @@ std::vector<std::byte> RidgeReader::read_preamble() {
   if (preamble.size() < 12 || std::memcmp(preamble.data(), "RIDGEWAY", 8) != 0) {
     throw InputError(path_.string(), "is no .ridge file", "make one with `ridgeway build`");
   }
-  const auto version = number_at<std::uint32_t>(preamble, 8);
-  if (version > kRidgeVersion) {
+  version_ = number_at<std::uint32_t>(preamble, 8);
+  if (version_ > kRidgeVersion) {
     throw InputError(path_.string(),
-                     "was written by a newer version (format " + std::to_string(version) +
+                     "was written by a newer version (format " + std::to_string(version_) +
                          ", this program reads up to " + std::to_string(kRidgeVersion) + ")",
                      "use a newer ridgeway, or build the map again with this one");
   }
   if (preamble.size() < kPreambleBytes) damaged("preamble", "is cut off");
   if (crc32c(std::span(preamble).first(44)) != number_at<std::uint32_t>(preamble, 44) ||
-      version == 0) {
+      version_ == 0) {
     damaged("preamble", "is damaged (wrong checksum)");
   }
   return preamble;

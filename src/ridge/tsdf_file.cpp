@@ -8,6 +8,7 @@
 
 #include "files/little_endian.hpp"
 #include "ridge_container.hpp"
+#include "ridge_origin.hpp"
 #include "ridge_sections.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
@@ -36,7 +37,9 @@ RidgeSectionSource field_section(const TsdfMap& map) {
 }
 
 struct TsdfHeader {
-  double voxel_size = 0.0, truncation = 0.0;
+  double voxel_size = 0.0;
+  VoxelIndex origin;
+  double truncation = 0.0;
   std::uint32_t blocks = 0;
 };
 
@@ -47,9 +50,12 @@ TsdfHeader parse_tsdf_header(const RidgeReader& reader) {
     if (const auto content = json.at("content").get<std::string>(); content != kContent)
       throw InputError(reader.path(), "holds a '" + content + "', not a fused map",
                        "make one with `ridgeway fuse`");
-    header = {json.at("voxel_size").get<double>(), json.at("truncation").get<double>(),
+    header = {json.at("voxel_size").get<double>(), origin_in(json),
+              json.at("truncation").get<double>(),
               json.at("counts").at("blocks").get<std::uint32_t>()};
-  } catch (const Json::exception& error) {
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
     reader.damaged("header", std::string("is not readable: ") + error.what());
   }
   if (!(header.voxel_size > 0.0 && std::isfinite(header.voxel_size) &&
@@ -76,6 +82,7 @@ void load_chunk(const RidgeReader& reader, const std::vector<std::byte>& raw, st
 void save_tsdf(const TsdfMap& map, const std::string& source, const std::filesystem::path& path) {
   const Json header = {{"content", kContent},
                        {"voxel_size", map.voxel_size},
+                       {"origin", json_of_origin(map.origin)},
                        {"truncation", map.truncation},
                        {"source", source},
                        {"counts", {{"blocks", map.layout.block_count()}}}};
@@ -93,7 +100,12 @@ TsdfMap load_tsdf(const std::filesystem::path& path) {
   if (section.raw_bytes != voxels * kBytesPerVoxel || section.chunks.size() != chunk_count(voxels))
     reader.damaged(kContent, "does not fit the number of blocks");
   require_memory_for_blocks(header.blocks, kBytesPerVoxel, reader.path());
-  TsdfMap map{header.voxel_size, header.truncation, load_blocks(reader, header.blocks), {}, {}};
+  TsdfMap map{.voxel_size = header.voxel_size,
+              .origin = header.origin,
+              .truncation = header.truncation,
+              .layout = load_blocks(reader, header.blocks),
+              .distance = {},
+              .weight = {}};
   map.distance = VoxelField<float>(map.layout);
   map.weight = VoxelField<float>(map.layout);
   RidgeReader::Scratch scratch;

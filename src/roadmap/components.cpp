@@ -42,6 +42,10 @@ class SinkingLevel {
   std::size_t next_ = 0;
 };
 
+Point centre_in_world(const EsdfMap& esdf, VoxelId id) {
+  return to_world(esdf, centre_of(esdf.layout.index_of(id), esdf.voxel_size));
+}
+
 /// Components by set, largest first; fills `component_of` a set.
 std::vector<Component> count_components(const EsdfMap& esdf, const VoxelMask& traversable,
                                         SinkingLevel& level,
@@ -63,7 +67,7 @@ std::vector<Component> count_components(const EsdfMap& esdf, const VoxelMask& tr
     component_of[set] = components.size();
     components.push_back({voxels[set],
                           static_cast<double>(voxels[set]) * std::pow(esdf.voxel_size, 3),
-                          centre_of(esdf.layout.index_of(widest[set]), esdf.voxel_size),
+                          centre_in_world(esdf, widest[set]),
                           esdf.distance(widest[set])});
   }
   return components;
@@ -92,7 +96,7 @@ ComponentReport SpaceParts::report(double radius, const std::vector<VoxelId>& as
     if (a != kNone && b != kNone && a != b)
       report.joins.push_back({std::min(a, b), std::max(a, b),
                               0.5 * esdf_.voxel_size * std::sqrt(pass->level),
-                              centre_of(esdf_.layout.index_of(narrow), esdf_.voxel_size)});
+                              centre_in_world(esdf_, narrow)});
     component_of[level.join_next()] = std::min(a, b);  // kNone is the largest
   }
   return report;

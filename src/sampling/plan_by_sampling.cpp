@@ -57,7 +57,7 @@ ob::PlannerPtr make_planner(const ob::SpaceInformationPtr& space, const Sampling
   }
 }
 
-/// Samples until a path or a limit; the waypoints, empty where there is no path.
+/// Samples until a path or a limit; the waypoints, empty where there is no path. Points are local.
 std::vector<Point> sample(const EsdfMap& esdf, const Point& start, const Point& goal,
                           const SamplingConfig& config, SamplingResult& result) {
   const double began = seconds_now();
@@ -108,8 +108,11 @@ void SamplingConfig::validate() const {
                      "give metres above 0, or 0 for the default");
 }
 
-SamplingResult plan_by_sampling(const EsdfMap& esdf, const Point& start, const Point& goal,
-                                const SamplingConfig& config) {
+namespace {
+
+/// plan_by_sampling() between points of the local frame, with waypoints there.
+SamplingResult sample_locally(const EsdfMap& esdf, const Point& start, const Point& goal,
+                              const SamplingConfig& config) {
   config.validate();
   detail::validate_query(esdf, start, goal, config.radius);
   const double began = seconds_now();
@@ -151,6 +154,17 @@ SamplingResult plan_by_sampling(const EsdfMap& esdf, const Point& start, const P
   if (accept(found)) return finish(PlanStatus::kOk);
   plan.waypoints.clear();
   return finish(PlanStatus::kTimeout);
+}
+
+}  // namespace
+
+SamplingResult plan_by_sampling(const EsdfMap& esdf, const Point& start, const Point& goal,
+                                const SamplingConfig& config) {
+  const Point from = detail::place_in_local(esdf, start, config.radius);
+  const Point to = detail::place_in_local(esdf, goal, config.radius);
+  SamplingResult result = sample_locally(esdf, from, to, config);
+  detail::move_to_world(esdf, start, goal, result.plan);
+  return result;
 }
 
 }  // namespace ridgeway

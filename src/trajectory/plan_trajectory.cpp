@@ -116,8 +116,11 @@ void TrajectoryConfig::validate() const {
   require_start_within_limits(*this);
 }
 
-TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> path,
-                                 const TrajectoryConfig& config) {
+namespace {
+
+/// plan_trajectory() along a path of the local frame, with a trajectory there.
+TrajectoryResult fly_locally(const EsdfMap& esdf, std::span<const Point> path,
+                             const TrajectoryConfig& config) {
   config.validate();
   if (config.radius > largest_radius(esdf))
     throw InputError("radius " + number_text(config.radius),
@@ -151,6 +154,33 @@ TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> pat
   }
   describe(esdf, points, config, result);
   return finish(TrajectoryStatus::kOk);
+}
+
+constexpr double kExact = 1e-10;  // of the radius: a tenth of what free means leaves for rounding
+
+/// By how much a point may be off whose coordinates were rounded where they are this large.
+double rounding_of(std::span<const Point> path_world) {
+  double largest = 0.0;
+  for (const Point& p : path_world) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  return 2.0 * std::numeric_limits<double>::epsilon() * largest;
+}
+
+}  // namespace
+
+TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> path,
+                                 const TrajectoryConfig& config) {
+  if (esdf.origin == VoxelIndex{}) return fly_locally(esdf, path, config);
+  std::vector<Point> path_local;
+  for (const Point& p : path) path_local.push_back(to_local(esdf, p));
+  TrajectoryConfig as_rounded = config;
+  const double share = rounding_of(path) / config.radius;
+  if (share > kExact && share < 0.5) as_rounded.radius *= 1.0 - share;
+  TrajectoryResult result = fly_locally(esdf, path_local, as_rounded);
+  for (TrajectorySegment& segment : result.trajectory.segments) {
+    const Point begin = segment.coefficients.col(0).head<3>();
+    segment.coefficients.col(0).head<3>() = to_world(esdf, begin);
+  }
+  return result;
 }
 
 Trajectory plain_spline(std::span<const Point> path, const TrajectoryConfig& config) {

@@ -12,6 +12,7 @@
 #include "ridgeway/formats/world_file.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
 #include "ridgeway/sensing/poses.hpp"
+#include "support/lattice.hpp"
 
 namespace ridgeway {
 namespace {
@@ -48,7 +49,7 @@ Errors errors_of(const EsdfMap& esdf, const World& world, const Distance& distan
   std::size_t count = 0;
   for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id) {
     if (esdf.state[id] != VoxelState::kFree) continue;
-    const Point centre = centre_of(esdf.layout.index_of(id), esdf.voxel_size);
+    const Point centre = testing::centre_in_world(esdf, id);
     const double off =
         std::abs(distance(id) - surface_distance(world, centre).distance) / esdf.voxel_size;
     errors.mean += off;
@@ -71,7 +72,7 @@ TEST(SubvoxelDistance, ASlantedWallAndABallAreFinerThanTheirVoxels) {
     // A wall goes on beyond the map, where it has no sites: only what is near it is compared.
     const auto near = [&](VoxelId id) { return esdf.distance(id) < 0.5; };
     const auto exact = [&](VoxelId id) {
-      return surface_distance(world, centre_of(esdf.layout.index_of(id), 0.1)).distance;
+      return surface_distance(world, testing::centre_in_world(esdf, id)).distance;
     };
     const Errors coarse = errors_of(
         esdf, world, [&](VoxelId id) { return near(id) ? esdf.distance(id) : exact(id); });

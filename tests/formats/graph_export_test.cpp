@@ -46,7 +46,7 @@ TEST(GraphExport, JsonIsNodeLinkData) {
   const TemporaryFolder folder;
   const Roadmap roadmap = synthetic_roadmap();
   const SparseGraph& graph = roadmap.graph;
-  write_graph(graph, folder / "graph.json");
+  write_graph(roadmap, folder / "graph.json");
   const auto json = nlohmann::json::parse(read_whole(folder / "graph.json"));
   EXPECT_EQ(json.at("directed"), false);
   EXPECT_EQ(json.at("multigraph"), false);
@@ -56,8 +56,9 @@ TEST(GraphExport, JsonIsNodeLinkData) {
   for (std::size_t i = 0; i < graph.vertices.size(); ++i) {
     const auto& node = json.at("nodes")[i];
     EXPECT_EQ(node.at("id"), i);
-    EXPECT_EQ(node.at("x").get<double>(), graph.vertices[i].position.x());
-    EXPECT_EQ(node.at("z").get<double>(), graph.vertices[i].position.z());
+    const Point place = to_world(roadmap.esdf, graph.vertices[i].position);
+    EXPECT_EQ(node.at("x").get<double>(), place.x());
+    EXPECT_EQ(node.at("z").get<double>(), place.z());
     EXPECT_EQ(node.at("clearance").get<double>(), graph.vertices[i].clearance);
   }
   for (std::size_t i = 0; i < graph.edges.size(); ++i) {
@@ -71,36 +72,36 @@ TEST(GraphExport, JsonIsNodeLinkData) {
 
 TEST(GraphExport, InfiniteClearanceIsNull) {
   const TemporaryFolder folder;
-  SparseGraph graph = synthetic_roadmap().graph;
-  graph.vertices[0].clearance = std::numeric_limits<double>::infinity();
-  write_graph(graph, folder / "graph.json");
+  Roadmap roadmap = synthetic_roadmap();
+  roadmap.graph.vertices[0].clearance = std::numeric_limits<double>::infinity();
+  write_graph(roadmap, folder / "graph.json");
   const auto json = nlohmann::json::parse(read_whole(folder / "graph.json"));
   EXPECT_TRUE(json.at("nodes")[0].at("clearance").is_null());
-  write_graph(graph, folder / "graph.graphml");
+  write_graph(roadmap, folder / "graph.graphml");
   EXPECT_EQ(count(read_whole(folder / "graph.graphml"), ">INF<"), 1u);
 }
 
 TEST(GraphExport, GraphmlIsWellFormedAndWhole) {
   const TemporaryFolder folder;
-  const SparseGraph graph = synthetic_roadmap().graph;
-  write_graph(graph, folder / "graph.graphml");
+  const Roadmap roadmap = synthetic_roadmap();
+  write_graph(roadmap, folder / "graph.graphml");
   const std::string xml = read_whole(folder / "graph.graphml");
   EXPECT_TRUE(is_well_formed(xml));
-  EXPECT_EQ(count(xml, "<node "), graph.vertices.size());
-  EXPECT_EQ(count(xml, "<edge "), graph.edges.size());
+  EXPECT_EQ(count(xml, "<node "), roadmap.graph.vertices.size());
+  EXPECT_EQ(count(xml, "<edge "), roadmap.graph.edges.size());
 }
 
 TEST(GraphExport, PlyHasWhatItsHeaderPromises) {
   const TemporaryFolder folder;
   const Roadmap roadmap = synthetic_roadmap();
-  write_graph(roadmap.graph, folder / "graph.ply");
+  write_graph(roadmap, folder / "graph.ply");
   const std::string graph = read_whole(folder / "graph.ply");
   const std::size_t body = graph.find("end_header\n") + 11;
   EXPECT_EQ(graph.size() - body,
             35 * roadmap.graph.vertices.size() + 16 * roadmap.graph.edges.size());
   double x = 0.0;
   std::memcpy(&x, graph.data() + body, 8);
-  EXPECT_EQ(x, roadmap.graph.vertices[0].position.x());
+  EXPECT_EQ(x, to_world(roadmap.esdf, roadmap.graph.vertices[0].position).x());
 
   write_diagram_ply(roadmap, folder / "diagram.ply");
   const std::string diagram = read_whole(folder / "diagram.ply");

@@ -114,7 +114,8 @@ TEST(LoadMap, QuarterTurnsAreExactForCloudsAndVoxels) {
   const OccupancyMap turned = load_map(folder / "a.3dmap", config);
   EXPECT_EQ(count_voxels(turned).known(), count_voxels(plain).known());
   testing::for_each_known(plain, [&](const VoxelIndex& v, VoxelState state) {
-    EXPECT_EQ(turned.at(voxel_at(config.transform * centre_of(v, 0.5), 0.5)), state);
+    EXPECT_EQ(testing::state_at(turned, voxel_at(config.transform * centre_of(v, 0.5), 0.5)),
+              state);
   });
 }
 
@@ -147,11 +148,12 @@ TEST(LoadMap, EditsRunInTheStatedOrder) {
                                            .bounds = bounds,
                                            .exclude = {Box{{0.45, 0, 0}, {0.55, 2, 2}}},
                                            .isolated_below = 2});
-  EXPECT_EQ(map.at({0, 0, 0}), VoxelState::kUnknown);
-  EXPECT_EQ(map.at({1, 0, 0}), VoxelState::kOccupied);
-  EXPECT_EQ(map.at({7, 7, 7}), VoxelState::kFree);
-  EXPECT_EQ(map.at({4, 3, 3}), VoxelState::kOccupied);
-  EXPECT_EQ(map.at({5, 3, 12}), VoxelState::kOccupied) << "no-fly boxes hold beyond the bounds";
+  EXPECT_EQ(testing::state_at(map, {0, 0, 0}), VoxelState::kUnknown);
+  EXPECT_EQ(testing::state_at(map, {1, 0, 0}), VoxelState::kOccupied);
+  EXPECT_EQ(testing::state_at(map, {7, 7, 7}), VoxelState::kFree);
+  EXPECT_EQ(testing::state_at(map, {4, 3, 3}), VoxelState::kOccupied);
+  EXPECT_EQ(testing::state_at(map, {5, 3, 12}), VoxelState::kOccupied)
+      << "no-fly boxes hold beyond the bounds";
 }
 
 TEST(LoadMap, BadOptionsAreNamed) {

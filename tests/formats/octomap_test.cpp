@@ -50,7 +50,7 @@ void expect_same(const Tree& tree, const OccupancyMap& map) {
     const VoxelState state = tree.isNodeOccupied(*leaf) ? VoxelState::kOccupied : VoxelState::kFree;
     bool same = true;
     testing::for_each_in({low, low + VoxelIndex{side - 1, side - 1, side - 1}},
-                         [&](const VoxelIndex& v) { same &= map.at(v) == state; });
+                         [&](const VoxelIndex& v) { same &= testing::state_at(map, v) == state; });
     ASSERT_TRUE(same) << "leaf at " << low.x << ' ' << low.y << ' ' << low.z << " of " << side;
     known += static_cast<std::size_t>(side) * static_cast<std::size_t>(side) *
              static_cast<std::size_t>(side);

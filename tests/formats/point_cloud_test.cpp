@@ -13,6 +13,7 @@
 #include "ridgeway/formats/pcd.hpp"
 #include "ridgeway/formats/ply_cloud.hpp"
 #include "ridgeway/formats/xyz.hpp"
+#include "support/lattice.hpp"
 #include "support/map_file_writers.hpp"
 
 namespace ridgeway {
@@ -179,7 +180,8 @@ TEST(MapFromPoints, VoxelsWithPointsAreOccupiedAndTheRestOfTheBoundsFree) {
   for (const Point& p : cloud.points) {
     const bool within = p.minCoeff() >= -10.0 && p.maxCoeff() < 10.0;
     inside += within ? 1 : 0;
-    EXPECT_EQ(map.at(voxel_at(p, 0.5)), within ? VoxelState::kOccupied : VoxelState::kUnknown);
+    EXPECT_EQ(testing::state_at(map, voxel_at(p, 0.5)),
+              within ? VoxelState::kOccupied : VoxelState::kUnknown);
   }
   EXPECT_GT(inside, 10u);
   EXPECT_EQ(count_voxels(map).known(), 64000u);

@@ -21,7 +21,7 @@ TEST(Crop, KeepsExactlyWhatIsWhollyInside) {
   const OccupancyMap cut = crop(map, box);
   testing::for_each_known(map, [&](const VoxelIndex& v, VoxelState state) {
     const bool inside = v.x >= -10 && v.x <= 6 && v.y >= -5 && v.y <= 11 && v.z >= -3 && v.z <= 8;
-    EXPECT_EQ(cut.at(v), inside ? state : VoxelState::kUnknown);
+    EXPECT_EQ(testing::state_at(cut, v), inside ? state : VoxelState::kUnknown);
   });
 }
 
@@ -43,7 +43,8 @@ TEST(NoFly, ClosesWhatSharesVolumeWithTheBox) {
   const OccupancyMap closed = add_no_fly(map, std::vector<Box>{box});
   testing::for_each_in({{-25, -25, -25}, {25, 25, 25}}, [&](const VoxelIndex& v) {
     const bool inside = v.x >= -10 && v.x <= 6 && v.y >= -6 && v.y <= 11 && v.z >= -3 && v.z <= 9;
-    EXPECT_EQ(closed.at(v), inside ? VoxelState::kOccupied : map.at(v));
+    EXPECT_EQ(testing::state_at(closed, v),
+              inside ? VoxelState::kOccupied : testing::state_at(map, v));
   });
 }
 
@@ -54,9 +55,9 @@ TEST(NoFly, AnEndlessBoxStaysNearTheKnown) {
   const std::vector<Box> boxes = {{Point::Constant(-kInfinity), Point(kInfinity, kInfinity, 0.5)}};
   const OccupancyMap closed = add_no_fly(map, boxes);
   EXPECT_EQ(closed.layout.block_count(), 4u * 4u * 2u + 4u);
-  EXPECT_EQ(closed.at({-8, -8, -8}), VoxelState::kOccupied);
-  EXPECT_EQ(closed.at({7, 7, 4}), VoxelState::kOccupied);
-  EXPECT_EQ(closed.at({7, 7, 5}), VoxelState::kFree);
+  EXPECT_EQ(testing::state_at(closed, {-8, -8, -8}), VoxelState::kOccupied);
+  EXPECT_EQ(testing::state_at(closed, {7, 7, 4}), VoxelState::kOccupied);
+  EXPECT_EQ(testing::state_at(closed, {7, 7, 5}), VoxelState::kFree);
 }
 
 TEST(NoFly, AFlatBoxClosesALayer) {
@@ -65,7 +66,7 @@ TEST(NoFly, AFlatBoxClosesALayer) {
   const OccupancyMap closed =
       add_no_fly(std::move(builder).finish(), std::vector<Box>{{{0, 0, 0.75}, {1.6, 1.6, 0.75}}});
   EXPECT_EQ(count_voxels(closed).occupied, 256u);
-  EXPECT_EQ(closed.at({3, 3, 7}), VoxelState::kOccupied);
+  EXPECT_EQ(testing::state_at(closed, {3, 3, 7}), VoxelState::kOccupied);
 }
 
 TEST(NoFly, RefusesBoxesInsideOutByNumber) {

@@ -55,7 +55,7 @@ TEST(TransformMap, AgreesWithTheLatticeWhereThatIsExact) {
   const OccupancyMap moved = transform_map(map, T, 0.1);
   EXPECT_EQ(count_voxels(moved).free, count_voxels(map).free);
   testing::for_each_known(map, [&](const VoxelIndex& v, VoxelState state) {
-    EXPECT_EQ(moved.at((*lattice)({v, v}).min), state);
+    EXPECT_EQ(testing::state_at(moved, (*lattice)({v, v}).min), state);
   });
 }
 
@@ -73,7 +73,8 @@ TEST(TransformMap, NeverLosesAnObstacleNorInventsFreeSpace) {
       for (int i = 0; i < 10; ++i) {
         const Point p =
             0.1 * (Point(v.x, v.y, v.z) + Point(part(random), part(random), part(random)));
-        EXPECT_EQ(moved.at(voxel_at(T * p, moved.voxel_size)), VoxelState::kOccupied);
+        EXPECT_EQ(testing::state_at(moved, voxel_at(T * p, moved.voxel_size)),
+                  VoxelState::kOccupied);
       }
     });
     testing::for_each_known(moved, [&](const VoxelIndex& v, VoxelState state) {
@@ -82,7 +83,7 @@ TEST(TransformMap, NeverLosesAnObstacleNorInventsFreeSpace) {
       for (int i = 0; i < 10; ++i) {
         const Point p = moved.voxel_size *
                         (Point(v.x, v.y, v.z) + Point(part(random), part(random), part(random)));
-        EXPECT_EQ(map.at(voxel_at(T.inverse() * p, 0.1)), VoxelState::kFree);
+        EXPECT_EQ(testing::state_at(map, voxel_at(T.inverse() * p, 0.1)), VoxelState::kFree);
       }
     });
     EXPECT_GT(free, 0u);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <random>
@@ -24,7 +25,7 @@ TEST(OccupancyBuilder, OccupiedWinsOverFreeInAnyOrder) {
     builder.set({-9, 3, 8}, VoxelState::kFree);
     builder.set({-9, 3, 8}, VoxelState::kUnknown);
     const OccupancyMap map = std::move(builder).finish();
-    EXPECT_EQ(map.at({-9, 3, 8}), VoxelState::kOccupied);
+    EXPECT_EQ(testing::state_at(map, {-9, 3, 8}), VoxelState::kOccupied);
     EXPECT_EQ(count_voxels(map).occupied, 1u);
     EXPECT_EQ(count_voxels(map).free, 19u * 19u * 19u - 1u);
   }
@@ -47,7 +48,7 @@ TEST(OccupancyBuilder, EqualsAPlainTableOfVoxels) {
     });
   }
   const OccupancyMap map = std::move(builder).finish();
-  for (const auto& [voxel, state] : table) EXPECT_EQ(map.at(voxel), state);
+  for (const auto& [voxel, state] : table) EXPECT_EQ(testing::state_at(map, voxel), state);
   EXPECT_EQ(count_voxels(map).known(), table.size());
 }
 
@@ -70,7 +71,8 @@ TEST(OccupancyBuilder, RefusesNonsenseVoxelSizes) {
 }
 
 TEST(OccupancyMap, KnownBoundsAreTight) {
-  EXPECT_FALSE(known_bounds(OccupancyMap{.voxel_size = 0.1, .layout = {}, .state = {}}));
+  EXPECT_FALSE(
+      known_bounds(OccupancyMap{.voxel_size = 0.1, .origin = {}, .layout = {}, .state = {}}));
   for (unsigned seed = 0; seed < 5; ++seed) {
     const OccupancyMap map = testing::random_map(seed);
     Point low = Point::Constant(1e9), high = Point::Constant(-1e9);
@@ -85,13 +87,66 @@ TEST(OccupancyMap, KnownBoundsAreTight) {
   }
 }
 
-TEST(OccupancyMap, DroppingUnknownBlocksKeepsAllVoxels) {
-  OccupancyMap map = testing::random_map(3);
-  for (int local = 0; local < kBlockVoxels; ++local)
-    map.state.block(4)[local] = VoxelState::kUnknown;
-  const OccupancyMap smaller = without_unknown_blocks(map);
-  EXPECT_EQ(smaller.layout.block_count(), map.layout.block_count() - 1);
-  EXPECT_TRUE(testing::same_voxels(map, smaller));
+TEST(Normalised, KeepsAllVoxelsOnTheBlocksThatHoldAKnownOne) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    OccupancyMap map = testing::random_map(seed);
+    for (int local = 0; local < kBlockVoxels; ++local)
+      map.state.block(4)[local] = VoxelState::kUnknown;
+    const OccupancyMap same = normalised(map);
+    EXPECT_TRUE(testing::same_voxels(map, same));
+    EXPECT_EQ(known_range(same).min, (VoxelIndex{0, 0, 0}));
+    for (std::uint32_t slot = 0; slot < same.layout.block_count(); ++slot) {
+      const VoxelState* states = same.state.block(slot);
+      EXPECT_TRUE(std::any_of(states, states + kBlockVoxels,
+                              [](VoxelState s) { return s != VoxelState::kUnknown; }));
+    }
+  }
+}
+
+TEST(Normalised, MapsThatDifferByWholeVoxelsBecomeTheSame) {
+  std::mt19937 random(5);
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const OccupancyMap map = testing::random_map(seed);
+    const auto part = [&] { return static_cast<int>(random() % 4001) - 2000; };
+    const VoxelIndex shift = {part(), part(), part()};
+    OccupancyMap elsewhere;  // the same voxels, counted from another one
+    elsewhere.voxel_size = map.voxel_size;
+    elsewhere.origin = VoxelIndex{5'000'000, -70'000'000, 3} - shift;
+    std::vector<BlockIndex> blocks;
+    testing::for_each_known(map, [&](const VoxelIndex& v, VoxelState) {
+      blocks.push_back(block_of(v - map.origin + shift));
+    });
+    elsewhere.layout = BlockLayout(std::move(blocks));
+    elsewhere.state = VoxelField<VoxelState>(elsewhere.layout);
+    testing::for_each_known(map, [&](const VoxelIndex& v, VoxelState state) {
+      elsewhere.state[elsewhere.layout.find(v - map.origin + shift)] = state;
+    });
+    const OccupancyMap same = normalised(std::move(elsewhere));
+    EXPECT_EQ(same.origin, (VoxelIndex{5'000'000, -70'000'000, 3}));
+    EXPECT_TRUE(same.layout == map.layout);
+    EXPECT_TRUE(same.state.values() == map.state.values());
+  }
+}
+
+TEST(Normalised, RefusesWhatLiesBeyondTheLimitOfTheLattice) {
+  for (const int far : {1'000'000'000, -1'000'000'000}) {
+    OccupancyBuilder builder(0.1, {.name = "far.bt"});
+    builder.fill({{far, 0, far}, {far, 3, far}}, VoxelState::kFree);
+    const VoxelIndex beyond = {0, far > 0 ? far + 1 : far - 1, 0};
+    try {
+      builder.set(beyond, VoxelState::kFree);
+      FAIL() << "was not refused";
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.where(), "far.bt");
+    }
+    EXPECT_EQ(std::move(builder).finish().origin, (VoxelIndex{far, 0, far}));
+    OccupancyMap map = testing::random_map(1);
+    map.origin = {0, far, 0};
+    if (far > 0)
+      EXPECT_THROW(normalised(map), InputError);
+    else
+      EXPECT_NO_THROW(normalised(map));
+  }
 }
 
 }  // namespace

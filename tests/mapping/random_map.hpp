@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "ridgeway/mapping/occupancy_builder.hpp"
+#include "support/lattice.hpp"
 
 namespace ridgeway::testing {
 
@@ -28,11 +29,12 @@ inline OccupancyMap random_map(unsigned seed, double voxel_size = 0.1, int half_
   return std::move(builder).finish();
 }
 
-/// Calls visit(voxel, state) for all known voxels.
+/// Calls visit(voxel of the lattice, state) for all known voxels.
 template <typename Visit>
 void for_each_known(const OccupancyMap& map, const Visit& visit) {
   for (VoxelId id = 0; id < map.state.size(); ++id)
-    if (map.state[id] != VoxelState::kUnknown) visit(map.layout.index_of(id), map.state[id]);
+    if (map.state[id] != VoxelState::kUnknown)
+      visit(map.origin + map.layout.index_of(id), map.state[id]);
 }
 
 /// Calls visit(voxel) for all voxels of a range.
@@ -46,8 +48,10 @@ void for_each_in(const VoxelRange& range, const Visit& visit) {
 /// Do two maps hold the same known voxels, whatever their blocks?
 inline bool same_voxels(const OccupancyMap& a, const OccupancyMap& b) {
   bool same = a.voxel_size == b.voxel_size;
-  for_each_known(a, [&](const VoxelIndex& v, VoxelState state) { same &= b.at(v) == state; });
-  for_each_known(b, [&](const VoxelIndex& v, VoxelState state) { same &= a.at(v) == state; });
+  for_each_known(a,
+                 [&](const VoxelIndex& v, VoxelState state) { same &= state_at(b, v) == state; });
+  for_each_known(b,
+                 [&](const VoxelIndex& v, VoxelState state) { same &= state_at(a, v) == state; });
   return same;
 }
 

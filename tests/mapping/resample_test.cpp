@@ -33,8 +33,8 @@ VoxelRange fine_voxels(const VoxelIndex& coarse, Ratio ratio) {
 VoxelState brute_force(const OccupancyMap& fine, const VoxelIndex& coarse, Ratio ratio) {
   bool occupied = false, unknown = false;
   testing::for_each_in(fine_voxels(coarse, ratio), [&](const VoxelIndex& v) {
-    occupied |= fine.at(v) == VoxelState::kOccupied;
-    unknown |= fine.at(v) == VoxelState::kUnknown;
+    occupied |= testing::state_at(fine, v) == VoxelState::kOccupied;
+    unknown |= testing::state_at(fine, v) == VoxelState::kUnknown;
   });
   return occupied ? VoxelState::kOccupied : unknown ? VoxelState::kUnknown : VoxelState::kFree;
 }
@@ -50,7 +50,7 @@ TEST(Resample, EqualsTheDefinitionAtAnyRatio) {
       const int reach = 40 * ratio.q / ratio.p + 2;
       testing::for_each_in(
           {{-reach, -reach, -reach}, {reach, reach, reach}}, [&](const VoxelIndex& v) {
-            ASSERT_EQ(coarse.at(v), brute_force(fine, v, ratio))
+            ASSERT_EQ(testing::state_at(coarse, v), brute_force(fine, v, ratio))
                 << ratio.p << '/' << ratio.q << " at " << v.x << ' ' << v.y << ' ' << v.z;
           });
     }
@@ -68,7 +68,7 @@ TEST(Resample, NeverLosesAnObstacle) {
         const Point p = 0.1 * (Point(v.x, v.y, v.z) + Point(corner & 1 ? 1 - 1e-6 : 1e-6,
                                                             corner & 2 ? 1 - 1e-6 : 1e-6,
                                                             corner & 4 ? 1 - 1e-6 : 1e-6));
-        EXPECT_EQ(coarse.at(voxel_at(p, coarse.voxel_size)), VoxelState::kOccupied);
+        EXPECT_EQ(testing::state_at(coarse, voxel_at(p, coarse.voxel_size)), VoxelState::kOccupied);
       }
     });
   }

@@ -29,7 +29,11 @@ TsdfMap sample(const Distance& distance, int reach) {
   for (int z = -reach; z < reach; ++z)
     for (int y = -reach; y < reach; ++y)
       for (int x = -reach; x < reach; ++x) blocks.push_back({x, y, z});
-  TsdfMap map{kVoxel, kTruncation, BlockLayout(std::move(blocks)), {}, {}};
+  TsdfMap map{.voxel_size = kVoxel,
+              .truncation = kTruncation,
+              .layout = BlockLayout(std::move(blocks)),
+              .distance = {},
+              .weight = {}};
   map.distance = VoxelField<float>(map.layout);
   map.weight = VoxelField<float>(map.layout, 1.0f);
   for (VoxelId id = 0; id < map.layout.voxel_count(); ++id) {

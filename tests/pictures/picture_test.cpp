@@ -45,7 +45,9 @@ std::size_t count_pixels(cairo_surface_t* image, std::uint32_t colour) {
 }
 
 std::vector<Point> diagonal(const Roadmap& roadmap) {
-  return {roadmap.graph.vertices.front().position, roadmap.graph.vertices.back().position};
+  const SparseGraph& graph = roadmap.graph;
+  return {to_world(roadmap.esdf, graph.vertices.front().position),
+          to_world(roadmap.esdf, graph.vertices.back().position)};
 }
 
 TEST(Picture, PngShowsMapAndPath) {

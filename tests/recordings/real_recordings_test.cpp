@@ -13,6 +13,7 @@
 #include "ridgeway/mapping/tsdf_fusion.hpp"
 #include "ridgeway/recordings/depth_sequence.hpp"
 #include "ridgeway/recordings/scan_sequence.hpp"
+#include "support/lattice.hpp"
 
 namespace ridgeway {
 namespace {
@@ -37,7 +38,7 @@ double share_free(const OccupancyMap& map, const Point& centre, double radius) {
     for (int y = low.y; y <= high.y; ++y)
       for (int x = low.x; x <= high.x; ++x) {
         all += 1.0;
-        free += map.at({x, y, z}) == VoxelState::kFree;
+        free += testing::state_at(map, {x, y, z}) == VoxelState::kFree;
       }
   return free / all;
 }

@@ -10,6 +10,7 @@
 #include "ridgeway/common/random.hpp"
 #include "ridgeway/formats/world_file.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
+#include "support/lattice.hpp"
 #include "support/map_errors.hpp"
 #include "support/refusal.hpp"
 #include "support/temporary_folder.hpp"
@@ -195,7 +196,7 @@ TEST_F(ScanFolder, FusedScansOfAHouseAreThatOfTheExactDistance) {
   for (VoxelId id = 0; id < map.layout.voxel_count(); ++id) {
     if (map.state[id] != VoxelState::kFree) continue;
     ++free;
-    const Point centre = centre_of(map.layout.index_of(id), map.voxel_size);
+    const Point centre = testing::centre_in_world(map, id);
     wrong += surface_distance(world, centre).distance < -0.5 * map.voxel_size;
   }
   EXPECT_GT(free, 150000u);

@@ -66,7 +66,7 @@ TEST_F(DamagedRidge, OtherFilesAreNamedAsSuch) {
   EXPECT_NE(refusal("").find("is no .ridge file"), std::string::npos);
   EXPECT_NE(refusal("# OctoMap file").find("is no .ridge file"), std::string::npos);
   std::string newer = bytes_;
-  newer[8] = 2;
+  newer[8] = 3;
   EXPECT_NE(refusal(newer).find("newer version"), std::string::npos);
   EXPECT_THROW(load_roadmap(folder_.path()), InputError);
   EXPECT_THROW(load_roadmap(folder_ / "none.ridge"), InputError);
@@ -190,6 +190,30 @@ TEST_F(HostileRidge, WrongHeadersAreRefused) {
            {"\"content\": \"roadmap\"", "\"content\": \"tsdf\""}}) {
     EXPECT_NE(with_header(replace(from, to)), "") << from << " -> " << to.substr(0, 40);
   }
+}
+
+/// The header of the good file without its origin, or with another one.
+TEST_F(HostileRidge, FilesOfTheFirstVersionHaveTheirOriginAtZero) {
+  const auto with_origin = [](const std::string& text) {
+    return [text](std::string& header) {
+      const std::size_t from = header.find("\"origin\""), to = header.find("]", from);
+      ASSERT_NE(to, std::string::npos);
+      header.replace(from, to + 2 - from, text);  // the comma too
+    };
+  };
+  const auto refusal_of = [&](const std::string& text) {
+    return refusal_with(
+        "", [](Bytes&) {}, with_origin(text));
+  };
+  EXPECT_NE(load_roadmap(folder_ / "good.ridge").esdf.origin, VoxelIndex{});
+  EXPECT_EQ(refusal_of(""), "");
+  EXPECT_EQ(load_roadmap(folder_ / "hostile.ridge").esdf.origin, VoxelIndex{});
+  EXPECT_EQ(refusal_of("\"origin\": [1000000000, -1000000000, 7],"), "");
+  EXPECT_EQ(load_roadmap(folder_ / "hostile.ridge").esdf.origin,
+            (VoxelIndex{1'000'000'000, -1'000'000'000, 7}));
+  for (const char* origin : {"[1000000001, 0, 0]", "[0, -1e300, 0]", "[0, 0, 0.5]", "[0, 0]",
+                             "[0, 0, 0, 0]", "7", "null", "{}", "[18446744073709551615, 0, 0]"})
+    EXPECT_NE(refusal_of(std::string("\"origin\": ") + origin + ","), "") << origin;
 }
 
 TEST_F(HostileRidge, AnyChangedByteGivesARoadmapOrARefusal) {

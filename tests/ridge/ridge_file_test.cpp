@@ -38,6 +38,7 @@ void expect_same(const SparseGraph& a, const SparseGraph& b) {
 
 void expect_same(const Roadmap& a, const Roadmap& b) {
   EXPECT_EQ(a.esdf.voxel_size, b.esdf.voxel_size);
+  EXPECT_EQ(a.esdf.origin, b.esdf.origin);
   EXPECT_EQ(a.esdf.unknown, b.esdf.unknown);
   EXPECT_EQ(a.esdf.max_distance, b.esdf.max_distance);
   EXPECT_TRUE(a.esdf.layout == b.esdf.layout);
@@ -122,7 +123,7 @@ TEST(RidgeFile, InfoTellsTheSections) {
   const TemporaryFolder folder;
   save_roadmap(synthetic_roadmap(), folder / "map.ridge");
   const RidgeInfo info = read_ridge_info(folder / "map.ridge");
-  EXPECT_EQ(info.version, 1u);
+  EXPECT_EQ(info.version, 2u);
   EXPECT_NE(info.header.find("\"voxel_size\": 0.1"), std::string::npos);
   EXPECT_EQ(info.sections.size(), 12u);
 }

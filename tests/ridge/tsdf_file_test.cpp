@@ -22,7 +22,12 @@ TsdfMap random_tsdf(std::uint64_t seed, int blocks = 300) {
   for (int i = 0; i < blocks; ++i)
     list.push_back({static_cast<int>(random.below(9)) - 4, static_cast<int>(random.below(9)) - 4,
                     static_cast<int>(random.below(9)) - 4});
-  TsdfMap map{0.1, 0.4, BlockLayout(std::move(list)), {}, {}};
+  TsdfMap map{.voxel_size = 0.1,
+              .origin = {465'000, -3, static_cast<int>(seed)},
+              .truncation = 0.4,
+              .layout = BlockLayout(std::move(list)),
+              .distance = {},
+              .weight = {}};
   map.distance = VoxelField<float>(map.layout);
   map.weight = VoxelField<float>(map.layout);
   for (VoxelId id = 0; id < map.layout.voxel_count(); ++id) {
@@ -41,6 +46,7 @@ TEST(TsdfFile, GivesBackEveryBit) {
     EXPECT_TRUE(is_tsdf_file(folder / "map.ridge"));
     const TsdfMap loaded = load_tsdf(folder / "map.ridge");
     EXPECT_EQ(loaded.voxel_size, map.voxel_size);
+    EXPECT_EQ(loaded.origin, map.origin);
     EXPECT_EQ(loaded.truncation, map.truncation);
     EXPECT_TRUE(loaded.layout == map.layout);
     EXPECT_TRUE(loaded.distance.values() == map.distance.values());
@@ -53,8 +59,15 @@ TEST(TsdfFile, IsAMapToBuildFrom) {
   const TsdfMap map = random_tsdf(2);
   save_tsdf(map, "", folder / "map.ridge");
   const OccupancyMap expected = occupancy_of(map), loaded = load_map(folder / "map.ridge", {});
-  for (VoxelId id = 0; id < map.layout.voxel_count(); ++id)
-    ASSERT_EQ(loaded.at(map.layout.index_of(id)), expected.state[id]);
+  EXPECT_EQ(loaded.origin, expected.origin);
+  EXPECT_TRUE(loaded.layout == expected.layout);
+  EXPECT_TRUE(loaded.state.values() == expected.state.values());
+  for (VoxelId id = 0; id < map.layout.voxel_count(); ++id) {
+    const VoxelState state = map.weight[id] <= 0.0f    ? VoxelState::kUnknown
+                             : map.distance[id] > 0.0f ? VoxelState::kFree
+                                                       : VoxelState::kOccupied;
+    ASSERT_EQ(loaded.at(map.origin + map.layout.index_of(id) - loaded.origin), state);
+  }
   EXPECT_THROW(load_roadmap(folder / "map.ridge"), InputError);
 }
 

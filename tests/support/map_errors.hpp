@@ -8,6 +8,7 @@
 
 #include "ridgeway/mapping/tsdf_map.hpp"
 #include "ridgeway/sensing/world.hpp"
+#include "support/lattice.hpp"
 
 namespace ridgeway {
 
@@ -22,7 +23,7 @@ inline MapErrors errors_of(const TsdfMap& map, const World& world) {
   double sum = 0.0;
   for (VoxelId id = 0; id < map.layout.voxel_count(); ++id) {
     if (map.weight[id] <= 0.0f || std::abs(map.distance[id]) >= 0.99 * map.truncation) continue;
-    const Point centre = centre_of(map.layout.index_of(id), map.voxel_size);
+    const Point centre = testing::centre_in_world(map, id);
     off.push_back(std::abs(map.distance[id] - surface_distance(world, centre).distance) /
                   map.voxel_size);
     sum += off.back();

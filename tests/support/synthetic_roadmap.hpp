@@ -24,19 +24,21 @@ struct SyntheticConfig {
 };
 
 /// A storey of rooms as an occupancy map: floor and ceiling, walls with doors, some furniture, a
-/// shadow of unknown voxels in every room. Placed off the origin, partly at negative indices.
+/// shadow of unknown voxels in every room. Partly at negative indices, and far from the world's
+/// zero.
 inline OccupancyMap synthetic_map(const SyntheticConfig& config) {
   const int X = config.rooms_x * config.room + 1, Y = config.rooms_y * config.room + 1,
             Z = config.height;
-  const VoxelIndex origin{-13, 21, -3};
+  const VoxelIndex corner{-13, 21, -3};
   std::vector<BlockIndex> blocks;
   for (int z = 0; z < Z; z += 1)
     for (int y = 0; y < Y; y += 1)
-      for (int x = 0; x < X; x += 8) blocks.push_back(block_of(origin + VoxelIndex{x, y, z}));
+      for (int x = 0; x < X; x += 8) blocks.push_back(block_of(corner + VoxelIndex{x, y, z}));
   for (int z = 0; z < Z; ++z)
-    for (int y = 0; y < Y; ++y) blocks.push_back(block_of(origin + VoxelIndex{X - 1, y, z}));
+    for (int y = 0; y < Y; ++y) blocks.push_back(block_of(corner + VoxelIndex{X - 1, y, z}));
   OccupancyMap map;
   map.voxel_size = config.voxel_size;
+  map.origin = {4'650'000, -53'000'001, 123};
   map.layout = BlockLayout(std::move(blocks));
   map.state = VoxelField<VoxelState>(map.layout);
   for (int z = 0; z < Z; ++z)
@@ -49,7 +51,7 @@ inline OccupancyMap synthetic_map(const SyntheticConfig& config) {
         const bool wall = z == 0 || z == Z - 1 || ((u == 0 || v == 0) && !door);
         const bool table = u > 15 && u < 19 && v > 3 && v < 8 && z < 6;
         const bool shadow = u > 19 && v > 20;
-        map.state[map.layout.find(origin + VoxelIndex{x, y, z})] = wall || table
+        map.state[map.layout.find(corner + VoxelIndex{x, y, z})] = wall || table
                                                                        ? VoxelState::kOccupied
                                                                    : shadow ? VoxelState::kUnknown
                                                                             : VoxelState::kFree;

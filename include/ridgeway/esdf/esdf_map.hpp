@@ -50,6 +50,7 @@ inline constexpr std::uint32_t kNoSite = 0xffffffffu;
 /// `max_distance` from every obstacle has `squared` kNoSite.
 struct EsdfMap {
   double voxel_size = 0.0;  ///< metres
+  VoxelIndex origin = {};   ///< the lattice's voxel that is the map's own (0, 0, 0); to_world()
   UnknownPolicy unknown = UnknownPolicy::kObstacle;
   double max_distance = std::numeric_limits<double>::infinity();  ///< metres
   BlockLayout layout;

@@ -19,6 +19,7 @@ namespace ridgeway {
 ///
 /// How it is fast: D^2(x) - |x|^2 is concave, so distances at voxel centres bound D from below;
 /// only where that does not decide are the obstacles near the place looked at one by one.
+/// All points are in the map's local frame: take to_local(esdf, point) of those of the world.
 /// A view: the EsdfMap must outlive it. Thread-safe.
 class FreeSpace {
  public:

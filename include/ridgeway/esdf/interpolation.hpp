@@ -6,7 +6,7 @@
 
 namespace ridgeway {
 
-/// Signed distance at a voxel's centre, metres: to the nearest obstacle cube outside obstacles; the
+/// Signed distance at the centre of one of the map's own voxels, metres: to the nearest obstacle cube outside obstacles; the
 /// negative of the distance to the nearest voxel cube that is no obstacle inside them. Distances
 /// inside are searched for on the spot, no deeper than `deepest` metres (then -deepest): nobody
 /// flies there, so no memory is spent on them. Voxels that are not allocated count as obstacles
@@ -19,7 +19,7 @@ struct DistanceAndGradient {
 };
 
 /// Trilinear interpolation of signed distances between the eight voxel centres around a point, and
-/// its exact gradient. Continuous, smooth inside each cell: for optimisers. It is not
+/// its exact gradient, in the map's local frame (to_local). Continuous, smooth inside each cell: for optimisers. It is not
 /// 1-Lipschitz and can exceed the true distance: never decide safety by it, ask FreeSpace.
 /// Distances beyond max_distance count as max_distance, those below -`deepest` as that: a smaller
 /// one saves time inside obstacles. Thread-safe.

@@ -29,7 +29,7 @@ class Surroundings {
  public:
   explicit Surroundings(const EsdfMap& esdf);
 
-  /// `path`: points joined by straight segments, metres. `radius`: metres, above 0.
+  /// `path`: points joined by straight segments, metres, world frame. `radius`: metres, above 0.
   PathSurroundings along(std::span<const Point> path, double radius) const;
 
  private:

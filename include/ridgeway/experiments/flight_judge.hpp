@@ -48,6 +48,7 @@ class FlightJudge {
                    FlightVerdict& verdict) const;
 
   double voxel_size_;
+  VoxelIndex to_own_;  // from the lattice's voxels to the map's own, of which all below are
   UnknownPolicy policy_;
   VoxelIndex low_, high_;
   std::vector<VoxelState> states_;

@@ -15,7 +15,7 @@ bool is_benchmark_map(std::string_view bytes);
 
 /// A map of the MovingAI 3D benchmarks (.3dmap): a first line "voxel X Y Z", then a blocked cell
 /// "x y z" a line. The other cells of the X x Y x Z box are free. Cell (0, 0, 0) is voxel (0, 0,
-/// 0). Throws InputError naming file and line.
+/// 0) of the lattice. Throws InputError naming file and line.
 OccupancyMap read_benchmark_map(std::string_view bytes, const std::string& name, double voxel_size,
                                 const VoxelPlacement& placement = {});
 

@@ -10,25 +10,25 @@
 namespace ridgeway {
 
 /// The writers below replace the file whole or not at all (atomic_file.hpp) and throw InputError
-/// where it cannot be written. Lengths and clearances in metres, positions in the map frame;
+/// where it cannot be written. Lengths and clearances in metres, positions in the world frame;
 /// numbers read back as they were.
 
 /// JSON as networkx.node_link_graph reads it: "nodes" with id, x, y, z, clearance; "links" with
 /// source, target, length, clearance. "graph" holds min_clearance.
-void write_graph_json(const SparseGraph& graph, const std::filesystem::path& path);
+void write_graph_json(const Roadmap& roadmap, const std::filesystem::path& path);
 
 /// GraphML with typed keys, as networkx.read_graphml and Gephi read it; nodes are n0, n1, ...
-void write_graph_graphml(const SparseGraph& graph, const std::filesystem::path& path);
+void write_graph_graphml(const Roadmap& roadmap, const std::filesystem::path& path);
 
 /// Binary PLY: vertices (x, y, z, clearance, colour by clearance) and edges (vertex1, vertex2,
 /// clearance). Positions are doubles.
-void write_graph_ply(const SparseGraph& graph, const std::filesystem::path& path);
+void write_graph_ply(const Roadmap& roadmap, const std::filesystem::path& path);
 
 /// Binary PLY: the diagram's voxel centres as points with clearance and colour by clearance.
 void write_diagram_ply(const Roadmap& roadmap, const std::filesystem::path& path);
 
 /// Writes the graph in the format that the file's extension names: .json, .graphml or .ply.
 /// Throws InputError for another one.
-void write_graph(const SparseGraph& graph, const std::filesystem::path& path);
+void write_graph(const Roadmap& roadmap, const std::filesystem::path& path);
 
 }  // namespace ridgeway

@@ -12,7 +12,7 @@
 
 namespace ridgeway {
 
-/// How to make a map of a file. Lengths in metres, boxes in the map frame (z up).
+/// How to make a map of a file. Lengths in metres, boxes in the world (z up).
 struct LoadConfig {
   /// Voxel size of the result. Required for point clouds; for .3dmap the size of a cell (1 unless
   /// given); for OctoMaps the file's own unless given, never finer.
@@ -21,8 +21,9 @@ struct LoadConfig {
   /// not record free space.
   std::optional<Box> bounds = std::nullopt;
   std::vector<Box> exclude = {};  ///< no-fly boxes, made occupied
-  /// From the file's frame to the map's. Quarter turns and translations by whole voxels are exact;
-  /// others make the obstacles of a voxel file grow (transform_map), not those of a cloud.
+  /// From the file's frame to the world's, where nothing may lie beyond 1e9 voxels from zero.
+  /// Quarter turns and translations by whole voxels are exact; others make the obstacles of a voxel
+  /// file grow (transform_map), not those of a cloud.
   Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
   int isolated_below = 0;  ///< clusters of fewer occupied voxels become free (remove_isolated)
 

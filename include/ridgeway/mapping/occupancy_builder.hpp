@@ -14,14 +14,14 @@
 
 namespace ridgeway {
 
-/// Makes an OccupancyMap from voxels and boxes of voxels that come in any order. Where they
+/// Makes an OccupancyMap from voxels and boxes of voxels of the lattice that come in any order. Where they
 /// overlap, occupied wins over free, free over unknown, so the order does not matter. Memory
 /// follows the touched blocks; a map that would not fit the machine is refused before its memory
 /// is taken. For one thread.
 class OccupancyBuilder {
  public:
   struct Config {
-    VoxelRange clip = kAllVoxels;                  ///< voxels outside are ignored
+    VoxelRange clip = kAllVoxels;                  ///< of the lattice; others are ignored
     int bytes_per_voxel = kPipelineBytesPerVoxel;  ///< to be reckoned with, see memory_limit.hpp
     std::string name = "map";                      ///< file or value to name in errors
   };
@@ -32,16 +32,19 @@ class OccupancyBuilder {
 
   const VoxelRange& clip() const { return config_.clip; }
 
-  /// Raises a voxel to a state. Throws InputError where memory would not do.
+  /// Raises a voxel to a state. Throws InputError where memory would not do, or where a voxel that
+  /// is not clipped away lies outside kAllVoxels.
   void set(const VoxelIndex& voxel, VoxelState state) {
-    if (state == VoxelState::kUnknown || !config_.clip.contains(voxel)) return;
+    if (state == VoxelState::kUnknown) return;
+    if (!config_.clip.contains(voxel)) return require_reach_of({voxel, voxel});
     VoxelState& current = block_at(block_of(voxel))[static_cast<std::size_t>(local_of(voxel))];
     if (current < state) current = state;
   }
 
-  /// Raises all voxels of a range to a state.
+  /// Raises all voxels of a range to a state. Throws as `set` does.
   void fill(const VoxelRange& range, VoxelState state);
 
+  /// The map, normalised.
   OccupancyMap finish() &&;
 
  private:
@@ -55,6 +58,7 @@ class OccupancyBuilder {
     return *last_;
   }
   Block& find_or_add(const BlockIndex& index);
+  void require_reach_of(const VoxelRange& range) const;
 
   double voxel_size_;
   Config config_;
@@ -68,7 +72,10 @@ class OccupancyBuilder {
 /// Throws InputError naming the value unless 0 < voxel_size < infinity.
 void validate_voxel_size(double voxel_size, const std::string& name);
 
-/// A map of the blocks that hold a known voxel; the others are dropped.
-OccupancyMap without_unknown_blocks(OccupancyMap map);
+/// The same voxels with the origin at the lowest known one of each axis, on the blocks that hold a
+/// known voxel, and no others: maps that differ by whole voxels, or in how they came about, become
+/// the same but for the origin. A map without known voxels gets no blocks, and keeps its origin.
+/// Throws InputError where a known voxel lies outside kAllVoxels of the lattice.
+OccupancyMap normalised(OccupancyMap map);
 
 }  // namespace ridgeway

@@ -12,7 +12,7 @@ namespace ridgeway {
 /// A surface as triangles, their fronts towards free space. `normals` is as long as `vertices`, and
 /// `triangles` hold places in it.
 struct SurfaceMesh {
-  std::vector<Point> vertices;           ///< metres, map frame
+  std::vector<Point> vertices;           ///< metres, world frame
   std::vector<Eigen::Vector3d> normals;  ///< of length one, towards free space
   std::vector<Triangle> triangles;
 };

@@ -39,7 +39,9 @@ struct FusionConfig {
 /// Levoy 1996). The distance of a voxel to a measured pixel is that to the plane of the surface
 /// there, so that surfaces seen at a slant are not off; weights fall with the square of the depth,
 /// with the slant, and behind the surface. Same measurements in the same order, same bits, for any
-/// number of threads. Memory follows what was seen. Not thread-safe.
+/// number of threads. Memory follows what was seen. The map's origin is the voxel that held the
+/// sensor at the first pose, so poses far from the world's zero cost no exactness; nothing may be
+/// seen farther than 1e9 voxels from that zero, or 5e8 from the first pose. Not thread-safe.
 class TsdfFusion {
  public:
   explicit TsdfFusion(const FusionConfig& config = {});

@@ -11,6 +11,7 @@ namespace ridgeway {
 /// negative behind it. Invariant: both fields are on `layout`; |distance| <= truncation.
 struct TsdfMap {
   double voxel_size = 0.0;  ///< metres
+  VoxelIndex origin = {};   ///< the lattice's voxel that is the map's own (0, 0, 0)
   double truncation = 0.0;  ///< metres; distances are known no farther than this
   BlockLayout layout;
   VoxelField<float> distance;  ///< metres; of no meaning where the weight is 0
@@ -18,7 +19,7 @@ struct TsdfMap {
 };
 
 /// Voxels whose centre lies behind the surface are occupied, those before it free, those never
-/// seen unknown.
+/// seen unknown. Normalised.
 OccupancyMap occupancy_of(const TsdfMap& tsdf);
 
 }  // namespace ridgeway

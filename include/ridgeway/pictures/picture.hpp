@@ -16,7 +16,7 @@ namespace ridgeway {
 /// What the colours of the diagram's voxels say.
 enum class DiagramColour : std::uint8_t { kClearance, kHeight };
 
-/// Heights that count for the plan's walls and free space, metres; low <= high.
+/// Heights in the world that count for the plan's walls and free space, metres; low <= high.
 struct HeightBand {
   double low = 0.0;
   double high = 0.0;
@@ -56,14 +56,14 @@ struct PictureConfig {
   void validate() const;
 };
 
-/// Draws the map from above, x to the right and y up, as a PNG or SVG picture by the extension of
-/// `out`: known free space white, obstacles dark by the occupied share of each column within the
-/// height band, unknown pale; over it the skeleton diagram, the graph, the paths to compare, and
-/// the path (may be empty); start and goal of the path, without one of the first of the others.
-/// With title, coordinates, scale bar, legend and charts. A map of any extent: the picture's cells
-/// cover several voxels where there are more voxels than pixels. Throws InputError for a map
-/// without known voxels, another extension, a file that cannot be written. The file is replaced
-/// whole or not at all.
+/// Draws the map from above in the world frame, as the paths are in, x to the right and y up, as a
+/// PNG or SVG picture by the extension of `out`: known free space white, obstacles dark by the
+/// occupied share of each column within the height band, unknown pale; over it the skeleton
+/// diagram, the graph, the paths to compare, and the path (may be empty); start and goal of the
+/// path, without one of the first of the others. With title, coordinates, scale bar, legend and
+/// charts. A map of any extent: the picture's cells cover several voxels where there are more
+/// voxels than pixels. Throws InputError for a map without known voxels, another extension, a file
+/// that cannot be written. The file is replaced whole or not at all.
 void draw_floor_plan(const Roadmap& roadmap, std::span<const Point> path,
                      const std::filesystem::path& out, const PictureConfig& config = {});
 

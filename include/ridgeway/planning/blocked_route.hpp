@@ -28,7 +28,7 @@ struct BlockedRoute {
   double radius = 0.0;
   /// Where the widest way is narrowest. Where there is none at all: the nearest unknown voxel, by
   /// moves from the start, beyond which nothing occupied is known to be in the way; nothing where
-  /// what is occupied encloses one of the two. Metres.
+  /// what is occupied encloses one of the two. Metres, world frame.
   std::optional<Point> place;
   Blocker by = Blocker::kObstacle;  ///< what is nearest there; of equally near ones the obstacle
   /// The two parts of traversable space at the asked radius that start and goal are in, and their
@@ -44,7 +44,8 @@ class RouteBlocks {
  public:
   explicit RouteBlocks(const Roadmap& roadmap);
 
-  /// Nothing where start or goal have no place at the radius: then plan() says which and why.
+  /// Between points of the world. Nothing where start or goal have no place at the radius: then
+  /// plan() says which and why.
   std::optional<BlockedRoute> between(const Point& start, const Point& goal, double radius) const;
 
  private:

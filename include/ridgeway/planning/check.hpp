@@ -19,7 +19,7 @@ struct CheckConfig {
 /// One query of a check and the path that the roadmap answered with, for independent checkers.
 struct CheckedPath {
   double radius = 0.0;
-  std::vector<Point> waypoints;
+  std::vector<Point> waypoints;  ///< world
 };
 
 struct CheckReport {

@@ -97,7 +97,7 @@ struct PlanResult {
   PlanStatus status = PlanStatus::kNoRoute;
   UnknownPolicy unknown = UnknownPolicy::kObstacle;  ///< what unknown space was taken for
   Planner answered_by = Planner::kGraph;
-  std::vector<Point> waypoints;  ///< start first, goal last; empty unless ok
+  std::vector<Point> waypoints;  ///< world; start first, goal last; empty unless ok
   double length = 0.0;           ///< metres
   /// Smallest distance along the path, without its escapes, to an obstacle, metres: to what is
   /// occupied and, under UnknownPolicy::kObstacle, to what is unknown. How near the path comes to
@@ -113,8 +113,10 @@ struct PlanResult {
 /// unless it was computed with a max_distance.
 double largest_radius(const EsdfMap& esdf);
 
-/// Plans from start to goal (metres, map frame) for a sphere of the asked radius. Every segment of
-/// the path, but for escapes, has been verified by the free-space predicate (esdf/free_space.hpp).
+/// Plans from start to goal (metres, world frame) for a sphere of the asked radius. Every segment of
+/// the path, but for escapes, has been verified by the free-space predicate (esdf/free_space.hpp),
+/// in the map's local frame; the waypoints given back are those moved into the world, which rounds
+/// them there (in UTM by a nanometre).
 /// The answer is exact on the voxel lattice: a path is found exactly when A* through the ESDF would
 /// find one. Thread-safe on one roadmap. Throws InputError where the configuration or a point is no
 /// number, or the radius is larger than the map knows distances for.

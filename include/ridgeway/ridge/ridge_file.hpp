@@ -33,7 +33,7 @@ struct RidgeSection {
 /// What a `.ridge` file says of itself, read without its content.
 struct RidgeInfo {
   std::uint32_t version = 0;
-  std::string header;  ///< JSON text: content, voxel_size, policy, config, counts
+  std::string header;  ///< JSON text: content, voxel_size, origin, policy, config, counts
   std::vector<RidgeSection> sections;
 };
 

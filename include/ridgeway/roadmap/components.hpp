@@ -14,7 +14,7 @@ namespace ridgeway {
 struct Component {
   std::size_t voxels = 0;
   double volume = 0.0;     ///< cubic metres
-  Point widest;            ///< its place of largest clearance, metres
+  Point widest;            ///< its place of largest clearance, world
   double clearance = 0.0;  ///< there, metres
 };
 
@@ -23,7 +23,7 @@ struct Component {
 struct ComponentJoin {
   std::size_t a = 0, b = 0;
   double radius = 0.0;  ///< metres
-  Point place;          ///< metres
+  Point place;          ///< world
 };
 
 struct ComponentReport {

@@ -36,7 +36,8 @@ struct ClearanceTree {
   std::vector<VoxelIndex> place;  ///< where the way to the parent is narrowest
 };
 
-/// Everything a query needs; what is saved to and loaded from a `.ridge` file.
+/// Everything a query needs, in the local frame of `esdf`; to_world(esdf, point) and to_local lead
+/// from it to the world and back; what is saved to and loaded from a `.ridge` file.
 /// Immutable during queries: any number of threads may plan on one Roadmap.
 struct Roadmap {
   EsdfMap esdf;

@@ -17,8 +17,8 @@ constexpr std::size_t number(VertexId id) { return static_cast<std::size_t>(id);
 constexpr std::size_t number(EdgeId id) { return static_cast<std::size_t>(id); }
 
 struct Vertex {
-  VoxelIndex voxel;        ///< the diagram voxel it stands on
-  Point position;          ///< that voxel's centre, metres
+  VoxelIndex voxel;        ///< the diagram voxel it stands on, one of the map's own
+  Point position;          ///< that voxel's centre, metres, in the map's local frame: to_world()
   double clearance = 0.0;  ///< distance to the nearest obstacle, metres
 };
 

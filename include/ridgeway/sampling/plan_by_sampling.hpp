@@ -39,7 +39,7 @@ struct SamplingResult {
   double first_length = 0.0;   ///< of the first path as it was found, metres
 };
 
-/// Plans for a sphere from start to goal (metres, map frame) with a planner of OMPL. Places and
+/// Plans for a sphere from start to goal (metres, world frame) with a planner of OMPL. Places and
 /// motions are decided by the free-space predicate (esdf/free_space.hpp) alone, exactly along
 /// every segment, never by steps along it; samples come from the box around the known free voxels.
 /// Start and goal are judged as by plan(). Sampling cannot show that there is no route: a limit

@@ -77,7 +77,7 @@ struct TrajectoryResult {
   bool ok() const { return status == TrajectoryStatus::kOk; }
 };
 
-/// A dynamically feasible trajectory along a path of straight segments (metres, map frame), from
+/// A dynamically feasible trajectory along a path of straight segments (metres, world frame), from
 /// rest or a given motion at its first point to rest at its last. Verified in continuous time: D >=
 /// radius all along (FreeSpace, never the interpolated distance), known-free voxels only where
 /// unknown space is no obstacle, limits certified by find_peaks.
@@ -91,6 +91,10 @@ struct TrajectoryResult {
 ///
 /// From a motion that cannot go on along the path the robot brakes first, wherever it comes to
 /// rest, and goes on from there.
+/// Where the map lies far from the world's zero, the path's coordinates have been rounded: the
+/// radius counts as smaller by at most 5e-16 of the largest of them (in UTM, 3 nanometres), so that
+/// paths of plan() that just fit are flown.
+///
 /// Thread-safe on one map, deterministic. Throws InputError for a path without points, a point that
 /// is not finite, a start faster than the limits, a radius larger than the map knows distances for,
 /// or a bad configuration.

@@ -9,7 +9,7 @@
 
 namespace ridgeway {
 
-/// Flat outputs of a multirotor: x, y, z (metres, map frame) and yaw (radians, unwrapped).
+/// Flat outputs of a multirotor: x, y, z (metres, world frame) and yaw (radians, unwrapped).
 inline constexpr int kFlatOutputs = 4;
 /// Coefficients of a segment's polynomials: degree 9 at most.
 inline constexpr int kCoefficients = 10;

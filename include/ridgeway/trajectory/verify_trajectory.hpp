@@ -9,6 +9,8 @@
 
 namespace ridgeway {
 
+/// Here trajectories are in the map's local frame.
+
 /// Times, seconds from the start, from which on it cannot be shown that a sphere of the radius
 /// fits: the first in each segment that has one. Empty: the robot fits for certain, all along. Each
 /// curve lies in the hull of its Bezier points, so where it departs from its chord by at most e it

@@ -6,10 +6,15 @@
 #include <cmath>
 #include <compare>
 #include <cstdint>
+#include <limits>
 
 namespace ridgeway {
 
-/// A point or a direction in the map frame, metres, z up.
+/// A point or a direction, metres, z up. Points are in one of two frames, parallel to each other:
+/// - world: what files, queries, paths and pictures speak of;
+/// - local: a map's own, whose zero is the low corner of its own voxel (0, 0, 0).
+/// Functions take and give world points unless they say that theirs are local. A map far from the
+/// world's zero (UTM: millions of metres) is thus computed on as exactly as one that is not.
 using Point = Eigen::Vector3d;
 
 /// Voxels along one side of a block. Eight wastes less than sixteen on real scans (1.84 against
@@ -39,11 +44,14 @@ struct Index3 {
   }
 };
 
-/// No voxel of a map lies farther out than this along any axis, so that sums and differences of two
-/// indices are numbers too. BlockLayout::kFarthestBlock enforces it.
+/// No voxel of a map lies farther out than this along any axis, from the world's zero or from the
+/// map's origin, so that sums and differences of two indices are numbers too.
+/// BlockLayout::kFarthestBlock enforces it.
 inline constexpr int kMaxVoxelIndex = 1'000'000'000;
 
-/// A voxel of the lattice: its centre is (index + 0.5) * voxel_size.
+/// A voxel of the unbounded lattice, whose centre is (index + 0.5) * voxel_size in the world; or
+/// one of a map's own voxels, counted from its `origin`, which is a voxel of the lattice: then the
+/// same is its centre in the map's local frame. Layouts, fields and graphs hold the map's own.
 using VoxelIndex = Index3<struct VoxelTag>;
 /// A cube of 8 x 8 x 8 voxels: block b holds the voxels 8 b .. 8 b + 7.
 using BlockIndex = Index3<struct BlockTag>;
@@ -81,7 +89,7 @@ struct BlockHash {
   std::size_t operator()(const BlockIndex& b) const { return hash_of(b); }
 };
 
-/// Centre of a voxel, metres.
+/// Centre of a voxel, metres, in the frame that the voxel is counted in.
 inline Point centre_of(const VoxelIndex& v, double voxel_size) {
   return Point(v.x + 0.5, v.y + 0.5, v.z + 0.5) * voxel_size;
 }
@@ -98,10 +106,40 @@ inline bool has_voxel(const Point& p, double voxel_size) {
   return (p.array().abs() < kMaxVoxelIndex * voxel_size).all();
 }
 
-/// The voxel that holds a point, for which has_voxel must hold.
+/// The voxel that holds a point, counted in the point's frame; has_voxel must hold for it.
 inline VoxelIndex voxel_at(const Point& p, double voxel_size) {
   return {floor_to_int(p.x() / voxel_size), floor_to_int(p.y() / voxel_size),
           floor_to_int(p.z() / voxel_size)};
+}
+
+/// A point moved by whole voxels, rounded once.
+inline Point moved(const Point& p, const VoxelIndex& voxels, double voxel_size) {
+  return {std::fma(voxels.x, voxel_size, p.x()), std::fma(voxels.y, voxel_size, p.y()),
+          std::fma(voxels.z, voxel_size, p.z())};
+}
+
+/// From a map's local frame to the world; of any map that has `origin` and `voxel_size`.
+template <typename Map>
+Point to_world(const Map& map, const Point& point_local) {
+  return moved(point_local, map.origin, map.voxel_size);
+}
+
+/// From the world to a map's local frame. Where the world's coordinates are large they cannot name
+/// the centres and faces of voxels exactly; those within their rounding of one are taken to mean
+/// it. So places that just fit, as on a lattice many do, fit wherever the map lies.
+template <typename Map>
+Point to_local(const Map& map, const Point& point_world) {
+  constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();  // of a coordinate
+  if (map.origin == VoxelIndex{}) return point_world;
+  const VoxelIndex back = VoxelIndex{} - map.origin;
+  Point local = moved(point_world, back, map.voxel_size);
+  const double half = 0.5 * map.voxel_size;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double nearest = std::round(local[axis] / half) * half;
+    if (std::abs(local[axis] - nearest) <= kRounding * std::abs(point_world[axis]))
+      local[axis] = nearest;
+  }
+  return local;
 }
 
 }  // namespace ridgeway

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/common/parallel.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
+#include "ridgeway/mapping/voxel_range.hpp"
+
+namespace ridgeway {
+namespace {
+
+/// The one of 8 blocks that a voxel falls into, a bit an axis, when its own block is moved down by
+/// less than a block: `off` of its first voxels fall into the lower blocks.
+int part_of(const VoxelIndex& voxel, const VoxelIndex& off) {
+  return static_cast<int>(voxel.x >= off.x) + 2 * static_cast<int>(voxel.y >= off.y) +
+         4 * static_cast<int>(voxel.z >= off.z);
+}
+
+/// A bit for each of those 8 blocks that a block of states brings a known voxel to.
+unsigned known_parts(const VoxelState* states, const VoxelIndex& off) {
+  unsigned parts = 0;
+  for (int local = 0; local < kBlockVoxels; ++local)
+    if (states[local] != VoxelState::kUnknown) parts |= 1u << part_of(voxel_of({}, local), off);
+  return parts;
+}
+
+/// Blocks that hold a known voxel of a map whose voxel `low` becomes voxel (0, 0, 0).
+std::vector<BlockIndex> blocks_after(const OccupancyMap& map, const VoxelIndex& low) {
+  const VoxelIndex off{low.x & (kBlockSide - 1), low.y & (kBlockSide - 1),
+                       low.z & (kBlockSide - 1)};
+  std::vector<unsigned> parts(map.layout.block_count());
+  parallel_for_each_index(
+      parts.size(),
+      [&](std::size_t slot) {
+        parts[slot] = known_parts(map.state.block(static_cast<std::uint32_t>(slot)), off);
+      },
+      64);
+  std::vector<BlockIndex> blocks;
+  for (std::uint32_t slot = 0; slot < map.layout.block_count(); ++slot) {
+    // Voxels before `off` go to the block that the first of them falls into, the others to the
+    // next.
+    const BlockIndex first = block_of(voxel_of(map.layout.block(slot), 0) - low);
+    const BlockIndex step{off.x != 0, off.y != 0, off.z != 0};
+    for (int part = 0; part < 8; ++part)
+      if ((parts[slot] >> part & 1u) != 0)
+        blocks.push_back(first + BlockIndex{step.x * (part & 1), step.y * (part >> 1 & 1),
+                                            step.z * (part >> 2)});
+  }
+  return blocks;
+}
+
+/// Fills a block from the states that lie `low` away in the source, row by row.
+void fill_from(const OccupancyMap& source, const VoxelIndex& low, const BlockIndex& block,
+               VoxelState* states) {
+  const VoxelIndex corner = voxel_of(block, 0) + low;
+  VoxelFinder finder(source.layout);
+  for (int z = 0; z < kBlockSide; ++z)
+    for (int y = 0; y < kBlockSide; ++y)
+      for (int x = 0; x < kBlockSide;) {
+        const VoxelIndex from = corner + VoxelIndex{x, y, z};
+        const int count = std::min(kBlockSide - x, kBlockSide - (from.x & (kBlockSide - 1)));
+        if (const VoxelId id = finder.find(from); id != kNoVoxel)
+          std::copy_n(source.state.block(id / kBlockVoxels) + id % kBlockVoxels, count,
+                      states + local_of({x, y, z}));
+        x += count;
+      }
+}
+
+/// Throws InputError unless all voxels of a range of a map can be counted, in the world too.
+void require_countable(const VoxelRange& known, const VoxelIndex& origin) {
+  constexpr int kWidest = kMaxVoxelIndex / 2;  // as .ridge files have it
+  require_within_reach(moved(known, origin), "map");
+  if (known.max.x - known.min.x > kWidest || known.max.y - known.min.y > kWidest ||
+      known.max.z - known.min.z > kWidest)
+    throw InputError("map", "spans more than 5e8 voxels", "use a larger voxel size");
+}
+
+}  // namespace
+
+OccupancyMap normalised(OccupancyMap map) {
+  const VoxelRange known = known_range(map);
+  const VoxelIndex low = known.empty() ? VoxelIndex{} : known.min;
+  require_countable(known, map.origin);
+  std::vector<BlockIndex> blocks = blocks_after(map, low);
+  if (low == VoxelIndex{} && blocks.size() == map.layout.block_count()) return map;
+  OccupancyMap result;
+  result.voxel_size = map.voxel_size;
+  result.origin = map.origin + low;
+  result.layout = BlockLayout(std::move(blocks));
+  result.state = VoxelField<VoxelState>(result.layout);
+  parallel_for_each_index(
+      result.layout.block_count(),
+      [&](std::size_t i) {
+        const auto slot = static_cast<std::uint32_t>(i);
+        fill_from(map, low, result.layout.block(slot), result.state.block(slot));
+      },
+      16);
+  return result;
+}
+
+}  // namespace ridgeway
