@@ -8,6 +8,7 @@
 #include "ridgeway/experiments/fusion_speed.hpp"
 #include "ridgeway/mapping/world_map.hpp"
 #include "support/cancelling.hpp"
+#include "support/lattice.hpp"
 
 namespace ridgeway {
 namespace {
@@ -84,12 +85,12 @@ TEST(FusionSpeed, AllWaysSeeTheSameRoom) {
 TEST(WorldMap, VoxelsAreFreeWhereTheirCentreIs) {
   const World world = small_world();
   const OccupancyMap map = occupancy_of(world, 0.1, {{0, 0, 0}, {4, 4, 2}});
-  EXPECT_EQ(map.at({0, 0, 0}), VoxelState::kFree);
-  EXPECT_EQ(map.at({-1, 0, 0}), VoxelState::kOccupied);
-  EXPECT_EQ(map.at({40, 39, 19}), VoxelState::kOccupied);
-  EXPECT_EQ(map.at({-2, 0, 0}), VoxelState::kUnknown);
-  EXPECT_EQ(map.at({20, 20, 10}), VoxelState::kOccupied);
-  EXPECT_EQ(map.at({20, 24, 10}), VoxelState::kFree);
+  EXPECT_EQ(testing::state_at(map, {0, 0, 0}), VoxelState::kFree);
+  EXPECT_EQ(testing::state_at(map, {-1, 0, 0}), VoxelState::kOccupied);
+  EXPECT_EQ(testing::state_at(map, {40, 39, 19}), VoxelState::kOccupied);
+  EXPECT_EQ(testing::state_at(map, {-2, 0, 0}), VoxelState::kUnknown);
+  EXPECT_EQ(testing::state_at(map, {20, 20, 10}), VoxelState::kOccupied);
+  EXPECT_EQ(testing::state_at(map, {20, 24, 10}), VoxelState::kFree);
   const VoxelCounts counts = count_voxels(map);
   EXPECT_EQ(counts.known(), 42u * 42u * 22u);
 }

@@ -24,7 +24,7 @@ struct VoxelRange {
   double block_count() const;
 };
 
-/// All voxels that a map can hold.
+/// All voxels that a map can hold, of the lattice and counted from its origin.
 inline constexpr VoxelRange kAllVoxels = {{-kMaxVoxelIndex, -kMaxVoxelIndex, -kMaxVoxelIndex},
                                           {kMaxVoxelIndex, kMaxVoxelIndex, kMaxVoxelIndex}};
 
