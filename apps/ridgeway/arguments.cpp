@@ -2,13 +2,14 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "arguments.hpp"
 
-#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <system_error>
 
-#include "ridgeway/common/error.hpp"
+#include "ridgeway/common/number_text.hpp"
 #include "ridgeway/files/atomic_file.hpp"
 #include "ridgeway/mapping/map_transform.hpp"
 #include "ridgeway/mapping/voxel_range.hpp"
@@ -18,9 +19,20 @@ namespace {
 
 constexpr std::string_view kSeparators = ", \t";
 
-std::string quoted(std::string_view text) {
-  std::string result(1, '\'');
-  return result.append(text).append(1, '\'');
+/// A number from end to end of a word; nothing where it is none.
+std::optional<double> number_of(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size() || std::isnan(value)) return {};
+  if (value != 0.0 && !std::isinf(value) && !std::isnormal(value)) return {};
+  return value;
+}
+
+/// Of a coordinate: beyond all maps.
+bool is_too_far(double value) {
+  constexpr double kFarthest = 1e9;
+  return !(std::abs(value) <= kFarthest);
 }
 
 /// Rotation whose columns are where the source's axes point to in the target.
@@ -42,13 +54,68 @@ Eigen::Isometry3d from_position_and_angles(const std::vector<double>& v) {
   return transform;
 }
 
-bool is_negative_list(std::string_view text) {
-  return text.size() >= 2 && text[0] == '-' && text.find(',') != std::string_view::npos &&
+bool is_negative(std::string_view text) {
+  return text.size() >= 2 && text[0] == '-' &&
          ((text[1] >= '0' && text[1] <= '9') || text[1] == '.' || text.substr(1, 3) == "inf" ||
           text.substr(1, 3) == "nan");
 }
 
+/// The file that a name leads to, whether it is there or not.
+std::filesystem::path file_of(const std::filesystem::path& name) {
+  std::error_code error;
+  std::filesystem::path absolute = std::filesystem::absolute(name, error);
+  std::filesystem::path file = std::filesystem::weakly_canonical(absolute, error);
+  return error ? absolute : file;
+}
+
 }  // namespace
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t kMost = 60;
+  std::string result(1, '\'');
+  if (text.size() <= kMost) return result.append(text).append(1, '\'');
+  return result.append(text.substr(0, kMost)).append("'...");
+}
+
+std::string box_text(const Box& box) {
+  std::string text;
+  for (const Point& corner : {box.min, box.max})
+    for (const double value : corner)
+      text.append(text.empty() ? "" : ",").append(number_text(value));
+  return text;
+}
+
+std::string range_text(const Range& range) {
+  std::string text = range.above ? "above " + number_text(range.least) + ", at most "
+                                 : "from " + number_text(range.least) + " to ";
+  text += number_text(range.most);
+  return range.endless ? text + ", or inf" : text;
+}
+
+double parse_number(std::string_view text, const Range& range, const std::string& option) {
+  const std::optional<double> value = number_of(text);
+  const std::string name = option + " " + in_quotes(text), remedy = "give one " + range_text(range);
+  if (!value) throw InputError(name, "is no number", remedy);
+  const bool is_in =
+      *value <= range.most && (range.above ? *value > range.least : *value >= range.least);
+  if (!is_in && !(range.endless && std::isinf(*value) && *value > 0.0))
+    throw InputError(name, "is out of range", remedy);
+  return *value;
+}
+
+std::uint64_t parse_whole(std::string_view text, const Wholes& range, const std::string& option) {
+  std::uint64_t value = 0;
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, value);
+  const std::string name = option + " " + in_quotes(text);
+  const std::string remedy =
+      "give one from " + number_text(range.least) + " to " + number_text(range.most);
+  if (error == std::errc::invalid_argument || end != last)
+    throw InputError(name, "is no whole number", remedy);
+  if (error != std::errc() || value < range.least || value > range.most)
+    throw InputError(name, "is out of range", remedy);
+  return value;
+}
 
 std::vector<double> parse_numbers(std::string_view text, const std::string& option) {
   std::vector<double> values;
@@ -57,30 +124,29 @@ std::vector<double> parse_numbers(std::string_view text, const std::string& opti
     if (begin == std::string_view::npos) return values;
     rest.remove_prefix(begin);
     const std::string_view word = rest.substr(0, rest.find_first_of(kSeparators));
-    const char* first = word.data() + (word.front() == '+' ? 1 : 0);
-    const char* last = word.data() + word.size();
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(first, last, value);
-    if (error != std::errc() || end != last || std::isnan(value))
-      throw InputError(option + " " + quoted(text), quoted(word) + " is no number",
+    const std::optional<double> value = number_of(word);
+    if (!value)
+      throw InputError(option + " " + in_quotes(text), in_quotes(word) + " is no number",
                        "give numbers between commas, such as 1.5,-2,0.7");
-    values.push_back(value);
+    values.push_back(*value);
     rest.remove_prefix(word.size());
   }
 }
 
 Point parse_point(std::string_view text, const std::string& option) {
   const std::vector<double> v = parse_numbers(text, option);
-  if (v.size() != 3 || !std::isfinite(v[0]) || !std::isfinite(v[1]) || !std::isfinite(v[2]))
-    throw InputError(option + " " + quoted(text), "is no point",
-                     "give three finite coordinates in metres: X,Y,Z");
+  if (v.size() != 3 || std::any_of(v.begin(), v.end(), is_too_far))
+    throw InputError(option + " " + in_quotes(text), "is no point",
+                     "give three numbers of at most 1e9: X,Y,Z");
   return {v[0], v[1], v[2]};
 }
 
 Box parse_box(std::string_view text, const std::string& option) {
   const std::vector<double> v = parse_numbers(text, option);
-  const std::string name = option + " " + quoted(text);
+  const std::string name = option + " " + in_quotes(text);
   if (v.size() != 6) throw InputError(name, "is no box", "give six numbers: x0,y0,z0,x1,y1,z1");
+  if (std::any_of(v.begin(), v.end(), [](double x) { return std::isfinite(x) && is_too_far(x); }))
+    throw InputError(name, "is too large", "give metres of at most 1e9, or inf for no limit");
   Box box = {Point(v[0], v[1], v[2]), Point(v[3], v[4], v[5])};
   validate_box(box, name);
   return box;
@@ -92,7 +158,7 @@ Eigen::Isometry3d parse_transform(std::string_view text, const std::string& opti
   if (text == "camera") return turn(-y, -z, x);
   if (text == "y-up") return turn(x, z, -y);
 
-  const std::string name = option + " " + quoted(text);
+  const std::string name = option + " " + in_quotes(text);
   const std::vector<double> v = parse_numbers(text, option);
   Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
   if (v.size() == 6) {
@@ -114,9 +180,7 @@ void require_writable(const std::vector<std::filesystem::path>& files,
                       const std::vector<std::filesystem::path>& inputs) {
   const auto is_same = [](const std::filesystem::path& a, const std::filesystem::path& b) {
     std::error_code error;
-    return std::filesystem::weakly_canonical(a, error) ==
-               std::filesystem::weakly_canonical(b, error) ||
-           std::filesystem::equivalent(a, b, error);
+    return file_of(a) == file_of(b) || std::filesystem::equivalent(a, b, error);
   };
   for (auto file = files.begin(); file != files.end(); ++file) {
     for (const std::filesystem::path& input : inputs)
@@ -129,18 +193,26 @@ void require_writable(const std::vector<std::filesystem::path>& files,
   }
 }
 
-void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& help) {
-  constexpr double kLargest = 1.8e19;  // below 2^64
-  command.add_option("--seed", seed, help)->check(CLI::Range(0.0, kLargest))->capture_default_str();
+void require_extension(const std::filesystem::path& file, const std::string& what,
+                       std::initializer_list<const char*> extensions) {
+  std::string names;
+  for (const char* extension : extensions) {
+    if (file.extension() == extension) return;
+    names.append(names.empty() ? "" : " or ").append(extension);
+  }
+  throw InputError(file.string(), "is no name for " + what, "let it end in " + names);
 }
 
-std::vector<std::string> join_negative_values(int argc, const char* const* argv) {
+std::vector<std::string> join_values(int argc, const char* const* argv) {
   std::vector<std::string> joined;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
+    const bool is_long = word.size() > 2 && word.starts_with("--");
+    if (is_long && word.find('=') == word.size() - 1)
+      throw InputError(word.substr(0, word.size() - 1) + " ''", "is empty", "give a value");
     const bool continues = !joined.empty() && joined.back().starts_with("--") &&
                            joined.back().size() > 2 && joined.back().find('=') == std::string::npos;
-    if (continues && is_negative_list(word))
+    if (continues && is_negative(word))
       joined.back().append("=").append(word);
     else
       joined.push_back(word);

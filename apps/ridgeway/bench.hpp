@@ -2,16 +2,16 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
-#include "commands.hpp"
+#include "command.hpp"
 
 namespace ridgeway::cli {
 
 /// Each adds an experiment to `bench`.
-void add_bench_fusion(CLI::App& bench, const Globals& globals, Command& chosen);
-void add_bench_grid(CLI::App& bench, const Globals& globals, Command& chosen);
-void add_bench_hall(CLI::App& bench, const Globals& globals, Command& chosen);
-void add_bench_maze(CLI::App& bench, const Globals& globals, Command& chosen);
-void add_bench_noise(CLI::App& bench, const Globals& globals, Command& chosen);
-void add_bench_trajectory(CLI::App& bench, const Globals& globals, Command& chosen);
+void add_bench_fusion(Command& bench);
+void add_bench_grid(Command& bench);
+void add_bench_hall(Command& bench);
+void add_bench_maze(Command& bench);
+void add_bench_noise(Command& bench);
+void add_bench_trajectory(Command& bench);
 
 }  // namespace ridgeway::cli

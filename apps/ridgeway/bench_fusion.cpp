@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include <CLI/CLI.hpp>
+#include <limits>
 #include <memory>
 
 #include "arguments.hpp"
 #include "bench.hpp"
 #include "bench_table.hpp"
 #include "console.hpp"
+#include "interruption.hpp"
 #include "ridgeway/experiments/fusion_speed.hpp"
 
 namespace ridgeway::cli {
@@ -24,10 +25,15 @@ int run(const Options& options, const Globals& globals) {
   const World world = options.scan.load();
   if (!options.output.empty()) require_folder(options.output);
   ProgressBar bar(globals);
-  const std::vector<FusionSpeed> ways = run_fusion_speed(world, config, bar.callback());
+  std::vector<FusionSpeed> ways;
+  const bool complete = completes([&] { run_fusion_speed(world, config, bar.callback(), ways); });
   bar.clear();
   // Each of ours against the loop of its own kind.
-  const auto baseline = [&](std::size_t i) { return ways[i % 2 == 0 ? 2 : 3].milliseconds.median; };
+  const auto baseline = [&](std::size_t i) {
+    const std::size_t own = i % 2 == 0 ? 2 : 3;
+    return own < ways.size() ? ways[own].milliseconds.median
+                             : std::numeric_limits<double>::quiet_NaN();
+  };
   BenchTable table;
   for (std::size_t i = 0; i < ways.size(); ++i) {
     const FusionSpeed& way = ways[i];
@@ -44,25 +50,24 @@ int run(const Options& options, const Globals& globals) {
                                   {"voxel_size", config.voxel_size},
                                   {"sigma", config.sigma},
                                   {"threads", globals.threads}};
-  table.report(globals, options.output, "fusion", facts);
-  return kExitDone;
+  return table.report(globals, options.output, "fusion", facts, complete);
 }
 
 }  // namespace
 
-void add_bench_fusion(CLI::App& bench, const Globals& globals, Command& chosen) {
+void add_bench_fusion(Command& bench) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = bench.add_subcommand(
+  Command command = bench.add(
       "fusion", "Time and error of fusing depth images, against plain loops on one thread");
-  add_scan_options(*command, options->scan);
-  command->add_option("--voxel-size", options->config.voxel_size, "Metres")->capture_default_str();
-  command->add_option("--truncation", options->config.truncation, "Metres")->capture_default_str();
-  command->add_option("--sigma", options->config.sigma, "Gaussian noise on every range, metres")
-      ->capture_default_str();
-  command->add_option("-o,--output", options->output, "Folder for fusion.json and fusion.csv");
-  add_seed_option(*command, options->config.seed, "Of poses and noise");
-  command->footer("Example:\n  ridgeway bench fusion --threads 2");
-  run_when_given(*command, options, globals, chosen, run);
+  add_scan_options(command, options->scan);
+  command.number("--voxel-size", options->config.voxel_size, kLengths, "Metres");
+  command.number("--truncation", options->config.truncation, kLengths, "Metres");
+  command.number("--sigma", options->config.sigma, kLengthsFromZero,
+                 "Gaussian noise on every range, metres");
+  command.path("-o,--output", options->output, "Folder for fusion.json and fusion.csv");
+  command.seed(options->config.seed, "Of poses and noise");
+  command.footer("Example:\n  ridgeway bench fusion --threads 2");
+  command.runs(options, run);
 }
 
 }  // namespace ridgeway::cli

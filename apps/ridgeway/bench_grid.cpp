@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <system_error>
 #include <utility>
 
 #include "bench.hpp"
 #include "bench_table.hpp"
 #include "console.hpp"
+#include "interruption.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/number_text.hpp"
 #include "ridgeway/experiments/grid.hpp"
@@ -48,7 +49,7 @@ fs::path scenario_file(const fs::path& map) {
   appended += ".3dscen";
   replaced.replace_extension(".3dscen");
   for (const fs::path& file : {appended, replaced})
-    if (fs::exists(file)) return file;
+    if (std::error_code error; fs::exists(file, error)) return file;
   throw InputError(
       map.string(), "has no scenarios beside it",
       "put " + appended.filename().string() + " or " + replaced.filename().string() + " there");
@@ -167,48 +168,45 @@ int run(const Options& options, const Globals& globals) {
   ProgressBar bar(globals);
   BenchTable table;
   std::vector<GridRow> rows;
-  for (const Source& source : sources) {
-    const std::string name = source.file.string();
-    rows.push_back(run_grid({source.file.stem().string(),
-                             read_benchmark_map(source.bytes, name, kVoxelSize), source.scenarios},
-                            options.config, bar.callback()));
-    table.add(json_of(rows.back()));
-  }
+  const bool complete = completes([&] {
+    for (const Source& source : sources) {
+      const std::string name = source.file.string();
+      rows.push_back(
+          run_grid({source.file.stem().string(), read_benchmark_map(source.bytes, name, kVoxelSize),
+                    source.scenarios},
+                   options.config, bar.callback()));
+      table.add(json_of(rows.back()));
+    }
+  });
   bar.clear();
-  if (!options.output.empty()) {
+  if (complete && !options.output.empty()) {
     draw_excess(rows, options.output);
     write_text_file(fs::path(options.output) / "grid_scenarios.csv", scenarios_csv(rows, sources));
   }
-  table.report(globals, options.output, "grid",
-               {{"voxel_size", kVoxelSize}, {"radius", options.config.min_clearance}});
-  return kExitDone;
+  return table.report(globals, options.output, "grid",
+                      {{"voxel_size", kVoxelSize}, {"radius", options.config.min_clearance}},
+                      complete);
 }
 
 }  // namespace
 
-void add_bench_grid(CLI::App& bench, const Globals& globals, Command& chosen) {
+void add_bench_grid(Command& bench) {
   const auto options = std::make_shared<Options>();
   GridExperimentConfig& config = options->config;
-  CLI::App* command = bench.add_subcommand(
+  Command command = bench.add(
       "grid", "The MovingAI 3D benchmarks: success, time, and length over the stored optimum");
   command
-      ->add_option("maps", options->maps,
-                   ".3dmap files, each with its scenarios (MAP.3dmap.3dscen or MAP.3dscen) beside")
-      ->required();
-  command
-      ->add_option("--scenarios", config.scenarios,
-                   "At most so many of each map's, evenly spread (0: all)")
-      ->check(CLI::Range(0, 100000000))
-      ->capture_default_str();
-  command
-      ->add_option("--exact", config.exact,
-                   "The first of them, that A* through the distance field shall reproduce")
-      ->check(CLI::Range(0, 100000000))
-      ->capture_default_str();
-  command->add_option("-o,--output", options->output,
-                      "Folder for grid.json, grid.csv, grid_scenarios.csv and a chart (PNG, SVG)");
-  command->footer("Example:\n  ridgeway bench grid data/warframe/Simple.3dmap -o results");
-  run_when_given(*command, options, globals, chosen, run);
+      .paths("maps", options->maps,
+             ".3dmap files, each with its scenarios (MAP.3dmap.3dscen or MAP.3dscen) beside")
+      .required();
+  command.whole("--scenarios", config.scenarios, {0, 100'000'000},
+                "At most so many of each map's, evenly spread (0: all)");
+  command.whole("--exact", config.exact, {0, 100'000'000},
+                "The first of them, that A* through the distance field shall reproduce");
+  command.path("-o,--output", options->output,
+               "Folder for grid.json, grid.csv, grid_scenarios.csv and a chart (PNG, SVG)");
+  command.footer("Example:\n  ridgeway bench grid data/warframe/Simple.3dmap -o results");
+  command.runs(options, run);
 }
 
 }  // namespace ridgeway::cli

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include <unistd.h>
-
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -16,7 +13,10 @@
 #include "bench.hpp"
 #include "bench_table.hpp"
 #include "console.hpp"
+#include "interruption.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/experiments/hall.hpp"
+#include "ridgeway/files/temporary.hpp"
 #include "ridgeway/formats/load_map.hpp"
 #include "ridgeway/pictures/chart.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
@@ -33,24 +33,6 @@ struct Options {
   std::vector<std::string> maps;
   std::string output;
   HallExperimentConfig config;
-};
-
-/// The name of a file for a while.
-class ScratchFile {
- public:
-  explicit ScratchFile(const std::string& folder)
-      : path_((folder.empty() ? fs::temp_directory_path() : fs::path(folder)) /
-              ("hall-" + std::to_string(::getpid()) + ".ridge")) {}
-  ~ScratchFile() {
-    std::error_code ignored;
-    fs::remove(path_, ignored);
-  }
-  ScratchFile(const ScratchFile&) = delete;
-  ScratchFile& operator=(const ScratchFile&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  const fs::path path_;
 };
 
 /// One number for each stage, by the member of StageNumbers that holds it.
@@ -174,55 +156,49 @@ int run(const Options& options, const Globals& globals) {
     const fs::path name = path.stem() == kHall ? path.filename() : path.stem();
     maps.push_back({name.string(), [file] { return load_map(file); }});
   }
-  const ScratchFile file(options.output);
-  const RoadmapStore store{[&](const Roadmap& roadmap) { save_roadmap(roadmap, file.path()); },
-                           [&] { return load_roadmap(file.path()); }};
+  const fs::path place =
+      options.output.empty() ? fs::temp_directory_path() : fs::path(options.output);
+  const Temporary folder(place / kHall, Temporary::Kind::kFolder);
+  if (folder.error() != 0)
+    throw InputError(place.string(), "cannot be written to", "give another folder with -o");
+  const fs::path file = folder.path() / "hall.ridge";
+  const RoadmapStore store{[&](const Roadmap& roadmap) { save_roadmap(roadmap, file); },
+                           [&] { return load_roadmap(file); }};
   ProgressBar bar(globals);
-  const std::vector<HallRow> rows = run_hall(config, maps, store, bar.callback());
+  std::vector<HallRow> rows;
+  const bool complete = completes([&] { run_hall(config, maps, store, bar.callback(), rows); });
   bar.clear();
   const BenchTable table = table_of(rows, config.threads.size());
   const Json facts = {{"seed", config.seed},
                       {"repeat", config.repeat},
                       {"queries", config.queries},
                       {"machine_threads", std::thread::hardware_concurrency()}};
-  if (!options.output.empty())
+  if (complete && !options.output.empty())
     for (const char* extension : {".png", ".svg"})
       draw_times(rows, fs::path(options.output) / (std::string("hall_times") + extension));
-  table.report(globals, options.output, "hall", facts);
-  return kExitDone;
+  return table.report(globals, options.output, "hall", facts, complete);
 }
 
 }  // namespace
 
-void add_bench_hall(CLI::App& bench, const Globals& globals, Command& chosen) {
+void add_bench_hall(Command& bench) {
   const auto options = std::make_shared<Options>();
   HallExperimentConfig& config = options->config;
-  CLI::App* command = bench.add_subcommand(
+  Command command = bench.add(
       "hall", "How long does a map take? Each stage, memory and first answer, by voxel size");
-  command->add_option("maps", options->maps, "Maps to build beside the hall, as build takes them");
-  command->add_option("--voxel-sizes", config.voxel_sizes, "Of the hall, metres")
-      ->delimiter(',')
-      ->capture_default_str();
-  command
-      ->add_option("--threads-list", config.threads,
-                   "Numbers of threads; the first is what the others are compared with")
-      ->delimiter(',')
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
-  command->add_option("--repeat", config.repeat, "Builds of which medians are taken")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  command
-      ->add_option("--min-clearance", config.min_clearance, "Metres; at least two voxels are taken")
-      ->capture_default_str();
-  command->add_option("--queries", config.queries, "Of the batch that runs in parallel")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
-  command->add_option("-o,--output", options->output,
-                      "Folder for hall.json, hall.csv and the figure (PNG, SVG)");
-  add_seed_option(*command, config.seed, "Of hall, starts and goals");
-  command->footer("Example:\n  ridgeway bench hall data/fr_079.bt -o results");
-  run_when_given(*command, options, globals, chosen, run);
+  command.paths("maps", options->maps, "Maps to build beside the hall, as build takes them");
+  command.numbers("--voxel-sizes", config.voxel_sizes, kLengths, "Of the hall, metres");
+  command.wholes("--threads-list", config.threads, {1, 1024},
+                 "Numbers of threads; the first is what the others are compared with");
+  command.whole("--repeat", config.repeat, {1, 10'000}, "Builds of which medians are taken");
+  command.number("--min-clearance", config.min_clearance, kLengths,
+                 "Metres; at least two voxels are taken");
+  command.whole("--queries", config.queries, {1, 1'000'000}, "Of the batch that runs in parallel");
+  command.path("-o,--output", options->output,
+               "Folder for hall.json, hall.csv and the figure (PNG, SVG)");
+  command.seed(config.seed, "Of hall, starts and goals");
+  command.footer("Example:\n  ridgeway bench hall data/fr_079.bt -o results");
+  command.runs(options, run);
 }
 
 }  // namespace ridgeway::cli

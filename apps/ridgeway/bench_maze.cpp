@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 
@@ -8,6 +7,7 @@
 #include "bench.hpp"
 #include "bench_table.hpp"
 #include "console.hpp"
+#include "interruption.hpp"
 #include "ridgeway/experiments/maze.hpp"
 #include "ridgeway/pictures/picture.hpp"
 
@@ -23,6 +23,7 @@ struct Options {
 
 BenchTable table_of(const MazeResult& result) {
   BenchTable table;
+  if (result.rows.empty()) return table;
   const double ours = result.rows.back().seconds.median;
   for (const MazeRow& row : result.rows)
     table.add({{"planner", row.planner},
@@ -56,7 +57,8 @@ int run(const Options& options, const Globals& globals) {
   MazeExperimentConfig config = options.config;
   config.maze.seed = config.seed;
   ProgressBar bar(globals);
-  const MazeResult result = run_maze(config, bar.callback());
+  MazeResult result;
+  const bool complete = completes([&] { run_maze(config, bar.callback(), result); });
   bar.clear();
   const BenchTable table = table_of(result);
   const Json facts = {{"seed", config.seed},
@@ -65,44 +67,33 @@ int run(const Options& options, const Globals& globals) {
                       {"repeat", config.repeat},
                       {"vertices", result.roadmap.graph.vertices.size()},
                       {"edges", result.roadmap.graph.edges.size()}};
-  if (!options.output.empty()) draw_paths(result, options.output);
-  table.report(globals, options.output, "maze", facts);
-  return kExitDone;
+  if (complete && !options.output.empty()) draw_paths(result, options.output);
+  return table.report(globals, options.output, "maze", facts, complete);
 }
 
 }  // namespace
 
-void add_bench_maze(CLI::App& bench, const Globals& globals, Command& chosen) {
+void add_bench_maze(Command& bench) {
   const auto options = std::make_shared<Options>();
   MazeExperimentConfig& config = options->config;
-  CLI::App* command =
-      bench.add_subcommand("maze", "Every planner on one maze: success, time and length");
-  command->add_option("--voxel-size", config.voxel_size, "Metres")->capture_default_str();
-  command->add_option("--min-clearance", config.min_clearance, "And radius of the robot, metres")
-      ->capture_default_str();
-  command->add_option("--cells", config.maze.cells, "Of the maze, along each side")
-      ->check(CLI::Range(2, 1000))
-      ->capture_default_str();
-  command->add_option("--pairs", config.pairs, "Random starts and goals")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  command->add_option("--long-pairs", config.long_pairs, "Of them, for RRT* with all of its time")
-      ->check(CLI::Range(0, 100000))
-      ->capture_default_str();
-  command
-      ->add_option("--repeat", config.repeat,
-                   "Rounds of all planners but that one, for median times")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  command->add_option("--time-limit", config.time_limit, "Of a planner that samples, seconds")
-      ->capture_default_str();
-  command->add_option("--range", config.range, "Longest motion of a tree, metres")
-      ->capture_default_str();
-  command->add_option("-o,--output", options->output,
-                      "Folder for maze.json, maze.csv and a picture of the paths (PNG, SVG)");
-  add_seed_option(*command, config.seed, "Of maze, starts, goals and samples");
-  command->footer("Example:\n  ridgeway bench maze -o results");
-  run_when_given(*command, options, globals, chosen, run);
+  Command command = bench.add("maze", "Every planner on one maze: success, time and length");
+  command.number("--voxel-size", config.voxel_size, kLengths, "Metres");
+  command.number("--min-clearance", config.min_clearance, kLengths,
+                 "And radius of the robot, metres");
+  command.whole("--cells", config.maze.cells, {2, 1000}, "Of the maze, along each side");
+  command.whole("--pairs", config.pairs, {1, 100'000}, "Random starts and goals");
+  command.whole("--long-pairs", config.long_pairs, {0, 100'000},
+                "Of them, for RRT* with all of its time");
+  command.whole("--repeat", config.repeat, {1, 10'000},
+                "Rounds of all planners but that one, for median times");
+  command.number("--time-limit", config.time_limit, {.least = 0.0, .most = 1e9, .above = true},
+                 "Of a planner that samples, seconds");
+  command.number("--range", config.range, kLengths, "Longest motion of a tree, metres");
+  command.path("-o,--output", options->output,
+               "Folder for maze.json, maze.csv and a picture of the paths (PNG, SVG)");
+  command.seed(config.seed, "Of maze, starts, goals and samples");
+  command.footer("Example:\n  ridgeway bench maze -o results");
+  command.runs(options, run);
 }
 
 }  // namespace ridgeway::cli

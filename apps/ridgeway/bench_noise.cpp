@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 
@@ -8,6 +7,7 @@
 #include "bench.hpp"
 #include "bench_table.hpp"
 #include "console.hpp"
+#include "interruption.hpp"
 #include "ridgeway/experiments/noise.hpp"
 #include "ridgeway/pictures/chart.hpp"
 #include "ridgeway/pictures/picture.hpp"
@@ -53,7 +53,9 @@ BenchTable table_of(const NoiseResult& result) {
          {"traversable_components", report.traversable_components},
          {"cycles", map.cycles},
          {"clean", map.check.is_clean()},
-         {"success", static_cast<double>(map.solved) / static_cast<double>(result.pairs)},
+         {"success", result.pairs == 0 ? Json()
+                                       : Json(static_cast<double>(map.solved) /
+                                              static_cast<double>(result.pairs))},
          {"length_ratio", {{"median", map.length_ratio.median}, {"p95", map.length_ratio.p95}}},
          {"scan_milliseconds", milliseconds}});
   }
@@ -95,7 +97,8 @@ int run(const Options& options, const Globals& globals) {
   const World world = options.scan.load();
   if (!options.output.empty()) require_folder(options.output);
   ProgressBar bar(globals);
-  const NoiseResult result = run_noise(world, config, bar.callback());
+  NoiseResult result;
+  const bool complete = completes([&] { run_noise(world, config, bar.callback(), result); });
   bar.clear();
   const BenchTable table = table_of(result);
   const Json facts = {{"world", world.name},
@@ -104,7 +107,7 @@ int run(const Options& options, const Globals& globals) {
                       {"pairs", result.pairs},
                       {"checked_queries", config.queries},
                       {"size_ratio", result.size_ratio}};
-  if (!options.output.empty()) {
+  if (complete && !options.output.empty()) {
     const std::filesystem::path folder = options.output;
     const int columns = static_cast<int>(1 + config.sigmas.size());
     for (const char* extension : {".png", ".svg"}) {
@@ -112,46 +115,36 @@ int run(const Options& options, const Globals& globals) {
       draw_maps(result, columns, folder / (std::string("noise_maps") + extension));
     }
   }
-  table.report(globals, options.output, "noise", facts);
-  if (!globals.json) {
+  const int code = table.report(globals, options.output, "noise", facts, complete);
+  if (!globals.json && complete) {
     print_row("pairs", count_text(result.pairs));
     print_row("largest graph", text_of(result.size_ratio, 2) + " times the smallest");
   }
-  return kExitDone;
+  return code;
 }
 
 }  // namespace
 
-void add_bench_noise(CLI::App& bench, const Globals& globals, Command& chosen) {
+void add_bench_noise(Command& bench) {
   const auto options = std::make_shared<Options>();
   NoiseConfig& config = options->config;
-  CLI::App* command = bench.add_subcommand(
-      "noise", "Does the graph depend on voxel size and noise? One world, twelve maps");
-  add_scan_options(*command, options->scan);
-  command->add_option("--voxel-sizes", config.voxel_sizes, "Metres")
-      ->delimiter(',')
-      ->capture_default_str();
-  command->add_option("--sigmas", config.sigmas, "Gaussian noise on every range, metres")
-      ->delimiter(',')
-      ->capture_default_str();
-  command->add_option("--min-clearance", config.min_clearance, "And radius of the routes, metres")
-      ->capture_default_str();
-  command
-      ->add_option("--isolated", config.isolated_below,
-                   "Take clusters of fewer occupied voxels as free")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  command->add_option("--pairs", config.pairs, "Starts and goals, common to all maps")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
-  command->add_option("--queries", config.queries, "Of the check of each map")
-      ->check(CLI::Range(0, 1000000))
-      ->capture_default_str();
-  command->add_option("-o,--output", options->output,
-                      "Folder for noise.json, noise.csv and the pictures (PNG, SVG)");
-  add_seed_option(*command, config.seed, "Of poses, noise, starts and goals");
-  command->footer("Example:\n  ridgeway bench noise -o results");
-  run_when_given(*command, options, globals, chosen, run);
+  Command command =
+      bench.add("noise", "Does the graph depend on voxel size and noise? One world, twelve maps");
+  add_scan_options(command, options->scan);
+  command.numbers("--voxel-sizes", config.voxel_sizes, kLengths, "Metres");
+  command.numbers("--sigmas", config.sigmas, kLengthsFromZero,
+                  "Gaussian noise on every range, metres");
+  command.number("--min-clearance", config.min_clearance, kLengths,
+                 "And radius of the routes, metres");
+  command.whole("--isolated", config.isolated_below, {0, 1'000'000'000},
+                "Take clusters of fewer occupied voxels as free");
+  command.whole("--pairs", config.pairs, {1, 1'000'000}, "Starts and goals, common to all maps");
+  command.whole("--queries", config.queries, {0, 1'000'000}, "Of the check of each map");
+  command.path("-o,--output", options->output,
+               "Folder for noise.json, noise.csv and the pictures (PNG, SVG)");
+  command.seed(config.seed, "Of poses, noise, starts and goals");
+  command.footer("Example:\n  ridgeway bench noise -o results");
+  command.runs(options, run);
 }
 
 }  // namespace ridgeway::cli

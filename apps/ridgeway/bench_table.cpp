@@ -4,7 +4,6 @@
 
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -13,6 +12,7 @@
 
 #include "arguments.hpp"
 #include "console.hpp"
+#include "interruption.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/files/atomic_file.hpp"
 #include "ridgeway/formats/world_file.hpp"
@@ -114,10 +114,11 @@ std::string BenchTable::csv() const {
   return csv;
 }
 
-void BenchTable::report(const Globals& globals, const std::string& folder, const std::string& name,
-                        Json facts) const {
+int BenchTable::report(const Globals& globals, const std::string& folder, const std::string& name,
+                       Json facts, bool complete) const {
+  facts["complete"] = complete;
   facts["rows"] = rows_;
-  if (!folder.empty()) {
+  if (complete && !folder.empty()) {
     write_text_file(fs::path(folder) / (name + ".csv"), csv());
     write_text_file(fs::path(folder) / (name + ".json"), facts.dump(2) + "\n");
   }
@@ -125,28 +126,28 @@ void BenchTable::report(const Globals& globals, const std::string& folder, const
     print_json(facts);
   else
     print();
+  if (complete) return kExitDone;
+  note(globals, "interrupted: these are the results so far");
+  return interrupted_exit_code();
 }
 
 World ScanOptions::load() const { return world.empty() ? make_house() : load_world(world); }
 
 PoseSampling ScanOptions::poses(std::uint64_t seed) const {
-  const Box box = parse_box(volume, "--volume");
-  return {.low = box.min, .high = box.max, .count = scans, .seed = seed};
+  return {.low = volume->min, .high = volume->max, .count = scans, .seed = seed};
 }
 
-void add_scan_options(CLI::App& command, ScanOptions& options) {
-  command.add_option("--world", options.world, "World, .yaml (default: the house)");
-  command.add_option("--volume", options.volume, "Where the camera may be, x0,y0,z0,x1,y1,z1")
-      ->capture_default_str();
-  command.add_option("--scans", options.scans, "Depth images to fuse")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
+void add_scan_options(Command& command, ScanOptions& options) {
+  command.path("--world", options.world, "World, .yaml (default: the house)");
+  command.box("--volume", options.volume, "Where the camera may be, x0,y0,z0,x1,y1,z1");
+  command.whole("--scans", options.scans, {1, 100'000}, "Depth images to fuse");
 }
 
 void require_folder(const std::string& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder) || ::access(folder.c_str(), W_OK) != 0)
+  if (error) throw InputError(folder, "cannot be made: " + error.message(), "give another folder");
+  if (!fs::is_directory(folder, error) || ::access(folder.c_str(), W_OK) != 0)
     throw InputError("'" + folder + "'", "is no folder that can be written to",
                      "give another folder");
 }

@@ -3,11 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "commands.hpp"
+#include "command.hpp"
+#include "json.hpp"
 #include "ridgeway/sensing/poses.hpp"
 
 namespace ridgeway::cli {
@@ -24,9 +25,10 @@ class BenchTable {
 
   /// Prints the rows as aligned columns, nested keys as "length_ratio.p95" (a column a row, where
   /// the lines would get too long), or with --json one object of `facts` and rows. With a folder,
-  /// not empty, writes NAME.csv and NAME.json there.
-  void report(const Globals& globals, const std::string& folder, const std::string& name,
-              Json facts) const;
+  /// not empty, writes NAME.csv and NAME.json there. Returns the exit code; rows that are not
+  /// `complete`, as the experiment was interrupted, are only printed.
+  int report(const Globals& globals, const std::string& folder, const std::string& name, Json facts,
+             bool complete) const;
 
  private:
   void print() const;
@@ -37,13 +39,14 @@ class BenchTable {
 
 /// What the experiments with a moving depth camera share: the world, and where the camera may be.
 struct ScanOptions {
-  std::string world, volume = "1,1,1,14,10,5";
+  std::string world;
+  std::optional<Box> volume = Box{Point(1.0, 1.0, 1.0), Point(14.0, 10.0, 5.0)};
   std::size_t scans = 200;
 
   World load() const;  ///< the house where no file is given
   PoseSampling poses(std::uint64_t seed) const;
 };
-void add_scan_options(CLI::App& command, ScanOptions& options);
+void add_scan_options(Command& command, ScanOptions& options);
 
 /// Makes the folder that --output names, before the long work. Throws InputError where it cannot
 /// be made or written to.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -12,6 +11,7 @@
 #include "bench_table.hpp"
 #include "console.hpp"
 #include "flight_picture.hpp"
+#include "interruption.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/experiments/flights.hpp"
 #include "ridgeway/formats/load_map.hpp"
@@ -149,50 +149,47 @@ int run(const Options& options, const Globals& globals) {
   BenchTable table;
   std::vector<ScatterSeries> series;
   ProgressBar bar(globals);
-  for (const NamedMap& map : load_maps(options)) {
-    const FlightsResult result = run_flights(map.map, options.config, bar.callback());
-    table.add(row_of(map.name, result));
-    series.push_back(series_of(map.name, result, options.config.limits));
-    if (!options.output.empty()) draw(map, result, options);
-  }
+  const bool complete = completes([&] {
+    for (const NamedMap& map : load_maps(options)) {
+      const FlightsResult result = run_flights(map.map, options.config, bar.callback());
+      table.add(row_of(map.name, result));
+      series.push_back(series_of(map.name, result, options.config.limits));
+      if (!options.output.empty()) draw(map, result, options);
+    }
+  });
   bar.clear();
-  if (!options.output.empty()) draw_durations(std::move(series), options.output);
-  table.report(globals, options.output, "trajectory",
-               {{"seed", options.config.seed},
-                {"radius", options.config.min_clearance},
-                {"max_speed", options.config.limits.max_speed},
-                {"max_acceleration", options.config.limits.max_acceleration}});
-  return kExitDone;
+  if (complete && !options.output.empty()) draw_durations(std::move(series), options.output);
+  return table.report(globals, options.output, "trajectory",
+                      {{"seed", options.config.seed},
+                       {"radius", options.config.min_clearance},
+                       {"max_speed", options.config.limits.max_speed},
+                       {"max_acceleration", options.config.limits.max_acceleration}},
+                      complete);
 }
 
 }  // namespace
 
-void add_bench_trajectory(CLI::App& bench, const Globals& globals, Command& chosen) {
+void add_bench_trajectory(Command& bench) {
   const auto options = std::make_shared<Options>();
   FlightsConfig& config = options->config;
-  CLI::App* command = bench.add_subcommand(
+  Command command = bench.add(
       "trajectory", "Flights along planned paths: success, duration, time, before a judge");
-  command->add_option("maps", options->files, "Maps to fly on too, as `ridgeway build` reads them");
-  command->add_option("--worlds", options->worlds, "Simulated worlds to fly in: maze, hall, none")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"maze", "hall", "none"}))
-      ->capture_default_str();
-  command->add_option("--voxel-size", options->voxel_size, "Of the worlds, metres")
-      ->capture_default_str();
-  command->add_option("--min-clearance", config.min_clearance, "And radius of the robot, metres")
-      ->capture_default_str();
-  command->add_option("--queries", config.queries, "On each map, of starts and goals with a path")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  command->add_option("--max-speed", config.limits.max_speed, "Metres a second")
-      ->capture_default_str();
-  command->add_option("--max-acceleration", config.limits.max_acceleration, "Metres a second^2")
-      ->capture_default_str();
-  command->add_option("-o,--output", options->output,
-                      "Folder for trajectory.json, trajectory.csv and the pictures (PNG, SVG)");
-  add_seed_option(*command, config.seed, "Of worlds, starts and goals");
-  command->footer("Example:\n  ridgeway bench trajectory data/fr_079.bt -o results");
-  run_when_given(*command, options, globals, chosen, run);
+  command.paths("maps", options->files, "Maps to fly on too, as `ridgeway build` reads them");
+  command.choices("--worlds", options->worlds, {"maze", "hall", "none"},
+                  "Simulated worlds to fly in");
+  command.number("--voxel-size", options->voxel_size, kLengths, "Of the worlds, metres");
+  command.number("--min-clearance", config.min_clearance, kLengths,
+                 "And radius of the robot, metres");
+  command.whole("--queries", config.queries, {1, 100'000},
+                "On each map, of starts and goals with a path");
+  command.number("--max-speed", config.limits.max_speed, kMotions, "Metres a second");
+  command.number("--max-acceleration", config.limits.max_acceleration, kMotions,
+                 "Metres a second^2");
+  command.path("-o,--output", options->output,
+               "Folder for trajectory.json, trajectory.csv and the pictures (PNG, SVG)");
+  command.seed(config.seed, "Of worlds, starts and goals");
+  command.footer("Example:\n  ridgeway bench trajectory data/fr_079.bt -o results");
+  command.runs(options, run);
 }
 
 }  // namespace ridgeway::cli

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "json.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/load_map.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
@@ -29,8 +29,9 @@ struct Options {
   std::string map, output;
   std::optional<double> voxel_size;
   std::string unknown = "obstacle", edges = "neighbours", diagram = "full", graph = "simple";
-  std::string bounds, transform;
-  std::vector<std::string> exclude;
+  std::optional<Box> bounds;
+  std::vector<Box> exclude;
+  std::optional<Transform> transform;
   int isolated = 0;
   int repeat = 1;
   BuildConfig build;
@@ -39,11 +40,9 @@ struct Options {
 LoadConfig load_config(const Options& options) {
   LoadConfig config;
   config.voxel_size = options.voxel_size;
-  if (!options.bounds.empty()) config.bounds = parse_box(options.bounds, "--bounds");
-  for (const std::string& box : options.exclude)
-    config.exclude.push_back(parse_box(box, "--exclude"));
-  if (!options.transform.empty())
-    config.transform = parse_transform(options.transform, "--transform");
+  config.bounds = options.bounds;
+  config.exclude = options.exclude;
+  if (options.transform) config.transform = options.transform->value;
   config.isolated_below = options.isolated;
   config.validate();
   return config;
@@ -73,9 +72,9 @@ std::string config_text(const Options& options, double voxel_size) {
                {"significance", build.significance},
                {"diagram", options.diagram},
                {"graph", options.graph}};
-  if (!options.bounds.empty()) json["bounds"] = options.bounds;
-  if (!options.exclude.empty()) json["exclude"] = options.exclude;
-  if (!options.transform.empty()) json["transform"] = options.transform;
+  if (options.bounds) json["bounds"] = box_text(*options.bounds);
+  for (const Box& box : options.exclude) json["exclude"].push_back(box_text(box));
+  if (options.transform) json["transform"] = options.transform->text;
   if (options.isolated > 0) json["isolated"] = options.isolated;
   return json.dump();
 }
@@ -181,6 +180,7 @@ int run(const Options& options, const Globals& globals) {
     throw InputError(options.map, "is a roadmap already",
                      "give the map that it was built from, or plan on it");
   require_writable({options.output}, {options.map});
+  require_extension(options.output, "a roadmap", {".ridge"});
 
   Outcome outcome;
   ProgressBar bar(globals);
@@ -218,84 +218,54 @@ int run(const Options& options, const Globals& globals) {
 
 }  // namespace
 
-void add_build_command(CLI::App& app, const Globals& globals, Command& chosen) {
+void add_build_command(Command& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("build", "Build a roadmap from a map");
-  command
-      ->add_option("map", options->map,
-                   "Map: OctoMap .bt, .ot; point cloud .pcd, .ply, .xyz; .3dmap")
-      ->required();
-  command->add_option("-o,--output", options->output, "Roadmap to write, .ridge")->required();
-  command->add_option("--voxel-size", options->voxel_size,
-                      "Metres; required for point clouds, otherwise not finer than the map's own");
   BuildConfig& build = options->build;
-  command
-      ->add_option("--min-clearance", build.min_clearance,
-                   "Smallest robot radius that the roadmap is for, metres")
-      ->capture_default_str();
-  command->add_option("--max-distance", build.max_distance,
-                      "Distances to obstacles are known up to here, metres (default: no limit); "
-                      "halls wider than twice that get a dense graph");
-  command
-      ->add_option("--unknown", options->unknown,
-                   "Unknown space is an obstacle, or is kept out of without a distance to it")
-      ->check(CLI::IsMember({"obstacle", "ignore"}))
-      ->capture_default_str();
-  command
-      ->add_option("--theta", build.theta,
-                   "Least angle between the directions to two obstacles, radians")
-      ->capture_default_str();
-  command
-      ->add_option("--prune-radius", build.prune_radius,
-                   "Vertices nearer than this along the diagram become one, metres")
-      ->capture_default_str();
-  command
-      ->add_option("--split-deviation", build.split_deviation,
-                   "Greatest distance of an edge from its diagram, metres; 0 for two voxels")
-      ->capture_default_str();
-  command
-      ->add_option("--significance", build.significance,
-                   "Dead ends of the graph whose ball reaches less far beyond others go, metres")
-      ->capture_default_str();
-  command
-      ->add_option("--edges", options->edges,
-                   "What makes a ridge voxel an edge: 18 neighbours on the ridges, or three "
-                   "obstacles in directions theta apart")
-      ->check(CLI::IsMember({"neighbours", "basis-points"}))
-      ->capture_default_str();
-  command
-      ->add_option("--diagram", options->diagram,
-                   "The full diagram, or the paper's thinned edges alone for comparison")
-      ->check(CLI::IsMember({"full", "paper"}))
-      ->capture_default_str();
-  command
-      ->add_option("--graph", options->graph,
-                   "Without what noise and voxels put into it, or as fitted to the diagram")
-      ->check(CLI::IsMember({"simple", "fitted"}))
-      ->capture_default_str();
-  command->add_option("--bounds", options->bounds,
-                      "Flight volume x0,y0,z0,x1,y1,z1, metres; required for point clouds");
-  command
-      ->add_option("--exclude", options->exclude,
-                   "No-fly box x0,y0,z0,x1,y1,z1, metres; may be repeated")
-      ->allow_extra_args(false);
-  command->add_option("--transform", options->transform,
-                      "From the file's frame to the map's (z up): x,y,z,roll,pitch,yaw in metres "
-                      "and degrees, 16 numbers of a matrix row by row, camera (x right, y down, "
-                      "z forward) or y-up");
-  command
-      ->add_option("--isolated", options->isolated,
-                   "Take clusters of fewer occupied voxels as free; removes thin obstacles too")
-      ->check(CLI::NonNegativeNumber);
-  command
-      ->add_option("--repeat", options->repeat,
-                   "Build this many times and report the medians of the times")
-      ->check(CLI::Range(1, 10000));
-  command->footer(
+  Command command = program.add("build", "Build a roadmap from a map");
+  command.path("map", options->map, "Map: OctoMap .bt, .ot; point cloud .pcd, .ply, .xyz; .3dmap")
+      .required();
+  command.path("-o,--output", options->output, "Roadmap to write, .ridge").required();
+  command.number("--voxel-size", options->voxel_size, kLengths,
+                 "Metres; required for point clouds, otherwise not finer than the map's own");
+  command.number("--min-clearance", build.min_clearance, kLengths,
+                 "Smallest robot radius that the roadmap is for, metres");
+  command.number("--max-distance", build.max_distance, kReaches,
+                 "Distances to obstacles are known up to here, metres; halls wider than twice that "
+                 "get a dense graph");
+  command.choice("--unknown", options->unknown, {"obstacle", "ignore"},
+                 "Unknown space is an obstacle, or is kept out of without a distance to it");
+  command.number("--theta", build.theta, {0.0, std::numbers::pi},
+                 "Least angle between the directions to two obstacles, radians");
+  command.number("--prune-radius", build.prune_radius, kLengthsFromZero,
+                 "Vertices nearer than this along the diagram become one, metres");
+  command.number("--split-deviation", build.split_deviation, kLengthsFromZero,
+                 "Greatest distance of an edge from its diagram, metres; 0 for two voxels");
+  command.number("--significance", build.significance, kLengthsFromZero,
+                 "Dead ends of the graph whose ball reaches less far beyond others go, metres");
+  command.choice("--edges", options->edges, {"neighbours", "basis-points"},
+                 "What makes a ridge voxel an edge: 18 neighbours on the ridges, or three "
+                 "obstacles in directions theta apart");
+  command.choice("--diagram", options->diagram, {"full", "paper"},
+                 "The full diagram, or the paper's thinned edges alone for comparison");
+  command.choice("--graph", options->graph, {"simple", "fitted"},
+                 "Without what noise and voxels put into it, or as fitted to the diagram");
+  command.box("--bounds", options->bounds,
+              "Flight volume x0,y0,z0,x1,y1,z1, metres; required for point clouds");
+  command.boxes("--exclude", options->exclude,
+                "No-fly box x0,y0,z0,x1,y1,z1, metres; may be repeated");
+  command.transform("--transform", options->transform,
+                    "From the file's frame to the map's (z up): x,y,z,roll,pitch,yaw in metres "
+                    "and degrees, 16 numbers of a matrix row by row, camera (x right, y down, "
+                    "z forward) or y-up");
+  command.whole("--isolated", options->isolated, {0, 1'000'000'000},
+                "Take clusters of fewer occupied voxels as free; removes thin obstacles too");
+  command.whole("--repeat", options->repeat, {1, 10'000},
+                "Build this many times and report the medians of the times");
+  command.footer(
       "Examples:\n"
       "  ridgeway build data/fr_079.bt -o office.ridge --min-clearance 0.3\n"
       "  ridgeway build mine.pcd -o mine.ridge --voxel-size 0.2 --bounds -50,-20,0,80,40,12");
-  run_when_given(*command, options, globals, chosen, run);
+  command.runs(options, run);
 }
 
 }  // namespace ridgeway::cli

@@ -2,14 +2,14 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "ridgeway/planning/check.hpp"
 
-#include <CLI/CLI.hpp>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "interruption.hpp"
+#include "json.hpp"
 #include "ridgeway/files/atomic_file.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
 
@@ -29,8 +29,9 @@ Json json_of(const Spread& spread) {
   return {{"median", spread.median}, {"p95", spread.p95}, {"p99", spread.p99}, {"max", spread.max}};
 }
 
-Json json_of(const CheckReport& report) {
-  return {{"edges", report.edges},
+Json json_of(const CheckReport& report, bool complete) {
+  return {{"complete", complete},
+          {"edges", report.edges},
           {"edges_below_clearance", report.edges_below_clearance},
           {"components", report.components},
           {"queries", report.queries},
@@ -43,7 +44,7 @@ Json json_of(const CheckReport& report) {
           {"raw_microseconds", json_of(report.raw_microseconds)},
           {"esdf_milliseconds", json_of(report.esdf_milliseconds)},
           {"fallbacks", report.fallbacks},
-          {"clean", report.is_clean()}};
+          {"clean", complete && report.is_clean()}};
 }
 
 Json paths_json(const CheckReport& report) {
@@ -62,7 +63,7 @@ std::string spread_text(const Spread& spread, int decimals, const std::string& u
          ", max " + text_of(spread.max, decimals) + unit;
 }
 
-void print_summary(const CheckReport& report) {
+void print_summary(const CheckReport& report, bool complete) {
   print_row("edges", count_text(report.edges) + ", " + count_text(report.edges_below_clearance) +
                          " below the clearance");
   print_row("components", count_text(report.components));
@@ -78,41 +79,45 @@ void print_summary(const CheckReport& report) {
     print_row("unshortened", spread_text(report.raw_microseconds, 0, " us"));
     print_row("ESDF A*", spread_text(report.esdf_milliseconds, 2, " ms"));
   }
-  print_row("result", report.is_clean() ? "clean" : "NOT clean: the roadmap breaks its contract");
+  print_row("result", report.is_clean() && !complete ? "interrupted: clean so far"
+                      : report.is_clean()            ? "clean"
+                                          : "NOT clean: the roadmap breaks its contract");
 }
 
 int run(const Options& options, const Globals& globals) {
   if (!options.paths.empty()) require_writable({options.paths}, {options.file});
+  if (!options.paths.empty()) require_extension(options.paths, "paths", {".json"});
   const Roadmap roadmap = load_roadmap(options.file);
   ProgressBar bar(globals);
-  const CheckReport report = check_roadmap(roadmap, options.check, bar.callback());
+  CheckReport report;
+  const bool complete =
+      completes([&] { check_roadmap(roadmap, options.check, bar.callback(), report); });
   bar.clear();
   if (!options.paths.empty()) write_text_file(options.paths, paths_json(report).dump() + "\n");
   if (globals.json)
-    print_json(json_of(report));
+    print_json(json_of(report, complete));
   else
-    print_summary(report);
+    print_summary(report, complete);
+  if (!complete) return interrupted_exit_code();
   return report.is_clean() ? kExitDone : kExitBadInput;
 }
 
 }  // namespace
 
-void add_check_command(CLI::App& app, const Globals& globals, Command& chosen) {
+void add_check_command(Command& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("check", "Verify the contract of a roadmap against the map itself");
-  command->add_option("roadmap", options->file, "Roadmap, .ridge")->required();
-  command->add_option("--queries", options->check.queries, "Random queries to compare with A*")
-      ->check(CLI::Range(0, kMostQueries))
-      ->capture_default_str();
-  add_seed_option(*command, options->check.seed, "Of the random queries");
-  command->add_option("--paths", options->paths,
-                      "File to write the checked paths to, as JSON, for other checkers");
-  command->footer(
+  Command command = program.add("check", "Verify the contract of a roadmap against the map itself");
+  command.path("roadmap", options->file, "Roadmap, .ridge").required();
+  command.whole("--queries", options->check.queries, {0, kMostQueries},
+                "Random queries to compare with A*");
+  command.seed(options->check.seed, "Of the random queries");
+  command.path("--paths", options->paths,
+               "File to write the checked paths to, .json, for other checkers");
+  command.footer(
       "Exit code 1 when something is not as it must be.\n"
       "Example:\n"
       "  ridgeway check office.ridge --queries 1000 --seed 1");
-  run_when_given(*command, options, globals, chosen, run);
+  command.runs(options, run);
 }
 
 }  // namespace ridgeway::cli

@@ -9,7 +9,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
+
+#include "interruption.hpp"
+#include "json.hpp"
 
 namespace ridgeway::cli {
 
@@ -21,11 +23,48 @@ void print_json(const nlohmann::ordered_json& json) {
 }
 
 void print_row(std::string_view label, const std::string& value) {
-  std::printf("%-16.*s %s\n", static_cast<int>(label.size()), label.data(), value.c_str());
+  std::printf("%-16.*s %s\n", static_cast<int>(label.size()), label.data(),
+              printable(value).c_str());
+}
+
+namespace {
+
+/// How many bytes of a character in UTF-8 that may be shown begin a text; 0 for any other.
+std::size_t shown_bytes(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  if (byte(0) < 0x80) return byte(0) >= 0x20 && byte(0) != 0x7f ? 1 : 0;
+  const std::size_t count = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
+  if (byte(0) < 0xc2 || byte(0) > 0xf4 || count > text.size()) return 0;
+  for (std::size_t i = 1; i < count; ++i)
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  const bool is_control = byte(0) == 0xc2 && byte(1) < 0xa0;
+  const bool turns_text =
+      byte(0) == 0xe2 && ((byte(1) == 0x80 && byte(2) >= 0xaa && byte(2) <= 0xae) ||
+                          (byte(1) == 0x81 && byte(2) >= 0xa6 && byte(2) <= 0xa9));
+  return is_control || turns_text ? 0 : count;
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+  constexpr const char* kDigits = "0123456789abcdef";
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t shown = shown_bytes(text);
+    if (shown > 0) {
+      result.append(text.substr(0, shown));
+      text.remove_prefix(shown);
+      continue;
+    }
+    const auto byte = static_cast<unsigned char>(text.front());
+    result.append("\\x").append(1, kDigits[byte >> 4]).append(1, kDigits[byte & 15]);
+    text.remove_prefix(1);
+  }
+  return result;
 }
 
 void note(const Globals& globals, const std::string& text) {
-  if (!globals.quiet) std::fprintf(stderr, "ridgeway: %s\n", text.c_str());
+  if (!globals.quiet) std::fprintf(stderr, "ridgeway: %s\n", printable(text).c_str());
 }
 
 void warn(const Globals& globals, const std::string& text) {
@@ -85,6 +124,11 @@ ProgressBar::ProgressBar(const Globals& globals)
     : enabled_(!globals.quiet && ::isatty(STDERR_FILENO) == 1) {}
 
 void ProgressBar::show(std::string_view stage, double share) {
+  stop_if_interrupted();
+  draw(stage, share);
+}
+
+void ProgressBar::draw(std::string_view stage, double share) {
   if (!enabled_) return;
   constexpr int width = 30;
   const int filled = static_cast<int>(std::lround(width * std::clamp(share, 0.0, 1.0)));
@@ -101,10 +145,9 @@ void ProgressBar::clear() {
 }
 
 Progress ProgressBar::callback() {
-  if (!enabled_) return {};
   return [this](std::string_view stage, double share) {
-    show(stage, share);
-    return true;
+    draw(stage, share);
+    return !is_interrupted();
   };
 }
 

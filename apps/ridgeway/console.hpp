@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "commands.hpp"
+#include "command.hpp"
 #include "ridgeway/common/progress.hpp"
 #include "ridgeway/mapping/occupancy_map.hpp"
 
@@ -19,6 +19,9 @@ void print_json(const nlohmann::ordered_json& json);
 void print_row(std::string_view label, const std::string& value);
 
 // For a person, on stderr.
+/// The text as a terminal may show it: what would move the cursor, set a title or end the text
+/// stands as \x1b; what is no UTF-8 too.
+std::string printable(std::string_view text);
 void note(const Globals& globals, const std::string& text);
 void warn(const Globals& globals, const std::string& text);
 
@@ -41,12 +44,15 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
+  /// Throws Cancelled once the user has asked for an end.
   void show(std::string_view stage, double share);
   void clear();
-  /// For the stages of the library; the bar must outlive it.
+  /// For the stages of the library, which it cancels; the bar must outlive it.
   Progress callback();
 
  private:
+  void draw(std::string_view stage, double share);
+
   bool enabled_;
   bool visible_ = false;
 };

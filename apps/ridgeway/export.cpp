@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "json.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/graph_export.hpp"
 #include "ridgeway/formats/mesh_export.hpp"
@@ -112,31 +111,25 @@ int run(const Options& options, const Globals& globals) {
 
 }  // namespace
 
-void add_export_command(CLI::App& app, const Globals& globals, Command& chosen) {
+void add_export_command(Command& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
-      "export", "Write a roadmap, or the surface of a fused map, in other formats");
-  command->add_option("roadmap", options->file, "Roadmap or, for --mesh, fused map, .ridge")
-      ->required();
-  command
-      ->add_option("-o,--output", options->outputs,
-                   "File to write, by its extension: .json, .graphml, .ply, .png, .svg; "
-                   "may be repeated")
-      ->allow_extra_args(false);
-  command->add_option("--what", options->what, "What a .ply file is to hold")
-      ->check(CLI::IsMember({"graph", "diagram"}))
-      ->capture_default_str();
-  command->add_option("--json-graph", options->json_graph, "Graph as JSON, for networkx");
-  command->add_option("--picture", options->picture,
-                      "Map, graph and path from above, .png or .svg");
-  command->add_option("--path", options->path, "Path to draw over pictures, .json or .csv of plan");
-  command->add_option("--mesh", options->mesh, "Surface of a fused map, .ply");
-  command->footer(
+  Command command =
+      program.add("export", "Write a roadmap, or the surface of a fused map, in other formats");
+  command.path("roadmap", options->file, "Roadmap or, for --mesh, fused map, .ridge").required();
+  command.paths("-o,--output", options->outputs,
+                "File to write, by its extension: .json, .graphml, .ply, .png, .svg; may be "
+                "repeated");
+  command.choice("--what", options->what, {"graph", "diagram"}, "What a .ply file is to hold");
+  command.path("--json-graph", options->json_graph, "Graph as JSON, for networkx");
+  command.path("--picture", options->picture, "Map, graph and path from above, .png or .svg");
+  command.path("--path", options->path, "Path to draw over pictures, .json or .csv of plan");
+  command.path("--mesh", options->mesh, "Surface of a fused map, .ply");
+  command.footer(
       "Examples:\n"
       "  ridgeway export office.ridge --picture office.png --path path.json\n"
       "  ridgeway export office.ridge -o graph.graphml -o graph.ply\n"
       "  ridgeway export house.ridge --mesh house.ply");
-  run_when_given(*command, options, globals, chosen, run);
+  command.runs(options, run);
 }
 
 }  // namespace ridgeway::cli

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "json.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
 #include "ridgeway/recordings/depth_sequence.hpp"
@@ -22,7 +22,9 @@ namespace ridgeway::cli {
 namespace {
 
 struct Options {
-  std::string folder, output, intrinsics, integrator;
+  std::string folder, output, integrator;
+  std::vector<double> intrinsics;
+  std::optional<double> truncation;
   FusionConfig fusion;
 };
 
@@ -41,10 +43,7 @@ struct Fused {
 SequenceConfig sequence_config(const Options& options) {
   SequenceConfig config;
   if (options.intrinsics.empty()) return config;
-  const std::vector<double> v = parse_numbers(options.intrinsics, "--intrinsics");
-  if (v.size() != 4)
-    throw InputError("--intrinsics '" + options.intrinsics + "'", "are not four numbers",
-                     "give fx,fy,cx,cy in pixels");
+  const std::vector<double>& v = options.intrinsics;
   config.intrinsics = Eigen::Vector4d(v[0], v[1], v[2], v[3]);
   return config;
 }
@@ -125,7 +124,8 @@ Kind kind_of(const std::string& folder) {
   if (holds_scans(folder)) return Kind::kScans;
   std::error_code error;
   if (!std::filesystem::is_directory(folder, error))
-    throw InputError(folder, "is no folder", "give the folder of a recording");
+    throw InputError(folder, "is no folder" + (error ? ": " + error.message() : std::string()),
+                     "give the folder of a recording");
   throw InputError(folder, "holds no recording",
                    "give a folder with depth.txt (TUM RGB-D), frame-*.depth.png (7-Scenes, "
                    "3DMatch), or scans and their poses in poses.txt");
@@ -133,6 +133,7 @@ Kind kind_of(const std::string& folder) {
 
 FusionConfig fusion_config(const Options& options, Kind kind) {
   FusionConfig config = options.fusion;
+  if (options.truncation) config.truncation = *options.truncation;
   if (kind == Kind::kScans) {
     if (options.integrator == "projective")
       throw InputError("--integrator projective", "is for depth images", "leave it out for scans");
@@ -190,6 +191,7 @@ int run(const Options& options, const Globals& globals) {
   const FusionConfig config = fusion_config(options, kind);
   require_outside(options.output, options.folder);
   require_writable({options.output}, {});
+  require_extension(options.output, "a map", {".ridge"});
   const Fused fused = kind == Kind::kScans ? fuse_scans(options, config, globals)
                                            : fuse_images(options, config, globals);
   if (fused.without_pose > 0)
@@ -205,32 +207,29 @@ int run(const Options& options, const Globals& globals) {
 
 }  // namespace
 
-void add_fuse_command(CLI::App& app, const Globals& globals, Command& chosen) {
+void add_fuse_command(Command& program) {
   const auto options = std::make_shared<Options>();
   FusionConfig& fusion = options->fusion;
-  CLI::App* command = app.add_subcommand("fuse", "Fuse depth images or scans with poses to a map");
+  Command command = program.add("fuse", "Fuse depth images or scans with poses to a map");
   command
-      ->add_option("folder", options->folder,
-                   "Recording: depth images in the layout of TUM RGB-D, 7-Scenes or 3DMatch, or "
-                   "point clouds with poses.txt")
-      ->required();
-  command->add_option("-o,--output", options->output, "Map to write, .ridge")->required();
-  command->add_option("--voxel-size", fusion.voxel_size, "Metres")->capture_default_str();
-  command->add_option("--truncation", fusion.truncation,
-                      "Distances to surfaces are kept up to here, metres (default: four voxels)");
-  command->add_option("--min-range", fusion.min_range, "Nothing nearer is taken, metres")
-      ->capture_default_str();
-  command->add_option("--max-range", fusion.max_range, "Nothing farther is taken, metres")
-      ->capture_default_str();
-  command->add_option("--clear-radius", fusion.clear_radius,
-                      "Space this near to where the sensor was is free, metres");
-  command
-      ->add_option("--integrator", options->integrator,
-                   "By voxels or by rays (default: projective; scans go by rays alone)")
-      ->check(CLI::IsMember({"projective", "rays"}));
-  command->add_option("--intrinsics", options->intrinsics,
-                      "fx,fy,cx,cy in pixels (default: the recording's, or its layout's)");
-  command->footer(
+      .path("folder", options->folder,
+            "Recording: depth images in the layout of TUM RGB-D, 7-Scenes or 3DMatch, or point "
+            "clouds with poses.txt")
+      .required();
+  command.path("-o,--output", options->output, "Map to write, .ridge").required();
+  command.number("--voxel-size", fusion.voxel_size, kLengths, "Metres");
+  command.number("--truncation", options->truncation, kLengths,
+                 "Distances to surfaces are kept up to here, metres (default: four voxels)");
+  command.number("--min-range", fusion.min_range, kLengthsFromZero,
+                 "Nothing nearer is taken, metres");
+  command.number("--max-range", fusion.max_range, kReaches, "Nothing farther is taken, metres");
+  command.number("--clear-radius", fusion.clear_radius, kLengthsFromZero,
+                 "Space this near to where the sensor was is free, metres");
+  command.choice("--integrator", options->integrator, {"projective", "rays"},
+                 "By voxels or by rays (default: projective; scans go by rays alone)");
+  command.tuple("--intrinsics", options->intrinsics, 4, "fx,fy,cx,cy",
+                "In pixels (default: the recording's, or its layout's)");
+  command.footer(
       "Folders:\n"
       "  TUM RGB-D          depth.txt, groundtruth.txt, images of 1/5000 m\n"
       "  7-Scenes, 3DMatch  frame-*.depth.png in millimetres, frame-*.pose.txt\n"
@@ -240,7 +239,7 @@ void add_fuse_command(CLI::App& app, const Globals& globals, Command& chosen) {
       "Example:\n"
       "  ridgeway simulate worlds/house.yaml -o house && ridgeway fuse house -o house.ridge\n"
       "  ridgeway build house.ridge -o roadmap.ridge --unknown ignore");
-  run_when_given(*command, options, globals, chosen, run);
+  command.runs(options, run);
 }
 
 }  // namespace ridgeway::cli

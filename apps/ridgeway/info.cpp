@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "commands.hpp"
 #include "console.hpp"
+#include "json.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
 #include "ridgeway/roadmap/components.hpp"
 #include "roadmap_facts.hpp"
@@ -178,17 +177,16 @@ int run(const Options& options, const Globals& globals) {
 
 }  // namespace
 
-void add_info_command(CLI::App& app, const Globals& globals, Command& chosen) {
+void add_info_command(Command& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("info", "Tell what a roadmap or a map holds");
-  command->add_option("file", options->file, "Roadmap .ridge, or a map that build reads")
-      ->required();
-  command->footer(
+  Command command = program.add("info", "Tell what a roadmap or a map holds");
+  command.path("file", options->file, "Roadmap .ridge, or a map that build reads").required();
+  command.footer(
       "For a roadmap also its components: how large, how wide, and where a smaller robot would\n"
       "find them joined.\n"
       "Example:\n"
       "  ridgeway info office.ridge");
-  run_when_given(*command, options, globals, chosen, run);
+  command.runs(options, run);
 }
 
 }  // namespace ridgeway::cli

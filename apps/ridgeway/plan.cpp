@@ -2,11 +2,9 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "ridgeway/planning/plan.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <limits>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +12,7 @@
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "json.hpp"
 #include "plan_options.hpp"
 #include "plan_output.hpp"
 #include "plan_several.hpp"
@@ -35,6 +34,7 @@ SamplingConfig sampling_config(const PlanOptions& options, double radius) {
   config.radius = radius;
   config.shorten = !options.raw;
   if (options.time_limit) config.time_limit = *options.time_limit;
+  if (options.range) config.range = *options.range;
   if (options.iteration_limit) config.iteration_limit = *options.iteration_limit;
   return config;
 }
@@ -48,9 +48,9 @@ void validate(const PlanOptions& options) {
   if (is_sampling(options.chosen()))
     return sampling_config(options, options.radius.value_or(1.0)).validate();
   plan_config(options, options.radius).validate();
-  for (const CLI::Option* option : options.sampling_options)
-    if (option->count() > 0)
-      throw InputError(option->get_name(), "is of planners that sample",
+  for (const Option& option : options.sampling_options)
+    if (option.is_given())
+      throw InputError(option.name(), "is of planners that sample",
                        "leave it out with --planner " + options.planner);
 }
 
@@ -80,7 +80,7 @@ Answer plan_repeatedly(const Roadmap& roadmap, const Query& query, const PlanOpt
 }
 
 int run_one(const PlanOptions& options, const Roadmap& roadmap, const Globals& globals) {
-  const Query query = {parse_point(options.from, "--from"), parse_point(options.to[0], "--to"),
+  const Query query = {*options.from, options.to[0],
                        options.radius.value_or(roadmap.min_clearance)};
   const Answer answer = plan_repeatedly(roadmap, query, options);
   const PlanResult& result = answer.plan;
@@ -139,14 +139,10 @@ void require_one_form(const PlanOptions& options) {
 int run(const PlanOptions& options, const Globals& globals) {
   validate(options);
   const bool batch = !options.queries.empty();
-  if (batch == (!options.from.empty() || !options.to.empty()) ||
-      (!batch && (options.from.empty() || options.to.empty())))
+  if (batch == (options.from || !options.to.empty()) ||
+      (!batch && (!options.from || options.to.empty())))
     throw InputError("plan", "needs a start and a goal, or a file of them",
                      "give --from X,Y,Z and --to X,Y,Z, or --queries FILE alone");
-  if (!batch) {  // found before the file is loaded
-    parse_point(options.from, "--from");
-    for (const std::string& to : options.to) parse_point(to, "--to");
-  }
   require_one_form(options);
   if (!options.output.empty()) {
     require_path_format(options.output);
@@ -160,73 +156,60 @@ int run(const PlanOptions& options, const Globals& globals) {
                                : run_one(options, roadmap, globals);
 }
 
-void add_sampling_options(CLI::App& command, PlanOptions& options) {
-  add_seed_option(command, options.sampling.seed, "Of a planner that samples");
+void add_sampling_options(Command& command, PlanOptions& options) {
+  command.seed(options.sampling.seed, "Of a planner that samples");
   options.sampling_options = {
-      command.get_option("--seed"),
-      command.add_option("--iteration-limit", options.iteration_limit,
-                         "Rounds of a planner that samples; what ends by it repeats exactly"),
-      command.add_option("--range", options.sampling.range,
-                         "Longest motion that a tree grows by, metres (default: 1, or 10 voxels)"),
-      command.add_flag("--first-solution", options.sampling.first_solution,
-                       "Stop sampling at the first path")};
+      command.whole("--iteration-limit", options.iteration_limit, {0, 1'000'000'000'000},
+                    "Rounds of a planner that samples; what ends by it repeats exactly"),
+      command.number("--range", options.range, kLengths,
+                     "Longest motion that a tree grows by, metres (default: 1, or 10 voxels)"),
+      command.flag("--first-solution", options.sampling.first_solution,
+                   "Stop sampling at the first path")};
 }
 
 }  // namespace
 
-void add_plan_command(CLI::App& app, const Globals& globals, Command& chosen) {
+void add_plan_command(Command& program) {
   const auto options = std::make_shared<PlanOptions>();
-  CLI::App* command = app.add_subcommand("plan", "Plan a path on a roadmap");
-  command->add_option("roadmap", options->file, "Roadmap, .ridge")->required();
-  command->add_option("--from", options->from, "Start X,Y,Z, metres");
+  Command command = program.add("plan", "Plan a path on a roadmap");
+  command.path("roadmap", options->file, "Roadmap, .ridge").required();
+  command.point("--from", options->from, "Start X,Y,Z, metres");
+  command.points("--to", options->to,
+                 "Goal X,Y,Z, metres; several, each with its own --to, are planned to one by one");
+  command.flag("--nearest", options->nearest, "Of several goals only the one nearest by path");
+  command.whole("--alternatives", options->alternatives, {1, 1000},
+                "Up to so many routes, shortest first, none of which can be deformed into another "
+                "in sight of it; none winds around an obstacle");
+  command.choice("--planner", options->planner,
+                 {"graph", "diagram", "esdf", "theta", "rrtstar", "rrtconnect", "bitstar",
+                  "prmstar", "informedrrtstar"},
+                 "What is searched: graph, diagram, esdf (A* over voxels), theta (the same at any "
+                 "angle); or by sampling: the others");
+  command.number("--radius", options->radius, kLengths,
+                 "Robot radius, metres (default: the smallest the roadmap is for)");
+  command.number("--prefer-clearance", options->prefer_clearance, {0.0, 1e6},
+                 "What distance d from walls is worth: a metre costs 1 + it * (radius / d)^2");
+  command.flag("--escape", options->escape,
+               "Start and goal may be too close to an obstacle: leave it the short way first");
+  command.flag("--raw", options->raw, "Do not shorten the path");
+  command.flag("--quick", options->quick,
+               "Settle for nearly tight where the roadmap knows such a way by heart");
+  command.number("--time-limit", options->time_limit, kTimeLimits,
+                 "Seconds (default: no limit, 10 where the planner samples)");
+  add_sampling_options(command, *options);
+  const Option output =
+      command.path("-o,--output", options->output, "Path to write, .csv or .json");
   command
-      ->add_option("--to", options->to,
-                   "Goal X,Y,Z, metres; several, each with its own --to, are planned to one by one")
-      ->allow_extra_args(false);
-  command->add_flag("--nearest", options->nearest, "Of several goals only the one nearest by path");
-  command
-      ->add_option("--alternatives", options->alternatives,
-                   "Up to so many routes, shortest first, none of which can be deformed into "
-                   "another in sight of it; none winds around an obstacle")
-      ->check(CLI::Range(1, 1000));
-  command
-      ->add_option(
-          "--planner", options->planner,
-          "What is searched: graph, diagram, esdf (A* over voxels), theta (the same at any "
-          "angle); or by sampling: rrtstar, rrtconnect, bitstar, prmstar, informedrrtstar")
-      ->check([](const std::string& name) {
-        return planner_named(name) ? std::string() : "'" + name + "' is no planner";
-      })
-      ->capture_default_str();
-  command->add_option("--radius", options->radius,
-                      "Robot radius, metres (default: the smallest the roadmap is for)");
-  command
-      ->add_option("--prefer-clearance", options->prefer_clearance,
-                   "What distance d from walls is worth: a metre costs 1 + W (radius / d)^2")
-      ->type_name("W");
-  command->add_flag("--escape", options->escape,
-                    "Start and goal may be too close to an obstacle: leave it the short way first");
-  command->add_flag("--raw", options->raw, "Do not shorten the path");
-  command->add_flag("--quick", options->quick,
-                    "Settle for nearly tight where the roadmap knows such a way by heart");
-  command->add_option("--time-limit", options->time_limit,
-                      "Seconds (default: no limit, 10 where the planner samples)");
-  add_sampling_options(*command, *options);
-  CLI::Option* output =
-      command->add_option("-o,--output", options->output, "Path to write, .csv or .json");
-  command
-      ->add_option("--queries", options->queries,
-                   "File of queries instead, a line each: x,y,z,x,y,z[,radius]")
-      ->excludes(output);
-  command
-      ->add_option("--repeat", options->repeat,
-                   "Plan this many times and report the medians of the times")
-      ->check(CLI::Range(1, 1000000));
-  command->footer(
+      .path("--queries", options->queries,
+            "File of queries instead, a line each: x,y,z,x,y,z[,radius]")
+      .excludes(output);
+  command.whole("--repeat", options->repeat, {1, 1'000'000},
+                "Plan this many times and report the medians of the times");
+  command.footer(
       "Exit code 2 when there is no path; the reason is in the output.\n"
       "Example:\n"
       "  ridgeway plan office.ridge --from 0,0,0.6 --to 10,0,0.6 -o path.json");
-  run_when_given(*command, options, globals, chosen, run);
+  command.runs(options, run);
 }
 
 }  // namespace ridgeway::cli

@@ -2,20 +2,21 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "command.hpp"
 #include "ridgeway/sampling/plan_by_sampling.hpp"
 
 namespace ridgeway::cli {
 
 /// Options of `ridgeway plan`.
 struct PlanOptions {
-  std::string file, from, planner = "graph", output, queries;
-  std::vector<std::string> to;
+  std::string file, planner = "graph", output, queries;
+  std::optional<Point> from;
+  std::vector<Point> to;
   std::optional<double> radius, time_limit;
   std::optional<std::size_t> alternatives;
   double prefer_clearance = 0.0;
@@ -23,7 +24,8 @@ struct PlanOptions {
   int repeat = 1;
   SamplingConfig sampling;  // of planners that sample
   std::optional<std::size_t> iteration_limit;
-  std::vector<const CLI::Option*> sampling_options;  // those that the two above come from
+  std::optional<double> range;
+  std::vector<Option> sampling_options;  // those that the three above come from
 
   Planner chosen() const { return planner_named(planner).value_or(Planner::kGraph); }
 };

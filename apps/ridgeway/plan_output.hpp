@@ -2,9 +2,9 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 
+#include "json.hpp"
 #include "query_file.hpp"
 #include "ridgeway/sampling/plan_by_sampling.hpp"
 #include "roadmap_facts.hpp"

@@ -2,7 +2,6 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "plan_several.hpp"
 
-#include "arguments.hpp"
 #include "console.hpp"
 #include "plan_output.hpp"
 #include "ridgeway/formats/path_io.hpp"
@@ -17,17 +16,10 @@ double radius_of(const PlanOptions& options, const Roadmap& roadmap) {
   return options.radius.value_or(roadmap.min_clearance);
 }
 
-std::vector<Point> goals_of(const PlanOptions& options) {
-  std::vector<Point> goals;
-  for (const std::string& text : options.to) goals.push_back(parse_point(text, "--to"));
-  return goals;
-}
-
 }  // namespace
 
 int run_alternatives(const PlanOptions& options, const Roadmap& roadmap, const Globals& globals) {
-  const Query query = {parse_point(options.from, "--from"), parse_point(options.to[0], "--to"),
-                       radius_of(options, roadmap)};
+  const Query query = {*options.from, options.to[0], radius_of(options, roadmap)};
   const Alternatives found = plan_alternatives(
       roadmap, query.start, query.goal, *options.alternatives, plan_config(options, query.radius));
   AnswerFacts facts(roadmap, options.escape);
@@ -57,8 +49,8 @@ int run_alternatives(const PlanOptions& options, const Roadmap& roadmap, const G
 }
 
 int run_goals(const PlanOptions& options, const Roadmap& roadmap, const Globals& globals) {
-  const Point start = parse_point(options.from, "--from");
-  const std::vector<Point> goals = goals_of(options);
+  const Point start = *options.from;
+  const std::vector<Point>& goals = options.to;
   const double radius = radius_of(options, roadmap);
   const std::vector<GoalPlan> plans =
       plan_to_many(roadmap, start, goals, plan_config(options, radius));
@@ -84,8 +76,8 @@ int run_goals(const PlanOptions& options, const Roadmap& roadmap, const Globals&
 }
 
 int run_nearest(const PlanOptions& options, const Roadmap& roadmap, const Globals& globals) {
-  const Point start = parse_point(options.from, "--from");
-  const std::vector<Point> goals = goals_of(options);
+  const Point start = *options.from;
+  const std::vector<Point>& goals = options.to;
   const double radius = radius_of(options, roadmap);
   const NearestGoal nearest = plan_to_nearest(roadmap, start, goals, plan_config(options, radius));
   const Query query = {start, goals[nearest.goal.value_or(0)], radius};

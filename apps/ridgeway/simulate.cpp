@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "json.hpp"
 #include "ridgeway/formats/world_file.hpp"
 #include "ridgeway/recordings/depth_sequence.hpp"
 #include "ridgeway/sensing/poses.hpp"
@@ -19,7 +19,8 @@ namespace {
 constexpr int kMostFrames = 1000000;
 
 struct Options {
-  std::string world, output, camera = "pinhole", volume;
+  std::string world, output, camera = "pinhole";
+  std::optional<Box> volume;
   int frames = 200, width = 320;
   double sigma = 0.0, clearance = 0.5, max_range = 10.0;
   std::uint64_t seed = 1;
@@ -41,12 +42,11 @@ DepthSensor sensor_of(const Options& options) {
 
 PoseSampling sampling_of(const Options& options, const World& world) {
   PoseSampling sampling;
-  if (options.volume.empty()) {
-    sampling = sampling_inside(world);
+  if (options.volume) {
+    sampling.low = options.volume->min;
+    sampling.high = options.volume->max;
   } else {
-    const Box box = parse_box(options.volume, "--volume");
-    sampling.low = box.min;
-    sampling.high = box.max;
+    sampling = sampling_inside(world);
   }
   sampling.clearance = options.clearance;
   sampling.count = static_cast<std::size_t>(options.frames);
@@ -86,34 +86,31 @@ int run(const Options& options, const Globals& globals) {
 
 }  // namespace
 
-void add_simulate_command(CLI::App& app, const Globals& globals, Command& chosen) {
+void add_simulate_command(Command& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("simulate", "Record depth images in a simulated world, TUM RGB-D layout");
-  command->add_option("world", options->world, "World, .yaml")->required();
-  command->add_option("-o,--output", options->output, "Folder to write, new or empty")->required();
-  command->add_option("--frames", options->frames, "Images to record, from random level poses")
-      ->check(CLI::Range(1, kMostFrames))
-      ->capture_default_str();
-  command->add_option("--camera", options->camera, "A perfect one, or a stereo pair")
-      ->check(CLI::IsMember({"pinhole", "stereo"}))
-      ->capture_default_str();
-  command->add_option("--width", options->width, "Pixels across, of 90 degrees; 3/4 as many down")
-      ->check(CLI::Range(4, 16384))
-      ->capture_default_str();
-  command->add_option("--sigma", options->sigma, "Gaussian noise on every range, metres")
-      ->capture_default_str();
-  command->add_option("--max-range", options->max_range, "Nothing farther is measured, metres")
-      ->capture_default_str();
-  command->add_option("--volume", options->volume,
-                      "Where the camera may be, x0,y0,z0,x1,y1,z1 (default: the whole world)");
-  command->add_option("--clearance", options->clearance, "Of the camera to all surfaces, metres")
-      ->capture_default_str();
-  add_seed_option(*command, options->seed, "Of poses and noise");
-  command->footer(
+  Command command =
+      program.add("simulate", "Record depth images in a simulated world, TUM RGB-D layout");
+  command.path("world", options->world, "World, .yaml").required();
+  command.path("-o,--output", options->output, "Folder to write, new or empty").required();
+  command.whole("--frames", options->frames, {1, kMostFrames},
+                "Images to record, from random level poses");
+  command.choice("--camera", options->camera, {"pinhole", "stereo"},
+                 "A perfect one, or a stereo pair");
+  command.whole("--width", options->width, {4, 16384},
+                "Pixels across, of 90 degrees; 3/4 as many down");
+  command.number("--sigma", options->sigma, kLengthsFromZero,
+                 "Gaussian noise on every range, metres");
+  command.number("--max-range", options->max_range, kLengths,
+                 "Nothing farther is measured, metres");
+  command.box("--volume", options->volume,
+              "Where the camera may be, x0,y0,z0,x1,y1,z1 (default: the whole world)");
+  command.number("--clearance", options->clearance, kLengthsFromZero,
+                 "Of the camera to all surfaces, metres");
+  command.seed(options->seed, "Of poses and noise");
+  command.footer(
       "Example:\n"
       "  ridgeway simulate worlds/house.yaml -o house --volume 1,1,1,14,10,5 --sigma 0.1");
-  run_when_given(*command, options, globals, chosen, run);
+  command.runs(options, run);
 }
 
 }  // namespace ridgeway::cli

@@ -3,11 +3,12 @@
 #include "source_facts.hpp"
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
+#include <system_error>
 
 #include "console.hpp"
+#include "json.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/files/read_file.hpp"
 #include "ridgeway/formats/benchmark_map.hpp"
@@ -68,7 +69,7 @@ std::optional<OccupancyMap> try_voxels(const std::filesystem::path& file, const 
     for (const std::string& text : notes.notes) note(globals, text);
     return map;
   } catch (const InputError& error) {
-    if (error.remedy().starts_with("give --voxel-size")) return std::nullopt;
+    if (error.remedy().starts_with("give voxel_size")) return std::nullopt;
     throw;
   }
 }
@@ -79,7 +80,9 @@ bool is_roadmap_file(const std::filesystem::path& file) {
   constexpr std::string_view kMagic = "RIDGEWAY";
   if (is_tsdf_file(file)) return false;
   if (file.extension() == ".ridge") return true;
-  if (!std::filesystem::is_regular_file(file)) return false;  // opening a pipe would wait for ever
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))
+    return false;  // opening a pipe would wait for ever
   std::string head(kMagic.size(), '\0');
   std::ifstream stream(file, std::ios::binary);
   stream.read(head.data(), static_cast<std::streamsize>(head.size()));

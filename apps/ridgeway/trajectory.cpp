@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -14,6 +12,7 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "flight_picture.hpp"
+#include "json.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/path_io.hpp"
 #include "ridgeway/formats/trajectory_io.hpp"
@@ -29,7 +28,8 @@ using Json = nlohmann::ordered_json;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 struct Options {
-  std::string file, from, to, from_velocity, derivative = "snap", output, picture;
+  std::string file, derivative = "snap", output, picture;
+  std::optional<Point> from, to, from_velocity;
   std::optional<double> radius, max_jerk, yaw;
   double max_speed = 2.0, max_acceleration = 2.0, max_yaw_rate = 90.0, step = 0.01;
   bool stop_and_go = false;
@@ -43,8 +43,7 @@ TrajectoryConfig trajectory_config(const Options& options, double radius) {
   if (options.max_jerk) config.limits.max_jerk = *options.max_jerk;
   config.limits.max_yaw_rate = options.max_yaw_rate * kDegree;
   if (options.derivative == "jerk") config.smoothness = Smoothness::kJerk;
-  if (!options.from_velocity.empty())
-    config.start_velocity = parse_point(options.from_velocity, "--from-velocity");
+  if (options.from_velocity) config.start_velocity = *options.from_velocity;
   if (options.yaw) config.start_yaw = *options.yaw * kDegree;
   config.follow_yaw = !options.yaw;
   config.stop_and_go = options.stop_and_go;
@@ -89,7 +88,7 @@ int report_none(const std::string& status, const std::string& reason, Json json,
 }
 
 int run(const Options& options, const Globals& globals) {
-  const Point start = parse_point(options.from, "--from"), goal = parse_point(options.to, "--to");
+  const Point start = *options.from, goal = *options.to;
   trajectory_config(options, options.radius.value_or(1.0));  // bad limits, before the file is read
   std::vector<std::filesystem::path> written;
   if (!options.output.empty()) {
@@ -113,7 +112,7 @@ int run(const Options& options, const Globals& globals) {
                        Json::parse(trajectory_json(path, flown, options.step)), globals);
 
   constexpr double kMostSamples = 1e6;
-  if (flown.duration / options.step > kMostSamples)
+  if (!(flown.duration / options.step <= kMostSamples))
     throw InputError("--step " + text_of(options.step, 6),
                      "gives more than a million samples of " + text_of(flown.duration) + " s",
                      "give a larger one");
@@ -131,42 +130,37 @@ int run(const Options& options, const Globals& globals) {
 
 }  // namespace
 
-void add_trajectory_command(CLI::App& app, const Globals& globals, Command& chosen) {
+void add_trajectory_command(Command& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("trajectory", "Plan a path, and a verified trajectory to fly along it");
-  command->add_option("roadmap", options->file, "Roadmap, .ridge")->required();
-  command->add_option("--from", options->from, "Start X,Y,Z, metres")->required();
-  command->add_option("--to", options->to, "Goal X,Y,Z, metres")->required();
-  command->add_option("--radius", options->radius,
-                      "Robot radius, metres (default: the smallest the roadmap is for)");
-  command->add_option("--max-speed", options->max_speed, "Metres a second")->capture_default_str();
-  command->add_option("--max-acceleration", options->max_acceleration, "Metres a second^2")
-      ->capture_default_str();
-  command->add_option("--max-jerk", options->max_jerk, "Metres a second^3 (default: no limit)");
-  command->add_option("--max-yaw-rate", options->max_yaw_rate, "Degrees a second")
-      ->capture_default_str();
-  command->add_option("--derivative", options->derivative, "What is smallest: snap or jerk")
-      ->check(CLI::IsMember({"snap", "jerk"}))
-      ->capture_default_str();
-  command->add_option("--from-velocity", options->from_velocity,
-                      "Velocity X,Y,Z at the start, metres a second (default: at rest)");
-  command->add_option("--yaw", options->yaw,
-                      "Constant yaw, degrees (default: the direction of travel)");
-  command->add_flag("--stop-and-go", options->stop_and_go, "Straight legs from stop to stop");
-  command->add_option("--step", options->step, "Seconds between samples")
-      ->check(CLI::Range(1e-4, 1e4))
-      ->capture_default_str();
-  command->add_option("-o,--output", options->output,
-                      "Trajectory to write, .csv, .json, or .yaml of mav_trajectory_generation");
-  command->add_option("--picture", options->picture,
-                      "Picture of map and trajectory, with speed, acceleration and clearance over "
-                      "time, .png or .svg");
-  command->footer(
+  Command command =
+      program.add("trajectory", "Plan a path, and a verified trajectory to fly along it");
+  command.path("roadmap", options->file, "Roadmap, .ridge").required();
+  command.point("--from", options->from, "Start X,Y,Z, metres").required();
+  command.point("--to", options->to, "Goal X,Y,Z, metres").required();
+  command.number("--radius", options->radius, kLengths,
+                 "Robot radius, metres (default: the smallest the roadmap is for)");
+  command.number("--max-speed", options->max_speed, kMotions, "Metres a second");
+  command.number("--max-acceleration", options->max_acceleration, kMotions, "Metres a second^2");
+  command.number("--max-jerk", options->max_jerk, kMotions,
+                 "Metres a second^3 (default: no limit)");
+  command.number("--max-yaw-rate", options->max_yaw_rate, kMotions, "Degrees a second");
+  command.choice("--derivative", options->derivative, {"snap", "jerk"}, "What is smallest");
+  command.point("--from-velocity", options->from_velocity,
+                "Velocity X,Y,Z at the start, metres a second (default: at rest)");
+  command.number("--yaw", options->yaw, kDegrees,
+                 "Constant yaw, degrees (default: the direction of travel)");
+  command.flag("--stop-and-go", options->stop_and_go, "Straight legs from stop to stop");
+  command.number("--step", options->step, {1e-4, 1e4}, "Seconds between samples");
+  command.path("-o,--output", options->output,
+               "Trajectory to write, .csv, .json, or .yaml of mav_trajectory_generation");
+  command.path("--picture", options->picture,
+               "Picture of map and trajectory, with speed, acceleration and clearance over time, "
+               ".png or .svg");
+  command.footer(
       "Exit code 2 when there is none; the reason is in the output.\n"
       "Example:\n"
       "  ridgeway trajectory office.ridge --from 0,0,0.6 --to 10,0,0.6 -o trajectory.yaml");
-  run_when_given(*command, options, globals, chosen, run);
+  command.runs(options, run);
 }
 
 }  // namespace ridgeway::cli

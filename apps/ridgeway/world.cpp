@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "json.hpp"
 #include "ridgeway/formats/world_file.hpp"
 #include "ridgeway/sensing/world_generators.hpp"
 
@@ -21,6 +20,7 @@ struct Options {
 };
 
 int run(const Options& options, const Globals& globals) {
+  require_extension(options.output, "a world", {".yaml", ".yml"});
   require_writable({options.output}, {});
   const World world = options.kind == "maze"   ? make_maze({.seed = options.seed})
                       : options.kind == "hall" ? make_hall({.seed = options.seed})
@@ -39,20 +39,19 @@ int run(const Options& options, const Globals& globals) {
 
 }  // namespace
 
-void add_world_command(CLI::App& app, const Globals& globals, Command& chosen) {
+void add_world_command(Command& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("world", "Make a simulated world from a seed");
+  Command command = program.add("world", "Make a simulated world from a seed");
   command
-      ->add_option("kind", options->kind,
-                   "A maze of 30 x 30 m, a machine hall of 20 x 22 m, or the house of 15 x 10 m")
-      ->required()
-      ->check(CLI::IsMember({"maze", "hall", "house"}));
-  command->add_option("-o,--output", options->output, "World to write, .yaml")->required();
-  add_seed_option(*command, options->seed, "Another seed, another world");
-  command->footer(
+      .choice("kind", options->kind, {"maze", "hall", "house"},
+              "A maze of 30 x 30 m, a machine hall of 20 x 22 m, or the house of 15 x 10 m")
+      .required();
+  command.path("-o,--output", options->output, "World to write, .yaml").required();
+  command.seed(options->seed, "Another seed, another world");
+  command.footer(
       "Example:\n"
       "  ridgeway world maze --seed 7 -o maze.yaml");
-  run_when_given(*command, options, globals, chosen, run);
+  command.runs(options, run);
 }
 
 }  // namespace ridgeway::cli

@@ -66,13 +66,23 @@ void FusionSpeedConfig::validate() const {
 
 std::vector<FusionSpeed> run_fusion_speed(const World& world, const FusionSpeedConfig& config,
                                           const Progress& progress) {
+  std::vector<FusionSpeed> results;
+  run_fusion_speed(world, config, progress, results);
+  return results;
+}
+
+void run_fusion_speed(const World& world, const FusionSpeedConfig& config, const Progress& progress,
+                      std::vector<FusionSpeed>& results) {
+  results.clear();
   config.validate();
   DepthSensor sensor;
   sensor.range_sigma = config.sigma;
   std::vector<Scan> scans;
   Random seeds(config.seed);
-  for (const Eigen::Isometry3d& pose : sample_poses(world, config.poses))
+  for (const Eigen::Isometry3d& pose : sample_poses(world, config.poses)) {
+    if (progress && !progress("scans", 0.0)) throw Cancelled();
     scans.push_back({render_depth(world, sensor, pose, seeds.bits()), pose});
+  }
 
   FusionConfig fusion{.voxel_size = config.voxel_size, .truncation = config.truncation};
   TsdfFusion projective(fusion);
@@ -91,13 +101,11 @@ std::vector<FusionSpeed> run_fusion_speed(const World& world, const FusionSpeedC
   const std::vector<Integration> ways = {way("projective", projective), way("rays", rays),
                                          way("plain voxels", plain_voxels),
                                          way("plain rays", plain_rays)};
-  std::vector<FusionSpeed> results;
   for (const Integration& integration : ways) {
     const auto done = static_cast<double>(results.size()) / static_cast<double>(ways.size());
     if (progress && !progress(integration.name, done)) throw Cancelled();
     results.push_back(measure(world, scans, integration));
   }
-  return results;
 }
 
 }  // namespace ridgeway

@@ -69,12 +69,12 @@ class Measurement {
     if (!row_.peak_memory) build_once(make_());  // throws what is wrong, before the long work
   }
 
-  Roadmap build() {
+  Roadmap build(const Progress& progress) {
     OccupancyMap map = make_();
     row_.voxel_size = map.voxel_size;
     row_.min_clearance = min_clearance_for(map);
     detail::release_freed_memory();
-    BuildResult built = build_once(std::move(map));
+    BuildResult built = build_once(std::move(map), progress);
     runs_.push_back(stages_of(built.report.seconds));
     row_.counts = built.report;
     row_.vertices = built.roadmap.graph.vertices.size();
@@ -116,11 +116,11 @@ class Measurement {
   }
 
   /// Its seconds in total are the wall clock's.
-  BuildResult build_once(OccupancyMap map) {
+  BuildResult build_once(OccupancyMap map, const Progress& progress = {}) {
     return with_threads(row_.threads, [&] {
       const BuildConfig config{.min_clearance = min_clearance_for(map)};
       const double begin = seconds_now();
-      BuildResult result = build_roadmap(std::move(map), config);
+      BuildResult result = build_roadmap(std::move(map), config, progress);
       result.report.seconds.total = seconds_now() - begin;
       return result;
     });
@@ -205,6 +205,14 @@ void HallExperimentConfig::validate() const {
 std::vector<HallRow> run_hall(const HallExperimentConfig& config,
                               const std::vector<HallMap>& other_maps, const RoadmapStore& store,
                               const Progress& progress) {
+  std::vector<HallRow> rows;
+  run_hall(config, other_maps, store, progress, rows);
+  return rows;
+}
+
+void run_hall(const HallExperimentConfig& config, const std::vector<HallMap>& other_maps,
+              const RoadmapStore& store, const Progress& progress, std::vector<HallRow>& rows) {
+  rows.clear();
   config.validate();
   const std::vector<HallMap> maps = all_maps(config, other_maps);
   std::vector<Measurement> all;
@@ -225,15 +233,12 @@ std::vector<HallRow> run_hall(const HallExperimentConfig& config,
     for (int run = 0; run < config.repeat; ++run) {
       say(maps[m].name, m, static_cast<double>(maps.size()));
       for (Measurement& measurement : own) {
-        Roadmap roadmap = measurement.build();
+        Roadmap roadmap = measurement.build(progress);
         if (run + 1 == config.repeat) measurement.query(std::move(roadmap), store);
       }
     }
+    for (const Measurement& measurement : own) rows.push_back(measurement.row());
   }
-  std::vector<HallRow> rows;
-  rows.reserve(all.size());
-  for (const Measurement& measurement : all) rows.push_back(measurement.row());
-  return rows;
 }
 
 }  // namespace ridgeway

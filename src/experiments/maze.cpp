@@ -168,10 +168,16 @@ void MazeExperimentConfig::validate() const {
 }
 
 MazeResult run_maze(const MazeExperimentConfig& config, const Progress& progress) {
+  MazeResult result;
+  run_maze(config, progress, result);
+  return result;
+}
+
+void run_maze(const MazeExperimentConfig& config, const Progress& progress, MazeResult& result) {
   config.validate();
   const World world = make_maze(config.maze);
   const PoseSampling inside = sampling_inside(world);
-  MazeResult result;
+  result = {};
   result.roadmap = build_roadmap(occupancy_of(world, config.voxel_size, {inside.low, inside.high}),
                                  {.min_clearance = config.min_clearance}, progress)
                        .roadmap;
@@ -185,7 +191,7 @@ MazeResult run_maze(const MazeExperimentConfig& config, const Progress& progress
   std::vector<Pair> few = pairs;
   few.resize(std::min(few.size(), config.long_pairs));
   std::vector<Trials> trials(all.size());
-  for (std::size_t round = 0; round < config.repeat; ++round)
+  for (std::size_t round = 0; round < config.repeat; ++round) {
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (all[i].is_slow && round > 0) continue;
       const auto done = static_cast<double>(round * all.size() + i);
@@ -194,9 +200,10 @@ MazeResult run_maze(const MazeExperimentConfig& config, const Progress& progress
         throw Cancelled();
       run_round(all[i], single, all[i].is_slow ? few : pairs, trials[i]);
     }
-  for (std::size_t i = 0; i < all.size(); ++i)
-    result.rows.push_back(row_of(all[i], trials[i], esdf_lengths));
-  return result;
+    result.rows.clear();
+    for (std::size_t i = 0; i < all.size(); ++i)
+      result.rows.push_back(row_of(all[i], trials[i], esdf_lengths));
+  }
 }
 
 }  // namespace ridgeway

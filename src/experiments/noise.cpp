@@ -170,9 +170,16 @@ void NoiseConfig::validate() const {
 }
 
 NoiseResult run_noise(const World& world, const NoiseConfig& config, const Progress& progress) {
+  NoiseResult result;
+  run_noise(world, config, progress, result);
+  return result;
+}
+
+void run_noise(const World& world, const NoiseConfig& config, const Progress& progress,
+               NoiseResult& result) {
   config.validate();
   const std::vector<Eigen::Isometry3d> poses = sample_poses(world, config.poses);
-  NoiseResult result;
+  result = {};
   const std::size_t count = config.voxel_sizes.size() * (1 + config.sigmas.size());
   const auto add = [&](double voxel_size, std::optional<double> sigma) {
     const auto done = static_cast<double>(result.maps.size()) / static_cast<double>(count);
@@ -187,7 +194,6 @@ NoiseResult run_noise(const World& world, const NoiseConfig& config, const Progr
   result.pairs = pairs.size();
   compare_routes(pairs, result, progress);
   result.size_ratio = size_ratio_of(result.maps);
-  return result;
 }
 
 }  // namespace ridgeway

@@ -57,7 +57,7 @@ OccupancyMap finished(OccupancyMap map, const LoadConfig& config, const std::str
   const auto& states = map.state.values();
   if (std::find(states.begin(), states.end(), VoxelState::kFree) != states.end()) return map;
   throw InputError(name, "has no free voxel left within the bounds and outside the no-fly boxes",
-                   "check --bounds, --exclude and --voxel-size");
+                   "check bounds, exclude and voxel_size");
 }
 
 /// The part of the source's lattice that bounds, seen back through a transform, can reach.
@@ -112,10 +112,10 @@ OccupancyMap load_cloud(const PointCloud& cloud, const LoadConfig& config, const
   const std::string span = "its points span " + describe(extent(cloud, config.transform));
   if (!config.voxel_size)
     throw InputError(name, "is a point cloud, which has no voxel size",
-                     "give --voxel-size; " + span);
+                     std::string("give voxel_size; ").append(span));
   if (!config.bounds) {
     throw InputError(name, "is a point cloud, in which the free space is not recorded",
-                     "give --bounds; " + span);
+                     std::string("give bounds; ").append(span));
   }
   if (cloud.skipped > 0) {
     tell(notes, std::to_string(cloud.skipped) + " of " +

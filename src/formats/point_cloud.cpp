@@ -28,7 +28,7 @@ VoxelRange checked_range(const Box& bounds, double voxel_size) {
   const VoxelRange range = voxels_inside(bounds, voxel_size);
   if (range.empty()) {
     throw InputError("bounds", "hold no whole voxel of " + number_text(voxel_size) + " m",
-                     "give larger bounds or a smaller --voxel-size");
+                     "give larger bounds or a smaller voxel_size");
   }
   return range;
 }
@@ -56,7 +56,7 @@ OccupancyMap map_from_points(const PointCloud& cloud, const CloudMapConfig& conf
     const Point point = config.T_map_cloud * point_cloud;
     if (!(point.cwiseAbs().maxCoeff() < reach)) {
       throw InputError(name, "has a point at " + describe(point) + ", beyond 1e9 voxels",
-                       "check the units of the cloud and --voxel-size");
+                       "check the units of the cloud and voxel_size");
     }
     const VoxelIndex voxel = voxel_at(point, config.voxel_size);
     inside += known.contains(voxel) ? 1 : 0;

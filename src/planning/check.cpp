@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <random>
 
 #include "ridgeway/common/error.hpp"
@@ -69,6 +70,7 @@ void summarise(const Roadmap& roadmap, const std::vector<Query>& queries,
                std::vector<Outcome>& outcomes, CheckReport& report) {
   const FreeSpace space(roadmap.esdf);
   std::vector<double> ratios, microseconds, raw, esdf;
+  report.queries = outcomes.size();
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     Outcome& o = outcomes[i];
     report.graph_ok += o.roadmap.ok();
@@ -92,44 +94,69 @@ void summarise(const Roadmap& roadmap, const std::vector<Query>& queries,
   report.esdf_milliseconds = spread_of(std::move(esdf));
 }
 
+void report_progress(const Progress& progress, std::size_t done, std::size_t of) {
+  if (progress && !progress("check", static_cast<double>(done) / static_cast<double>(of)))
+    throw Cancelled();
+}
+
+void check_edges(const Roadmap& roadmap, const Progress& progress, CheckReport& report) {
+  const FreeSpace space(roadmap.esdf);
+  const SparseGraph& graph = roadmap.graph;
+  const double least = roadmap.min_clearance * (1.0 - 1e-9);
+  for (const Edge& edge : graph.edges) {
+    if (report.edges % kBatch == 0) report_progress(progress, 0, 1);
+    const Point& a = graph.vertices[number(edge.from)].position;
+    const Point& b = graph.vertices[number(edge.to)].position;
+    report.edges_below_clearance += edge.clearance < least || space.clearance(a, b) < least;
+    ++report.edges;
+  }
+  report.components = connected_components(graph).count;
+}
+
+/// Answers the queries batch by batch into outcomes.
+void ask_all(const Roadmap& roadmap, const std::vector<Query>& queries, const Progress& progress,
+             std::vector<Outcome>& outcomes) {
+  const auto ask = [&](const Query& q, Planner planner, bool shorten) {
+    return plan(roadmap, q.start, q.goal,
+                {.planner = planner, .radius = q.radius, .shorten = shorten});
+  };
+  for (std::size_t first = 0; first < queries.size(); first += kBatch) {
+    report_progress(progress, first, queries.size());
+    std::vector<Outcome> batch(std::min(kBatch, queries.size() - first));
+    parallel_for_each_index(batch.size(), [&](std::size_t k) {
+      batch[k].roadmap = ask(queries[first + k], Planner::kGraph, true);
+      batch[k].raw = ask(queries[first + k], Planner::kGraph, false);
+    });
+    // Apart, so that its sweep through the map does not slow down the queries that are timed.
+    parallel_for_each_index(batch.size(), [&](std::size_t k) {
+      batch[k].esdf = ask(queries[first + k], Planner::kEsdf, true);
+    });
+    std::move(batch.begin(), batch.end(), std::back_inserter(outcomes));
+  }
+}
+
 }  // namespace
 
 CheckReport check_roadmap(const Roadmap& roadmap, const CheckConfig& config,
                           const Progress& progress) {
   CheckReport report;
-  const FreeSpace space(roadmap.esdf);
-  const SparseGraph& graph = roadmap.graph;
-  report.edges = graph.edges.size();
-  report.components = connected_components(graph).count;
-  for (const Edge& edge : graph.edges) {
-    const Point& a = graph.vertices[number(edge.from)].position;
-    const Point& b = graph.vertices[number(edge.to)].position;
-    const double least = roadmap.min_clearance * (1.0 - 1e-9);
-    report.edges_below_clearance += edge.clearance < least || space.clearance(a, b) < least;
-  }
+  check_roadmap(roadmap, config, progress, report);
+  return report;
+}
+
+void check_roadmap(const Roadmap& roadmap, const CheckConfig& config, const Progress& progress,
+                   CheckReport& report) {
+  report = {};
+  check_edges(roadmap, progress, report);
   const std::vector<Query> queries = draw_queries(roadmap, config);
-  report.queries = queries.size();
-  std::vector<Outcome> outcomes(queries.size());
-  for (std::size_t first = 0; first < queries.size(); first += kBatch) {
-    if (progress &&
-        !progress("check", static_cast<double>(first) / static_cast<double>(queries.size())))
-      throw Cancelled();
-    const std::size_t count = std::min(kBatch, queries.size() - first);
-    const auto ask = [&](const Query& q, Planner planner, bool shorten) {
-      return plan(roadmap, q.start, q.goal,
-                  {.planner = planner, .radius = q.radius, .shorten = shorten});
-    };
-    parallel_for_each_index(count, [&](std::size_t k) {
-      outcomes[first + k].roadmap = ask(queries[first + k], Planner::kGraph, true);
-      outcomes[first + k].raw = ask(queries[first + k], Planner::kGraph, false);
-    });
-    // Apart, so that its sweep through the map does not slow down the queries that are timed.
-    parallel_for_each_index(count, [&](std::size_t k) {
-      outcomes[first + k].esdf = ask(queries[first + k], Planner::kEsdf, true);
-    });
+  std::vector<Outcome> outcomes;
+  try {
+    ask_all(roadmap, queries, progress, outcomes);
+  } catch (const Cancelled&) {
+    summarise(roadmap, queries, outcomes, report);
+    throw;
   }
   summarise(roadmap, queries, outcomes, report);
-  return report;
 }
 
 }  // namespace ridgeway

@@ -78,9 +78,11 @@ void PlanConfig::validate() const {
   if (!(time_limit > 0.0))
     throw InputError("time_limit", "is " + number_text(time_limit),
                      "give seconds above 0, or leave it out for no limit");
-  if (!(prefer_clearance >= 0.0 && std::isfinite(prefer_clearance)))
+  // Far beyond what is of use, and no cost of a path overflows.
+  constexpr double kMostPreferClearance = 1e6;
+  if (!(prefer_clearance >= 0.0 && prefer_clearance <= kMostPreferClearance))
     throw InputError("prefer_clearance", "is " + number_text(prefer_clearance),
-                     "give a number from 0, for shortest paths, to about 10");
+                     "give a number from 0, for shortest paths, to about 10; at most 1e6");
 }
 
 namespace {

@@ -48,7 +48,7 @@ void validate_query(const EsdfMap& esdf, const Point& start, const Point& goal, 
   require_finite(goal, "goal");
   if (radius > largest_radius(esdf))
     throw InputError("radius " + number_text(radius), "is beyond the distances that the map holds",
-                     "build the map with a larger --max-distance, or without one");
+                     "build the map with a larger max_distance, or without one");
 }
 
 QueryEnds find_ends(const EsdfMap& esdf, const Point& start, const Point& goal, double radius) {
@@ -65,7 +65,9 @@ void describe(const FreeSpace& space, const KnownStretch& known, PlanResult& res
 
 bool is_verified(const EsdfMap& esdf, const FreeSpace& space, const PlanResult& result,
                  double radius) {
-  if (result.clearance < radius * (1.0 - 1e-9)) return false;
+  // Nothing that is called a path may be none: what is empty has no clearance that could be missed.
+  if (result.waypoints.size() < 2 || !std::isfinite(result.length)) return false;
+  if (!(result.clearance >= radius * (1.0 - 1e-9))) return false;
   if (esdf.unknown == UnknownPolicy::kObstacle) return true;
   for (std::size_t i = 1; i < result.waypoints.size(); ++i)
     if (!space.is_known_free(result.waypoints[i - 1], result.waypoints[i])) return false;

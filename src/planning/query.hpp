@@ -32,9 +32,10 @@ struct KnownStretch {
 /// Length and clearance of the result's waypoints.
 void describe(const FreeSpace& space, const KnownStretch& known, PlanResult& result);
 
-/// No path leaves unverified: its clearance, measured along every segment (along the graph's edges
-/// when they were made or loaded), must be the radius, and where unknown space is no obstacle it
-/// must keep to what is known. The result must have been described.
+/// No path leaves unverified: there must be one, its length must be finite, its clearance, measured
+/// along every segment (along the graph's edges when they were made or loaded), must be the radius,
+/// and where unknown space is no obstacle it must keep to what is known. The result must have been
+/// described.
 bool is_verified(const EsdfMap& esdf, const FreeSpace& space, const PlanResult& result,
                  double radius);
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include <unistd.h>
-
 #include <sstream>
 #include <system_error>
 
 #include "depth_layouts.hpp"
+#include "files/file_error.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/number_text.hpp"
 #include "ridgeway/files/atomic_file.hpp"
@@ -17,6 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kProblem = "cannot be written";
 constexpr double kFrameSeconds = 0.1;  // between simulated images
 
 }  // namespace
@@ -27,25 +27,22 @@ SequenceWriter::SequenceWriter(const fs::path& folder, const PinholeCamera& came
   std::error_code error;
   folder_ = fs::weakly_canonical(fs::absolute(folder, error), error);  // "run/.", and links
   if (!folder_.has_filename()) folder_ = folder_.parent_path();        // "run/"
-  if (error || !folder_.has_filename())
+  if (error) detail::fail_file(folder, kProblem, error.value());
+  if (!folder_.has_filename())
     throw InputError("'" + folder.string() + "'", "is no folder that can be made",
                      "give a new folder");
   if (fs::exists(folder_, error) &&
       !(fs::is_directory(folder_, error) && fs::is_empty(folder_, error)))
     throw InputError(folder_.string(), "exists and is not empty", "give a new folder");
-  temporary_ = folder_;
-  temporary_ += '.';
-  temporary_ += std::to_string(::getpid()) + ".tmp";
-  fs::create_directories(temporary_ / "depth", error);
-  if (error)
-    throw InputError(folder_.string(), "cannot be made: " + error.message(),
-                     "choose a folder that you may write to");
+  fs::create_directories(folder_.parent_path(), error);
+  if (error) detail::fail_file(folder_, kProblem, error.value());
+  temporary_ = std::make_unique<Temporary>(folder_, Temporary::Kind::kFolder);
+  if (temporary_->error() != 0) detail::fail_file(folder_, kProblem, temporary_->error());
+  fs::create_directory(temporary_->path() / "depth", error);
+  if (error) detail::fail_file(folder_, kProblem, error.value());
 }
 
-SequenceWriter::~SequenceWriter() {
-  std::error_code ignored;
-  if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
-}
+SequenceWriter::~SequenceWriter() = default;
 
 void SequenceWriter::add(const DepthImage& image, const Eigen::Isometry3d& T_world_camera) {
   std::ostringstream name;
@@ -53,7 +50,7 @@ void SequenceWriter::add(const DepthImage& image, const Eigen::Isometry3d& T_wor
   name.width(6);
   name.fill('0');
   name << count_ << ".png";
-  write_depth_png(image, temporary_ / name.str(), kTumUnits);
+  write_depth_png(image, temporary_->path() / name.str(), kTumUnits);
   const std::string time = number_text(count_ * kFrameSeconds);
   const Eigen::Quaterniond q(T_world_camera.linear());
   const Point& t = T_world_camera.translation();
@@ -71,15 +68,11 @@ void SequenceWriter::finish() {
   };
   const std::string intrinsics =
       row(camera_.fx, 0.0, camera_.cx) + row(0.0, camera_.fy, camera_.cy) + row(0.0, 0.0, 1.0);
-  write_text_file(temporary_ / kIntrinsicsFile, intrinsics);
-  write_text_file(temporary_ / kTumImages, images_);
-  write_text_file(temporary_ / kTumPoses, poses_);
-  std::error_code error;
-  fs::rename(temporary_, folder_, error);
-  if (error)
-    throw InputError(folder_.string(), "cannot be written: " + error.message(),
-                     "give a new folder");
-  temporary_.clear();
+  write_text_file(temporary_->path() / kIntrinsicsFile, intrinsics);
+  write_text_file(temporary_->path() / kTumImages, images_);
+  write_text_file(temporary_->path() / kTumPoses, poses_);
+  if (const int failed = temporary_->move_to(folder_); failed != 0)
+    detail::fail_file(folder_, kProblem, failed);
 }
 
 }  // namespace ridgeway

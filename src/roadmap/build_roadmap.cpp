@@ -93,7 +93,7 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
   report.voxels = count_voxels(map);
   if (report.voxels.free == 0)
     throw InputError("map", "has no free space",
-                     "record free space, or give --bounds where a cloud holds only surfaces");
+                     "record free space, or give bounds where a cloud holds only surfaces");
   roadmap.min_clearance = config.min_clearance;
 
   clock.begin("esdf");
@@ -111,7 +111,7 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
   if (report.traversable_voxels == 0)
     throw InputError("min_clearance " + number_text(config.min_clearance),
                      "leaves no traversable voxel in this map",
-                     "give a smaller --min-clearance, or --unknown ignore");
+                     "give a smaller min_clearance, or ignore the unknown");
 
   clock.begin("gvd");
   const GvdConfig ridges = ridges_of(config);

@@ -37,19 +37,21 @@ class FreePlaces : public ob::StateValidityChecker {
 /// OMPL's counters of motions are left alone: they are not safe between threads.
 class FreeMotions : public ob::MotionValidator {
  public:
-  FreeMotions(const ob::SpaceInformationPtr& space, const EsdfMap& esdf, double radius)
-      : ob::MotionValidator(space), free_(esdf), radius_(radius) {}
+  FreeMotions(const ob::SpaceInformationPtr& space, const EsdfMap& esdf, double radius,
+              const Deadline& deadline)
+      : ob::MotionValidator(space), free_(esdf), radius_(radius), deadline_(deadline) {}
 
   bool checkMotion(const ob::State* from, const ob::State* to) const override {
-    return free_.is_free(point_of(from), point_of(to), radius_);
+    return !deadline_.has_passed() && free_.is_free(point_of(from), point_of(to), radius_);
   }
 
   bool checkMotion(const ob::State* from, const ob::State* to,
                    std::pair<ob::State*, double>& last_valid) const override {
     const Point a = point_of(from), b = point_of(to);
-    if (free_.is_free(a, b, radius_)) return true;
+    const bool is_late = deadline_.has_passed();
+    if (!is_late && free_.is_free(a, b, radius_)) return true;
     const double length = (b - a).norm();
-    last_valid.second = length > 0.0 ? free_.free_length(a, b, radius_) / length : 0.0;
+    last_valid.second = length > 0.0 && !is_late ? free_.free_length(a, b, radius_) / length : 0.0;
     if (last_valid.first != nullptr)
       si_->getStateSpace()->interpolate(from, to, last_valid.second, last_valid.first);
     return false;
@@ -58,6 +60,7 @@ class FreeMotions : public ob::MotionValidator {
  private:
   const FreeSpace free_;
   const double radius_;
+  const Deadline& deadline_;
 };
 
 /// Length as the cost, with samplers of known seeds.
@@ -128,7 +131,7 @@ Point point_of(const ompl::base::State* state) {
 }
 
 OmplProblem make_problem(const EsdfMap& esdf, const Point& start, const Point& goal,
-                         const SamplingConfig& config, OmplSeeds& seeds) {
+                         const SamplingConfig& config, OmplSeeds& seeds, const Deadline& deadline) {
   const ob::RealVectorBounds bounds = sampling_bounds(esdf, config.radius);
   return seeds.seeded([&]() -> OmplProblem {
     const auto points = std::make_shared<ob::RealVectorStateSpace>(3);
@@ -138,7 +141,7 @@ OmplProblem make_problem(const EsdfMap& esdf, const Point& start, const Point& g
     });
     const auto space = std::make_shared<ob::SpaceInformation>(points);
     space->setStateValidityChecker(std::make_shared<FreePlaces>(space, esdf, config.radius));
-    space->setMotionValidator(std::make_shared<FreeMotions>(space, esdf, config.radius));
+    space->setMotionValidator(std::make_shared<FreeMotions>(space, esdf, config.radius, deadline));
     space->setup();
 
     const auto definition = std::make_shared<ob::ProblemDefinition>(space);

@@ -7,19 +7,22 @@
 #include <functional>
 
 #include "ompl_process.hpp"
+#include "paths/deadline.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/sampling/plan_by_sampling.hpp"
 
 namespace ridgeway::detail {
 
 /// A query in OMPL's terms: points of the box around the known free voxels, the free-space
-/// predicate for places and motions, length as the cost. `esdf` and `seeds` must outlive it.
+/// predicate for places and motions, length as the cost. Once the deadline has passed no motion is
+/// free, which ends the loops of planners that look at no limit within a round. `esdf`, `seeds` and
+/// `deadline` must outlive it.
 struct OmplProblem {
   ompl::base::SpaceInformationPtr space;
   ompl::base::ProblemDefinitionPtr definition;
 };
 OmplProblem make_problem(const EsdfMap& esdf, const Point& start, const Point& goal,
-                         const SamplingConfig& config, OmplSeeds& seeds);
+                         const SamplingConfig& config, OmplSeeds& seeds, const Deadline& deadline);
 
 Point point_of(const ompl::base::State* state);
 

@@ -57,13 +57,25 @@ ob::PlannerPtr make_planner(const ob::SpaceInformationPtr& space, const Sampling
   }
 }
 
+/// Trees of far smaller steps than a voxel take for ever and find nothing more.
+void require_range(const SamplingConfig& config, double voxel_size) {
+  constexpr double kLeastVoxels = 0.1;
+  if (config.range == 0.0 || config.range >= kLeastVoxels * voxel_size) return;
+  throw InputError("range",
+                   "is " + number_text(config.range) + " m, far below the map's voxel size of " +
+                       number_text(voxel_size) + " m",
+                   "give a voxel's size or more, or leave it out");
+}
+
 /// Samples until a path or a limit; the waypoints, empty where there is no path.
 std::vector<Point> sample(const EsdfMap& esdf, const Point& start, const Point& goal,
                           const SamplingConfig& config, SamplingResult& result) {
   const double began = seconds_now();
   const detail::QuietOmpl quiet;
   detail::OmplSeeds seeds(config.seed);
-  const detail::OmplProblem problem = detail::make_problem(esdf, start, goal, config, seeds);
+  const Deadline deadline(config.time_limit);
+  const detail::OmplProblem problem =
+      detail::make_problem(esdf, start, goal, config, seeds, deadline);
   const ob::PlannerPtr planner = seeds.seeded([&] {
     ob::PlannerPtr made = make_planner(problem.space, config, esdf.voxel_size);
     made->setProblemDefinition(problem.definition);
@@ -78,7 +90,6 @@ std::vector<Point> sample(const EsdfMap& esdf, const Point& start, const Point& 
         result.first_seconds = seconds_now() - ready;
         result.first_length = cost.value();
       });
-  const Deadline deadline(config.time_limit);
   planner->solve(ob::PlannerTerminationCondition([&] {
     if (deadline.has_passed() || result.iterations >= config.iteration_limit) return true;
     ++result.iterations;
@@ -111,6 +122,7 @@ void SamplingConfig::validate() const {
 SamplingResult plan_by_sampling(const EsdfMap& esdf, const Point& start, const Point& goal,
                                 const SamplingConfig& config) {
   config.validate();
+  require_range(config, esdf.voxel_size);
   detail::validate_query(esdf, start, goal, config.radius);
   const double began = seconds_now();
   SamplingResult result;

@@ -122,7 +122,7 @@ TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> pat
   if (config.radius > largest_radius(esdf))
     throw InputError("radius " + number_text(config.radius),
                      "is beyond the distances that the map holds",
-                     "build the map with a larger --max-distance, or without one");
+                     "build the map with a larger max_distance, or without one");
   const std::vector<Point> points = distinct_points(path);
   const double began = detail::seconds_now();
   TrajectoryResult result;

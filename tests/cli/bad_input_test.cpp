@@ -135,12 +135,12 @@ TEST_F(CliBadInput, ValuesOutOfRange) {
     expect_refused({"plan", map, "--from", "1,0,1", "--to", "2,0,1", "--radius", radius},
                    {"radius"});
   expect_refused({"plan", map, "--from", "1,0,1", "--to", "2,0,1", "--time-limit", "-1"},
-                 {"time_limit"});
+                 {"--time-limit"});
   for (const char* clearance : {"-1", "0", "nan", "inf"})
-    expect_build_refused(kScan, {"--min-clearance", clearance}, {"min_clearance"});
-  expect_build_refused(kScan, {"--min-clearance", "9"}, {"min_clearance 9", "smaller"});
+    expect_build_refused(kScan, {"--min-clearance", clearance}, {"--min-clearance"});
+  expect_build_refused(kScan, {"--min-clearance", "9"}, {"--min-clearance 9", "smaller"});
   for (const char* size : {"-1", "0", "nan", "inf"})
-    expect_build_refused(kScan, {"--voxel-size", size}, {"voxel_size"});
+    expect_build_refused(kScan, {"--voxel-size", size}, {"--voxel-size"});
   expect_build_refused(kScan, {"--voxel-size", "0.01"}, {"finer"});
   expect_build_refused(kScan, {"--bounds", "1,0,0,0,1,1"}, {"--bounds"});
   expect_build_refused(kScan, {"--bounds", "0,0,0,1,1"}, {"--bounds", "x0,y0,z0"});

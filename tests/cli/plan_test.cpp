@@ -183,7 +183,7 @@ TEST_F(CliPlan, KeepsFromWallsWhenAskedTo) {
   EXPECT_EQ(planned(with("0"))["waypoints"], tight["waypoints"]);
   EXPECT_GT(wide["length"].get<double>(), tight["length"].get<double>());
   EXPECT_GT(wide["clearance"].get<double>(), tight["clearance"].get<double>());
-  expect_refused(with("-1"), {"prefer_clearance", "-1"});
+  expect_refused(with("-1"), {"--prefer-clearance", "-1"});
   std::vector<std::string> sampled = with("1");
   sampled.insert(sampled.end(), {"--planner", "rrtstar"});
   expect_refused(sampled, {"--prefer-clearance", "rrtstar"});

@@ -122,7 +122,7 @@ TEST_F(CliSimulate, FuseTakesRecordingsAsTheyAre) {
   EXPECT_NE(fused.err.find("000001.png"), std::string::npos) << fused.err;
   expect_refused({"fuse", path("none"), "-o", path("out.ridge")}, {"none"});
   expect_refused({"fuse", path("run"), "-o", path("out.ridge"), "--voxel-size", "0"},
-                 {"voxel_size"});
+                 {"--voxel-size"});
   expect_refused({"fuse", path("run"), "-o", path("out.ridge"), "--intrinsics", "1,2"}, {"fx,fy"});
   expect_refused({"fuse", path("run"), "-o", path("out.ridge"), "--intrinsics", "160,160,900,120"},
                  {"camera cx"});
@@ -203,7 +203,7 @@ TEST_F(CliSimulate, BadInputLeavesNothing) {
   expect_refused({"simulate", path("balls.yaml"), "-o", path("out")}, {"balls"});
   expect_refused({"simulate", path("empty.yaml"), "-o", path("out")}, {"world"});
   expect_refused({"simulate", house(), "-o", path("full")}, {"not empty"});
-  expect_refused({"simulate", house(), "-o", path("out"), "--sigma", "-1"}, {"range_sigma"});
+  expect_refused({"simulate", house(), "-o", path("out"), "--sigma", "-1"}, {"--sigma"});
   expect_refused({"simulate", house(), "-o", path("out"), "--frames", "0"}, {"--frames"});
   expect_refused({"simulate", house(), "-o", path("out"), "--clearance", "9"}, {"clearance"});
   expect_refused({"simulate", house(), "-o", path("out"), "--volume", "1,1"}, {"--volume"});
@@ -213,7 +213,7 @@ TEST_F(CliSimulate, BadInputLeavesNothing) {
                   "--frames", "1000000"},
                  {"hardly any place"});
   expect_refused({"simulate", house(), "-o", path("out"), "--width", "0"}, {"--width"});
-  expect_refused({"simulate", house(), "-o", ""}, {"new folder"});
+  expect_refused({"simulate", house(), "-o", ""}, {"--output"});
   expect_refused({"simulate", house(), "-o", "/"}, {"new folder"});
   expect_refused({"world", "castle", "-o", path("out.yaml")}, {"castle"});
 }

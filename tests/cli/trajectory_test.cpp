@@ -87,15 +87,15 @@ TEST_F(CliTrajectory, RefusesBadInput) {
     all.insert(all.end(), more.begin(), more.end());
     expect_refused(all, words);
   };
-  refused({"--max-speed", "0"}, {"max_speed"});
-  refused({"--max-speed", "nan"}, {"max_speed"});
-  refused({"--max-acceleration=-1"}, {"max_acceleration"});
-  refused({"--max-jerk", "0"}, {"max_jerk"});
-  refused({"--max-yaw-rate", "0"}, {"max_yaw_rate"});
+  refused({"--max-speed", "0"}, {"--max-speed"});
+  refused({"--max-speed", "nan"}, {"--max-speed"});
+  refused({"--max-acceleration=-1"}, {"--max-acceleration"});
+  refused({"--max-jerk", "0"}, {"--max-jerk"});
+  refused({"--max-yaw-rate", "0"}, {"--max-yaw-rate"});
   refused({"--radius", "0"}, {"radius"});
   refused({"--derivative", "crackle"}, {"crackle"});
   refused({"--from-velocity", "1,2"}, {"--from-velocity"});
-  refused({"--from-velocity", "3,0,0"}, {"start_velocity"});
+  refused({"--from-velocity", "3,0,0"}, {"--from-velocity"});
   refused({"-o", path("t.txt")}, {"t.txt"});
   refused({"--max-speed", "1e-6"}, {"--step"});
 }

@@ -65,6 +65,48 @@ TEST(AtomicFile, BadTargetsAreRefusedWithTheirPath) {
   EXPECT_EQ(files_in(folder), 1u);
 }
 
+TEST(AtomicFile, ReasonsAndRemediesFitTheFault) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("circle", folder / "circle");
+  write_text_file(folder / "file", "x");
+  const auto expect = [](const std::filesystem::path& file, const char* problem,
+                         const char* remedy) {
+    try {
+      write_text_file(file, "text");
+      ADD_FAILURE() << file;
+    } catch (const InputError& error) {
+      EXPECT_NE(error.problem().find(problem), std::string::npos) << error.what();
+      EXPECT_NE(error.remedy().find(remedy), std::string::npos) << error.what();
+    }
+  };
+  expect(folder / "circle/a.txt", "symbolic links", "circle");
+  expect(folder / std::string(300, 'x'), "too long", "shorter");
+  expect(folder / "none/a.txt", "No such file", "create the folder");
+  expect(folder / "file/a.txt", "Not a directory", "folder");
+}
+
+TEST(AtomicFile, RemovesWhatIsInTheMakingForAHandlerOfSignals) {
+  const TemporaryFolder folder;
+  AtomicFile file(folder / "a.txt");
+  file.write("text");
+  const Temporary inner(folder / "b", Temporary::Kind::kFolder);
+  std::filesystem::create_directories(inner.path() / "c/d");
+  write_text_file(inner.path() / "c/d/e.txt", "x");
+  EXPECT_EQ(files_in(folder), 2u);
+  remove_temporaries();
+  EXPECT_EQ(files_in(folder), 0u);
+}
+
+TEST(AtomicFile, MovesAFolderWithAllThatIsInIt) {
+  const TemporaryFolder folder;
+  Temporary made(folder / "run", Temporary::Kind::kFolder);
+  ASSERT_EQ(made.error(), 0);
+  write_text_file(made.path() / "a.txt", "x");
+  EXPECT_EQ(made.move_to(folder / "run"), 0);
+  EXPECT_EQ(read_whole(folder / "run/a.txt"), "x");
+  EXPECT_EQ(files_in(folder), 1u);
+}
+
 TEST(AtomicFile, AFullDiskLeavesNothingBehind) {
   const TemporaryFolder folder;
   write_text_file(folder / "a.txt", "old");

@@ -68,9 +68,9 @@ TEST(LoadMap, CloudsNeedVoxelSizeAndBoundsAndSayWhereTheyAre) {
   const TemporaryFolder folder;
   const auto file = folder / "cloud.xyz";
   write_whole(file, "0 0 0\n1 2 3\n");
-  EXPECT_TRUE(contains(refusal([&] { load_map(file); }), "--voxel-size"));
+  EXPECT_TRUE(contains(refusal([&] { load_map(file); }), "give voxel_size"));
   const std::string unbounded = refusal([&] { load_map(file, {.voxel_size = 0.1}); });
-  EXPECT_TRUE(contains(unbounded, "give --bounds; its points span 0,0,0 to 1,2,3")) << unbounded;
+  EXPECT_TRUE(contains(unbounded, "give bounds; its points span 0,0,0 to 1,2,3")) << unbounded;
   const std::string elsewhere = refusal([&] {
     load_map(file, {.voxel_size = 0.1, .bounds = Box{{5, 5, 5}, {6, 6, 6}}});
   });

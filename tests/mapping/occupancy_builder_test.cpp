@@ -58,8 +58,8 @@ TEST(OccupancyBuilder, RefusesWhatDoesNotFitBeforeTakingIt) {
     FAIL() << "was not refused";
   } catch (const InputError& error) {
     EXPECT_EQ(error.where(), "huge.bt");
-    EXPECT_NE(error.remedy().find("--voxel-size"), std::string::npos);
-    EXPECT_NE(error.remedy().find("--bounds"), std::string::npos);
+    EXPECT_NE(error.remedy().find("larger voxels"), std::string::npos);
+    EXPECT_NE(error.remedy().find("smaller box"), std::string::npos);
   }
 }
 

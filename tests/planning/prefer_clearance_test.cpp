@@ -89,8 +89,24 @@ TEST(PreferClearance, TradesLengthForDistanceFromWalls) {
 
 TEST(PreferClearance, RefusesBadWeights) {
   const Roadmap roadmap = hall_of_pillars(0);
-  for (const double bad : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()})
+  for (const double bad :
+       {-1.0, std::nan(""), std::numeric_limits<double>::infinity(), 1e308, 1e100, 1.1e6})
     EXPECT_THROW(plan(roadmap, kStart, kGoal, {.prefer_clearance = bad}), InputError);
+}
+
+TEST(PreferClearance, AnAnswerThatIsOkHasAPathOfFiniteLengthAtAnyWeight) {
+  const Roadmap roadmap = hall_of_pillars(0);
+  for (const double weight : {1e-300, 1e3, 1e6})
+    for (const Planner planner : {Planner::kGraph, Planner::kDiagram, Planner::kEsdf})
+      for (const bool shorten : {true, false}) {
+        const PlanResult result =
+            plan(roadmap, kStart, kGoal,
+                 {.planner = planner, .shorten = shorten, .prefer_clearance = weight});
+        ASSERT_TRUE(result.ok());
+        ASSERT_GE(result.waypoints.size(), 2u);
+        EXPECT_TRUE(std::isfinite(result.length));
+        EXPECT_TRUE(std::isfinite(result.clearance));
+      }
 }
 
 }  // namespace

@@ -58,6 +58,22 @@ TEST(Sampling, LeavesTheMessagesOfOmplToTheirOwner) {
   EXPECT_NE(before, nullptr);
 }
 
+TEST(Sampling, TimeLimitEndsARoundOfManySmallMotions) {
+  // RRT-Connect grows a tree all the way to the other one within a round: here by 100,000 motions,
+  // each of which looks for the nearest of all before. That took minutes.
+  const OccupancyMap corridor =
+      testing::make_map(0.1, {0, 0, 0}, {9999, 11, 5}, [](const VoxelIndex& v) {
+        return v.x == 500 && v.y < 6 ? VoxelState::kOccupied : VoxelState::kFree;
+      });
+  const EsdfMap esdf = compute_esdf(corridor, {});
+  SamplingConfig config{.planner = Planner::kRrtConnect, .radius = 0.2, .time_limit = 0.2};
+  config.range = 0.01;
+  const SamplingResult result =
+      plan_by_sampling(esdf, Point(1.0, 0.3, 0.3), Point(999.0, 0.3, 0.3), config);
+  EXPECT_EQ(result.plan.status, PlanStatus::kTimeout);
+  EXPECT_LT(result.plan.seconds.search, 10.0);
+}
+
 TEST(Sampling, RefusesBadConfigurations) {
   const EsdfMap esdf = compute_esdf(two_rooms(false), {.max_distance = 1.0});
   const auto expect_refused = [&](SamplingConfig config, const std::string& where) {
@@ -80,7 +96,7 @@ TEST(Sampling, RefusesBadConfigurations) {
     expect_refused(with(&SamplingConfig::radius, radius), "radius");
   for (const double limit : {0.0, -1.0, nan})
     expect_refused(with(&SamplingConfig::time_limit, limit), "time_limit");
-  for (const double range : {-1.0, nan, kForever})
+  for (const double range : {-1.0, nan, kForever, 1e-4, 0.009, 1e-300})
     expect_refused(with(&SamplingConfig::range, range), "range");
   expect_refused(with(&SamplingConfig::iteration_limit, SamplingConfig{}.iteration_limit),
                  "time_limit");

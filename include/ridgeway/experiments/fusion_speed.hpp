@@ -39,5 +39,8 @@ struct FusionSpeed {
 /// voxels on its ray in a hash table of voxels. Both measure along the ray.
 std::vector<FusionSpeed> run_fusion_speed(const World& world, const FusionSpeedConfig& config,
                                           const Progress& progress = {});
+/// The same; where it is cancelled the results are those that were done.
+void run_fusion_speed(const World& world, const FusionSpeedConfig& config, const Progress& progress,
+                      std::vector<FusionSpeed>& results);
 
 }  // namespace ridgeway

@@ -95,5 +95,8 @@ struct HallRow {
 std::vector<HallRow> run_hall(const HallExperimentConfig& config,
                               const std::vector<HallMap>& other_maps = {},
                               const RoadmapStore& store = {}, const Progress& progress = {});
+/// The same; where it is cancelled the rows are those of the maps that were done.
+void run_hall(const HallExperimentConfig& config, const std::vector<HallMap>& other_maps,
+              const RoadmapStore& store, const Progress& progress, std::vector<HallRow>& rows);
 
 }  // namespace ridgeway

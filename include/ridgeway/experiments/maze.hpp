@@ -53,5 +53,8 @@ struct MazeResult {
 /// is not shortened, but for RRT* with all of its time; "graph" is the roadmap with shortening, all
 /// others are as they come.
 MazeResult run_maze(const MazeExperimentConfig& config, const Progress& progress = {});
+/// The same; where it is cancelled the result is of the rounds that were done, with no rows where
+/// there is not one of every planner.
+void run_maze(const MazeExperimentConfig& config, const Progress& progress, MazeResult& result);
 
 }  // namespace ridgeway

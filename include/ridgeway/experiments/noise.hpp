@@ -54,5 +54,9 @@ struct NoiseResult {
 /// and a voxel from every surface and lie in the largest component of every map. The best of the
 /// reference map is the shorter of its roadmap's and of its ESDF A*'s shortened route.
 NoiseResult run_noise(const World& world, const NoiseConfig& config, const Progress& progress = {});
+/// The same; where it is cancelled the result is of the maps that were made, and of the routes that
+/// were compared.
+void run_noise(const World& world, const NoiseConfig& config, const Progress& progress,
+               NoiseResult& result);
 
 }  // namespace ridgeway

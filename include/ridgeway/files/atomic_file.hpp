@@ -7,6 +7,8 @@
 #include <span>
 #include <string_view>
 
+#include "ridgeway/files/temporary.hpp"
+
 namespace ridgeway {
 
 /// A file that appears whole or not at all: bytes go to a temporary file in the target's folder,
@@ -18,20 +20,17 @@ class AtomicFile {
   /// Opens the temporary file. A target that exists and is no regular file is refused; a link is
   /// followed, so that the file it points to is replaced.
   explicit AtomicFile(const std::filesystem::path& target);
-  ~AtomicFile();
-  AtomicFile(const AtomicFile&) = delete;
-  AtomicFile& operator=(const AtomicFile&) = delete;
 
   void write(std::span<const std::byte> bytes);
   void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
   void commit();
 
  private:
+  static std::filesystem::path checked(const std::filesystem::path& target);
   [[noreturn]] void fail(int error) const;
 
   std::filesystem::path target_;
-  std::filesystem::path temporary_;
-  int descriptor_ = -1;
+  Temporary temporary_;
 };
 
 /// Writes a whole text by AtomicFile.

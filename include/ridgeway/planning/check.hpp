@@ -50,5 +50,8 @@ struct CheckReport {
 /// alone on its thread.
 CheckReport check_roadmap(const Roadmap& roadmap, const CheckConfig& config = {},
                           const Progress& progress = {});
+/// The same; where it is cancelled the report is of what was checked until then.
+void check_roadmap(const Roadmap& roadmap, const CheckConfig& config, const Progress& progress,
+                   CheckReport& report);
 
 }  // namespace ridgeway

@@ -72,7 +72,8 @@ struct PlanConfig {
   /// with a leg straight to the nearest place where the robot fits. See Escape.
   bool escape = false;
 
-  /// Throws InputError naming the bad field (radius, time limit or prefer_clearance negative, NaN;
+  /// Throws InputError naming the bad field (radius, time limit or prefer_clearance negative, NaN,
+  /// prefer_clearance above 1e6;
   /// a planner that samples).
   void validate() const;
 };
@@ -97,7 +98,7 @@ struct PlanResult {
   PlanStatus status = PlanStatus::kNoRoute;
   UnknownPolicy unknown = UnknownPolicy::kObstacle;  ///< what unknown space was taken for
   Planner answered_by = Planner::kGraph;
-  std::vector<Point> waypoints;  ///< start first, goal last; empty unless ok
+  std::vector<Point> waypoints;  ///< start first, goal last: two or more where ok, else none
   double length = 0.0;           ///< metres
   /// Smallest distance along the path, without its escapes, to an obstacle, metres: to what is
   /// occupied and, under UnknownPolicy::kObstacle, to what is unknown. How near the path comes to

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "ridgeway/sensing/depth_camera.hpp"
 
 namespace ridgeway {
+
+class Temporary;
 
 struct DepthFrame {
   std::filesystem::path image;  ///< 16-bit PNG
@@ -60,7 +63,8 @@ class SequenceWriter {
   void finish();
 
  private:
-  std::filesystem::path folder_, temporary_;
+  std::filesystem::path folder_;
+  std::unique_ptr<Temporary> temporary_;
   PinholeCamera camera_;
   std::string images_ = "# timestamp filename\n";
   std::string poses_ = "# timestamp tx ty tz qx qy qz qw\n";

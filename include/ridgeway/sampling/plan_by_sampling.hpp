@@ -24,7 +24,8 @@ struct SamplingConfig {
   /// limit does not count. Otherwise as the planner found it.
   bool shorten = true;
   /// Longest motion that a tree grows by, metres; 0: 1 m, or 10 voxels where that is more. In wide
-  /// corridors three times that is quicker, through doors far slower. BIT* and PRM* have none.
+  /// corridors three times that is quicker, through doors far slower; less than a tenth of a voxel
+  /// is refused. BIT* and PRM* have none.
   double range = 0.0;
 
   /// Throws InputError naming the bad field (a planner that does not sample, no radius, no limit).
