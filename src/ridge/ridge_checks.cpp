@@ -8,6 +8,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "ridge_header.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 
@@ -66,6 +67,7 @@ bool edges_hold(const Roadmap& roadmap, const SparseGraph& graph) {
   parallel_for_each_index(
       graph.edges.size(),
       [&](std::size_t i) {
+        if (!good.load(std::memory_order_relaxed)) return;
         const Edge& edge = graph.edges[i];
         const std::array ends{graph.vertices[number(edge.from)].position,
                               graph.vertices[number(edge.to)].position};
@@ -194,6 +196,8 @@ Defect find_size_defect(const Roadmap& roadmap) {
     return RoadmapDefect{"attach", "does not fit the blocks"};
   }
   const std::size_t vertices = roadmap.graph.vertices.size();
+  if (roadmap.graph.edges.size() > kMostEdgesPerVertex * vertices)
+    return RoadmapDefect{"edges", "has more of them than the vertices can have"};
   const ClearanceTree& tree = roadmap.tree;
   if (tree.parent.size() != vertices || tree.clearance.size() != vertices ||
       tree.place.size() != vertices) {
@@ -203,6 +207,11 @@ Defect find_size_defect(const Roadmap& roadmap) {
   if (taut.graph.vertices.size() > TautGraph::kMostCorners) {
     return RoadmapDefect{"corners", "has more of them than are learnt"};
   }
+  if (taut.graph.edges.size() > kMostEdgesPerVertex * taut.graph.vertices.size())
+    return RoadmapDefect{"taut_edges", "has more of them than the corners can have"};
+  for (std::size_t cell = 1; cell < taut.first_seen.size(); ++cell)
+    if (taut.first_seen[cell] - taut.first_seen[cell - 1] > kMostSeenOfCell)
+      return RoadmapDefect{"cells", "counts more corners than are listed"};
   const bool has_cells = !taut.empty();
   if (has_cells == taut.graph.vertices.empty() ||
       (has_cells &&

@@ -26,4 +26,9 @@ std::optional<RoadmapDefect> find_graph_defect(const Roadmap& roadmap);
 std::optional<RoadmapDefect> find_taut_defect(const Roadmap& roadmap);
 std::optional<RoadmapDefect> find_attach_defect(const Roadmap& roadmap);
 
+/// Looks for sites that are no obstacles, and for voxels that are nearer to the site of one of
+/// their six neighbours than to their own. Linear in voxels, in parallel. Sizes and states must be
+/// right, and the squared distances those of the sites.
+std::optional<RoadmapDefect> find_site_defect(const Roadmap& roadmap);
+
 }  // namespace ridgeway

@@ -7,6 +7,7 @@
 #include "ridge_header.hpp"
 #include "ridge_sections.hpp"
 #include "ridgeway/common/error.hpp"
+#include "roadmap/bounded_hub_labels.hpp"
 
 namespace ridgeway {
 
@@ -43,7 +44,9 @@ Roadmap load_roadmap(const std::filesystem::path& path) {
   load_voxels(reader, header, roadmap);
   load_graph(reader, header, roadmap);
 
-  auto defect = find_graph_defect(roadmap);
+  auto defect = find_size_defect(roadmap);
+  if (!defect) defect = find_site_defect(roadmap);
+  if (!defect) defect = find_graph_defect(roadmap);
   if (!defect) defect = find_taut_defect(roadmap);
   if (!defect) defect = find_attach_defect(roadmap);
   if (defect) reader.damaged(defect->part, defect->what);
@@ -51,7 +54,9 @@ Roadmap load_roadmap(const std::filesystem::path& path) {
   roadmap.landmarks = place_landmarks(roadmap.graph);
   if (TautGraph& taut = roadmap.taut; !taut.graph.vertices.empty()) {
     index_links(taut.graph);
-    taut.hubs = label_hubs(taut.graph);
+    auto hubs = detail::label_hubs_within(taut.graph);
+    if (!hubs) reader.damaged("taut_edges", "has too many shortest ways");
+    taut.hubs = *std::move(hubs);
   }
   return roadmap;
 }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "ridge_header.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -38,6 +39,17 @@ UnknownPolicy parse_policy(const std::string& name) {
   throw std::out_of_range("'unknown' is neither obstacle nor ignore");
 }
 
+/// Bounds every count by others, so that none makes its section large by itself.
+void check_counts(const RidgeHeader& header) {
+  const double voxels = static_cast<double>(header.blocks) * kBlockVoxels;
+  if (header.vertices > voxels) throw std::out_of_range("there are more vertices than voxels");
+  if (header.corners > std::min<double>(voxels, TautGraph::kMostCorners))
+    throw std::out_of_range("there are more corners than are learnt");
+  if (header.edges > kMostEdgesPerVertex * header.vertices ||
+      header.taut_edges > kMostEdgesPerVertex * header.corners)
+    throw std::out_of_range("there are more edges than the vertices can have");
+}
+
 RidgeHeader header_from(const Json& json) {
   const Json& counts = json.at("counts");
   RidgeHeader header;
@@ -61,6 +73,7 @@ RidgeHeader header_from(const Json& json) {
       !(header.graph_min_clearance >= 0.0)) {
     throw std::out_of_range("a distance is negative");
   }
+  check_counts(header);
   return header;
 }
 

@@ -10,6 +10,12 @@
 
 namespace ridgeway {
 
+/// A graph that is built has about two edges a vertex; a file may not have more than this.
+inline constexpr std::uint64_t kMostEdgesPerVertex = 64;
+
+/// A graph of corners that is built lists up to 24 of them for a cell.
+inline constexpr std::uint32_t kMostSeenOfCell = 64;
+
 /// The numbers that say how a roadmap's sections are to be read; JSON text in the file.
 struct RidgeHeader {
   double voxel_size = 0.0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
+#include <algorithm>
 #include <array>
 
 #include "files/little_endian.hpp"
@@ -13,7 +14,6 @@ constexpr std::size_t kVertexBytes = 20;
 constexpr std::size_t kEdgeBytes = 24;
 constexpr std::size_t kTreeBytes = 24;
 constexpr std::size_t kNumberBytes = 4;
-constexpr std::uint64_t kMostSeen = 0xffffffffu;  // what an entry of first_seen can hold
 
 /// Appends one number of every item, item after item: alike bytes stand together.
 template <typename Items, typename NumberOf>
@@ -138,8 +138,9 @@ void load_taut(const RidgeReader& reader, const RidgeHeader& header, const Block
   std::uint64_t seen = 0;
   Planes counts(reader, "cells", kNumbersType, cells.count, kNumberBytes);
   counts.take<std::uint32_t>([&](std::size_t, std::uint32_t count) {
+    if (count > std::min(kMostSeenOfCell, header.corners))
+      reader.damaged("cells", "counts more corners than are listed");
     seen += count;
-    if (seen > kMostSeen) reader.damaged("cells", "counts more corners than there can be");
     taut.first_seen.push_back(static_cast<std::uint32_t>(seen));
   });
   Planes corners(reader, "seen", kNumbersType, seen, kNumberBytes);

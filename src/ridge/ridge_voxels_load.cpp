@@ -132,6 +132,11 @@ void load_diagram_blocks(const RidgeReader& reader, const BlockRange& range, con
   if (inside != 0) reader.damaged("diagram", "has a voxel inside an obstacle");
 }
 
+/// Whether sections of a type have a value for every voxel, and are inflated piece by piece.
+bool has_voxels(std::uint32_t type) {
+  return type == kStateType || type == kSiteType || type == kMaskType || type == kAttachType;
+}
+
 /// The fields take their pages from the system here, which costs as much as the decoding.
 void allocate_fields(Roadmap& roadmap) {
   EsdfMap& esdf = roadmap.esdf;
@@ -153,7 +158,14 @@ void allocate_fields(Roadmap& roadmap) {
 
 void check_memory(const RidgeReader& reader, const RidgeHeader& header) {
   constexpr int kBytesPerVoxel = 14;  // the fields, and the layout's share
-  require_memory_for_blocks(header.blocks, kBytesPerVoxel, reader.path());
+  // A list is inflated whole, and what is made of it takes up to three times as much.
+  constexpr int kBytesPerListed = 4;
+  double listed = 0.0;
+  for (const RidgeSectionEntry& section : reader.sections())
+    if (!has_voxels(section.type)) listed += static_cast<double>(section.raw_bytes);
+  require_memory(
+      static_cast<double>(header.blocks) * kBlockVoxels * kBytesPerVoxel + kBytesPerListed * listed,
+      reader.path(), "use a machine with more, or a coarser map");
 }
 
 void load_voxels(const RidgeReader& reader, const RidgeHeader& header, Roadmap& roadmap) {

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include <algorithm>
 
+#include "bounded_hub_labels.hpp"
 #include "cell_parts.hpp"
 #include "corner_links.hpp"
 #include "paths/shorten.hpp"
@@ -81,7 +82,9 @@ class Learning {
       more = pairs_;
       if (known < kKnown) continue;
       if (!link()) break;
-      taut_.hubs = label_hubs(taut_.graph);
+      auto hubs = detail::label_hubs_within(taut_.graph);
+      if (!hubs) break;
+      taut_.hubs = *std::move(hubs);
       list_seen();
       return std::move(taut_);
     }

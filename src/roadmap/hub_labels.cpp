@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "best_first_search.hpp"
+#include "bounded_hub_labels.hpp"
 
 namespace ridgeway {
 namespace {
@@ -28,16 +29,22 @@ class ShortestTrees {
     search_.offer(root, 0.0, root);
     search_.run([&](VertexId v) {
       const double length = search_.cost(v);
-      if (reach(v, search_.from(v), length))
-        for (const Link& link : graph_.links_of(v))
-          search_.offer(link.vertex, length + graph_.edges[number(link.edge)].length, v);
+      if (!reach(v, search_.from(v), length)) return true;
+      const std::span<const Link> links = graph_.links_of(v);
+      steps_ += links.size();
+      for (const Link& link : links)
+        search_.offer(link.vertex, length + graph_.edges[number(link.edge)].length, v);
       return true;
     });
   }
 
+  /// Links followed, by all trees so far.
+  std::size_t steps() const { return steps_; }
+
  private:
   const SparseGraph& graph_;
   detail::BestFirstSearch<VertexId, double> search_;
+  std::size_t steps_ = 0;
 };
 
 /// A label in the making.
@@ -75,15 +82,19 @@ std::vector<VertexId> by_importance(const SparseGraph& graph, ShortestTrees& tre
 
 }  // namespace
 
-HubLabels label_hubs(const SparseGraph& graph) {
+std::optional<HubLabels> detail::label_hubs_within(const SparseGraph& graph,
+                                                   std::size_t most_steps) {
   ShortestTrees trees(graph);
   const std::vector<VertexId> order = by_importance(graph, trees);
   std::vector<std::vector<Way>> ways(order.size());
   std::vector<double> to_root(order.size(), kFar);  // by hub
+  std::size_t compared = 0;
   for (std::uint32_t hub = 0; hub < order.size(); ++hub) {
+    if (compared + trees.steps() > most_steps) return std::nullopt;
     const VertexId root = order[hub];
     for (const Way& way : ways[number(root)]) to_root[way.hub] = way.length;
     trees.grow(root, [&](VertexId v, VertexId parent, double length) {
+      compared += ways[number(v)].size();
       for (const Way& way : ways[number(v)])
         if (way.length + to_root[way.hub] <= length * (1.0 + kRounding) && v != root) return false;
       ways[number(v)].push_back({hub, parent, length});
@@ -100,6 +111,10 @@ HubLabels label_hubs(const SparseGraph& graph) {
     hubs.first.push_back(static_cast<std::uint32_t>(hubs.labels.size()));
   }
   return hubs;
+}
+
+HubLabels label_hubs(const SparseGraph& graph) {
+  return *detail::label_hubs_within(graph, std::numeric_limits<std::size_t>::max());
 }
 
 std::vector<VertexId> way_to_hub(const HubLabels& hubs, VertexId from, std::uint32_t hub) {

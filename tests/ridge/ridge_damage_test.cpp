@@ -192,6 +192,30 @@ TEST_F(HostileRidge, WrongHeadersAreRefused) {
   }
 }
 
+TEST_F(HostileRidge, CountsThatTheHeaderDoesNotAllowAreRefusedBeforeTheyAreInflated) {
+  const std::size_t cells = number_cells(load_roadmap(folder_ / "good.ridge").esdf.layout).count;
+  // Every cell sees as many corners as the file has, over and over.
+  const std::string seen =
+      refusal_with("cells", [&](Bytes& bytes) { put(bytes, 4 * (cells - 1), 1'000'000'000, 4); });
+  EXPECT_NE(seen.find("'cells' counts more corners than are listed"), std::string::npos) << seen;
+  for (const auto& [key, count, problem] :
+       std::vector<std::tuple<std::string, std::string, std::string>>{
+           {"vertices", "4000000000", "more vertices than voxels"},
+           {"edges", "400000000", "more edges than the vertices can have"},
+           {"corners", "8193", "more corners than are learnt"},
+           {"taut_edges", "400000000", "more edges than the vertices can have"}}) {
+    const std::string message = refusal_with(
+        "", [](Bytes&) {},
+        [&](std::string& header) {
+          const std::size_t at = header.find('"' + key + "\": ", header.find("counts")),
+                            first = at + key.size() + 4;
+          ASSERT_NE(at, std::string::npos);
+          header.replace(first, header.find_first_of(",\n", first) - first, count);
+        });
+    EXPECT_NE(message.find(problem), std::string::npos) << key << ": " << message;
+  }
+}
+
 TEST_F(HostileRidge, AnyChangedByteGivesARoadmapOrARefusal) {
   std::mt19937 random(5);
   const std::vector<std::string> names = {"blocks",  "vertices",   "edges",   "tree",

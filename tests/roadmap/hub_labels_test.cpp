@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 
+#include "roadmap/bounded_hub_labels.hpp"
 #include "support/dijkstra.hpp"
 
 namespace ridgeway {
@@ -97,6 +99,23 @@ TEST(HubLabels, AreFewOnALongChain) {
     chain.edges.push_back({VertexId{v - 1}, VertexId{v}, 1.0, 1.0});
   index_links(chain);
   EXPECT_LT(label_hubs(chain).labels.size(), 256u * 32u);  // without pruning 256 each
+}
+
+/// Any two places joined by a straight edge: no way passes a third one, and nothing is pruned.
+TEST(HubLabels, AreGivenUpWhereTheyWouldTakeTooLong) {
+  constexpr std::uint32_t kCount = 300;
+  SparseGraph graph;
+  for (std::uint32_t v = 0; v < kCount; ++v)
+    graph.vertices.push_back({{}, {std::cos(0.01 * v), std::sin(0.01 * v), 0.0}, 1.0});
+  for (std::uint32_t a = 0; a < kCount; ++a)
+    for (std::uint32_t b = a + 1; b < kCount; ++b)
+      graph.edges.push_back({VertexId{a}, VertexId{b},
+                             (graph.vertices[a].position - graph.vertices[b].position).norm(),
+                             1.0});
+  index_links(graph);
+  EXPECT_EQ(label_hubs(graph).labels.size(), kCount * (kCount + 1) / 2);
+  EXPECT_TRUE(detail::label_hubs_within(graph));
+  EXPECT_FALSE(detail::label_hubs_within(graph, 1'000'000));
 }
 
 TEST(HubLabels, OfNothingAreNone) {
