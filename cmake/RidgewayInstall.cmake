@@ -68,6 +68,10 @@ install(
 if(TARGET ridgeway_cli)
   install(TARGETS ridgeway_cli RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT runtime)
 endif()
+if(TARGET ridgeway_mesh_reader)
+  install(TARGETS ridgeway_mesh_reader RUNTIME DESTINATION "${CMAKE_INSTALL_LIBEXECDIR}/ridgeway"
+                                               COMPONENT runtime)
+endif()
 install(
   FILES LICENSE
   DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/ridgeway"
@@ -98,6 +102,7 @@ if(PROJECT_IS_TOP_LEVEL)
     JOIN ", " CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS
     libompl-dev
     libnlopt-dev
-    pkg-config libcairo2-dev libzstd-dev liblzf-dev libpng-dev libyaml-cpp-dev libassimp-dev)
+    pkg-config libcairo2-dev libzstd-dev liblzf-dev libpng-dev libyaml-cpp-dev
+    ridgeway)
   include(CPack)
 endif()

@@ -2,38 +2,32 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "ridgeway/formats/mesh_file.hpp"
 
-#include <assimp/BaseImporter.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <assimp/Importer.hpp>
 #include <cctype>
-#include <cstring>
-#include <memory>
+#include <cstdlib>
 #include <optional>
-#include <set>
 #include <string>
-#include <utility>
-#include <vector>
+#include <system_error>
 
-#include "files/little_endian.hpp"
+#include "mesh_packing.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/files/read_file.hpp"
 #include "ridgeway/formats/ply_cloud.hpp"
-#include "run_apart.hpp"
+#include "ridgeway/mapping/memory_limit.hpp"
+#include "run_program.hpp"
 
 namespace ridgeway {
 namespace {
 
-using Bytes = std::vector<std::byte>;
+namespace fs = std::filesystem;
 
-constexpr std::size_t kMostTriangles = 100'000'000;
 constexpr std::array<const char*, 4> kFormats = {"ply", "obj", "stl", "dae"};
 
 /// The format that a file's name says, in small letters without the dot.
-std::string format_of(const std::filesystem::path& file) {
+std::string format_of(const fs::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -44,134 +38,63 @@ std::string format_of(const std::filesystem::path& file) {
   return extension;
 }
 
-/// Leaves an importer the one format alone: by itself it tries all that it knows on any bytes.
-void keep_format(const std::string& format, Assimp::Importer& importer) {
-  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
-    Assimp::BaseImporter* const one = importer.GetImporter(i);
-    std::set<std::string> extensions;
-    one->GetExtensionList(extensions);
-    if (extensions.contains(format)) continue;
-    importer.UnregisterLoader(one);
-    const std::unique_ptr<Assimp::BaseImporter> removed(one);  // it is ours now
-  }
+/// Beside the program that runs (as in the build folder), where it lies from the folder of programs
+/// (so that an installation may be moved), or where it was installed.
+fs::path find_reader() {
+  if (const char* named = ::secure_getenv("RIDGEWAY_MESH_READER")) return named;
+  const fs::path name = "ridgeway-mesh-reader";
+  std::error_code error;
+  const fs::path beside = fs::read_symlink("/proc/self/exe", error).parent_path();
+  for (const fs::path& folder :
+       {beside, beside / RIDGEWAY_READER_FROM_PROGRAMS, fs::path(RIDGEWAY_READER_FOLDER)})
+    if (::access((folder / name).c_str(), X_OK) == 0) return folder / name;
+  throw InputError(name.string(), "is not found, which reads meshes",
+                   "install it, or name it in the variable RIDGEWAY_MESH_READER");
 }
 
-struct Triangles {
-  std::vector<Point> vertices;
-  std::vector<Triangle> triangles;
+/// What reading a file of a size may take. Real files take 10 times their size in memory, and a
+/// second for 10 MB; the clock on the wall is given more, as other programs may be at work.
+struct ReaderLimits {
+  explicit ReaderLimits(std::size_t file_bytes)
+      : cpu_seconds(5 + file_bytes / 1'000'000),
+        memory_bytes(
+            std::min<std::uint64_t>(300'000'000 + 100 * file_bytes, available_memory_bytes())),
+        program{60.0 + 10.0 * static_cast<double>(cpu_seconds), memory_bytes} {}
+
+  std::uint64_t cpu_seconds, memory_bytes;
+  ProgramLimits program;
 };
 
-void add_part(const aiMesh& part, const aiMatrix4x4& T_file_part, Triangles& all) {
-  const auto first = static_cast<std::uint32_t>(all.vertices.size());
-  for (unsigned i = 0; i < part.mNumVertices; ++i) {
-    const aiVector3D v = T_file_part * part.mVertices[i];
-    all.vertices.emplace_back(v.x, v.y, v.z);
-  }
-  for (unsigned i = 0; i < part.mNumFaces; ++i) {
-    const aiFace& face = part.mFaces[i];
-    if (face.mNumIndices != 3) continue;
-    Triangle triangle{};
-    for (unsigned k = 0; k < 3; ++k) {
-      // One that is out of range must not become a vertex of another part.
-      const bool is_there = face.mIndices[k] < part.mNumVertices;
-      triangle[k] = is_there ? first + face.mIndices[k] : 0xffffffffu;
-    }
-    all.triangles.push_back(triangle);
-  }
-}
-
-/// All parts, each as often as it is placed. False if there are too many.
-bool collect(const aiScene& scene, Triangles& all) {
-  struct Open {
-    const aiNode* node;
-    aiMatrix4x4 T_file_parent;
-  };
-  std::vector<Open> open = {{scene.mRootNode, {}}};
-  while (!open.empty()) {
-    const auto [node, T_file_parent] = open.back();
-    open.pop_back();
-    const aiMatrix4x4 T_file_node = T_file_parent * node->mTransformation;
-    for (unsigned i = 0; i < node->mNumMeshes; ++i) {
-      add_part(*scene.mMeshes[node->mMeshes[i]], T_file_node, all);
-      if (std::max(all.vertices.size(), all.triangles.size()) > kMostTriangles) return false;
-    }
-    for (unsigned i = 0; i < node->mNumChildren; ++i)
-      open.push_back({node->mChildren[i], T_file_node});
-  }
-  return true;
-}
-
-// What the reader hands over: 1, two counts, vertices, triangles; or 0 and what is wrong.
-
-template <typename Number>
-void append(Bytes& bytes, const Number* numbers, std::size_t count) {
-  const std::size_t end = bytes.size(), size = count * sizeof(Number);
-  bytes.resize(end + size);
-  std::memcpy(bytes.data() + end, numbers, size);
-}
-
-Bytes packed(const Triangles& all) {
-  const std::array<std::uint64_t, 2> counts = {all.vertices.size(), all.triangles.size()};
-  Bytes bytes(1, std::byte{1});
-  append(bytes, counts.data(), counts.size());
-  append(bytes, all.vertices.front().data(), 3 * all.vertices.size());
-  append(bytes, all.triangles.front().data(), 3 * all.triangles.size());
-  return bytes;
-}
-
-Triangles unpacked(const Bytes& bytes) {
-  Triangles all;
-  all.vertices.resize(number_at<std::uint64_t>(bytes, 1, 0));
-  all.triangles.resize(number_at<std::uint64_t>(bytes, 1, 1));
-  const std::size_t first = 1 + 2 * sizeof(std::uint64_t),
-                    size = sizeof(Point) * all.vertices.size();
-  std::memcpy(all.vertices.front().data(), bytes.data() + first, size);
-  std::memcpy(all.triangles.front().data(), bytes.data() + first + size,
-              sizeof(Triangle) * all.triangles.size());
-  return all;
-}
-
-Bytes packed(const std::string& problem) {
-  Bytes bytes(1);
-  for (const char c : problem.substr(0, 100))
-    bytes.push_back(static_cast<std::byte>(c >= ' ' && c <= '~' ? c : ' '));
-  return bytes;
-}
-
-Bytes read_packed(const std::string& bytes, const std::string& format) {
-  Assimp::Importer importer;
-  keep_format(format, importer);
-  // From memory, so that no other file is opened that this one may name.
-  const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(),
-                                                     aiProcess_Triangulate, format.c_str());
-  if (scene == nullptr || scene->mRootNode == nullptr) return packed(importer.GetErrorString());
-  Triangles all;
-  if (!collect(*scene, all)) return packed("it has more than 100 million triangles");
-  if (all.vertices.empty() || all.triangles.empty()) return packed("it has no triangles");
-  if (format == "dae")  // which Assimp hands out in metres with y up
-    for (Point& v : all.vertices) v = {v.x(), -v.z(), v.y()};
-  return packed(all);
-}
-
-Triangles read_triangles(const std::filesystem::path& file) {
-  const std::string format = format_of(file), bytes = read_file(file);
-  // Assimp 5.2 trusts what .ply and .dae files say of themselves, and crashes or hangs where it is
-  // wrong. Our own reader of .ply files says what is.
-  if (format == "ply") read_ply(bytes, file.string());
-  const auto seconds = static_cast<unsigned>(5 + bytes.size() / 1'000'000);
-  const std::optional<Bytes> read = run_apart([&] { return read_packed(bytes, format); }, seconds);
-  if (read && read->front() == std::byte{1}) return unpacked(*read);
-  const std::string problem =
-      read ? std::string(reinterpret_cast<const char*>(read->data()) + 1, read->size() - 1)
-           : "it is damaged";
+[[noreturn]] void refuse(const fs::path& file, const std::string& format,
+                         const std::string& problem) {
   throw InputError(file.string(), "cannot be read as ." + format + ": " + problem,
                    "repair it, or write it again");
 }
 
+MeshReply read_triangles(const fs::path& file, const Progress& progress) {
+  const std::string format = format_of(file), bytes = read_file(file);
+  if (format == "ply") read_ply(bytes, file.string());  // says best what is wrong
+  const ReaderLimits limits(bytes.size());
+  const ProgramOutput output =
+      run_program(find_reader(),
+                  {format, std::to_string(limits.cpu_seconds), std::to_string(limits.memory_bytes),
+                   file.string()},
+                  limits.program, [&] { return !progress || progress("reading a mesh", 0.0); });
+  if (output.end == ProgramOutput::End::kCancelled) throw Cancelled();
+  if (output.end == ProgramOutput::End::kTimedOut)
+    refuse(
+        file, format,
+        "it takes longer than " + std::to_string(static_cast<int>(limits.program.seconds)) + " s");
+  std::optional<MeshReply> reply = unpack(output.bytes);
+  if (!reply) refuse(file, format, "it is damaged");
+  if (!reply->problem.empty()) refuse(file, format, reply->problem);
+  return *std::move(reply);
+}
+
 }  // namespace
 
-std::shared_ptr<const SolidMesh> load_mesh(const std::filesystem::path& file) {
-  const Triangles all = read_triangles(file);
+std::shared_ptr<const SolidMesh> load_mesh(const fs::path& file, const Progress& progress) {
+  const MeshReply all = read_triangles(file, progress);
   try {
     return std::make_shared<const SolidMesh>(all.vertices, all.triangles);
   } catch (const InputError& error) {

@@ -3,7 +3,9 @@
 #include "ridgeway/formats/mesh_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <cstdlib>
 #include <cstring>
 
 #include "ridgeway/common/error.hpp"
@@ -173,6 +175,53 @@ TEST(MeshFile, WhatIsNoMeshIsRefusedByName) {
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
     }
+  }
+}
+
+/// Nodes that each place the next one twice: 2^40 boxes in four kilobytes.
+TEST(MeshFile, AFileThatPlacesItsPartsWithoutEndIsRefusedWithinItsLimits) {
+  const TemporaryFolder folder;
+  std::string text = dae(box(), "Z_UP"), nodes = "<library_nodes>";
+  constexpr int kDepth = 40;
+  for (int i = 0; i < kDepth; ++i) {
+    const std::string next = "<instance_node url=\"#n" + std::to_string(i + 1) + "\"/>";
+    nodes += "<node id=\"n" + std::to_string(i) + "\">" + next + next + "</node>";
+  }
+  nodes += "<node id=\"n" + std::to_string(kDepth) +
+           "\"><instance_geometry url=\"#g\"/></node></library_nodes>\n";
+  text.insert(text.find("<library_visual_scenes>"), nodes);
+  const std::string place = "<instance_geometry url=\"#g\"/></node></visual_scene>";
+  text.replace(text.find(place), place.size(),
+               "<instance_node url=\"#n0\"/></node></visual_scene>");
+  write_whole(folder / "bomb.dae", text);
+  EXPECT_THROW(load_mesh(folder / "bomb.dae"), InputError);
+  rusage used{};
+  ASSERT_EQ(::getrusage(RUSAGE_CHILDREN, &used), 0);
+  EXPECT_LT(used.ru_maxrss, 350'000) << "kilobytes";
+}
+
+TEST(MeshFile, StopsWhenItsCallerDoesNotWantToGoOn) {
+  const TemporaryFolder folder;
+  write_whole(folder / "box.obj", obj(box()));
+  EXPECT_THROW(load_mesh(folder / "box.obj", [](std::string_view, double) { return false; }),
+               Cancelled);
+}
+
+TEST(MeshFile, AReaderThatIsNotThereOrSaysNonsenseIsRefused) {
+  const TemporaryFolder folder;
+  write_whole(folder / "box.obj", obj(box()));
+  for (const auto& [program, problem] :
+       std::vector<std::pair<std::string, std::string>>{{"/no/such/reader", "/no/such/reader"},
+                                                        {"/bin/true", "damaged"},
+                                                        {"/bin/echo", "damaged"}}) {
+    ::setenv("RIDGEWAY_MESH_READER", program.c_str(), 1);
+    try {
+      load_mesh(folder / "box.obj");
+      ADD_FAILURE() << program;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(problem), std::string::npos) << error.what();
+    }
+    ::unsetenv("RIDGEWAY_MESH_READER");
   }
 }
 
