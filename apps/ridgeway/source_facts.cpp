@@ -39,7 +39,6 @@ void add_cloud(Json& json, const Cloud& cloud) {
   json["format"] = cloud.format;
   json["points"] = cloud.points.points.size();
   json["skipped_points"] = cloud.points.skipped;
-  json["ignored_faces"] = cloud.points.ignored_faces;
   if (!cloud.points.points.empty())
     json["bounds"] = json_of(extent(cloud.points, Eigen::Isometry3d::Identity()));
 }
@@ -124,7 +123,6 @@ void print_source(const Json& facts) {
   } else {
     print_row("points",
               count(facts["points"]) + ", " + count(facts["skipped_points"]) + " not finite");
-    if (facts["ignored_faces"] != 0) print_row("faces", count(facts["ignored_faces"]) + " ignored");
   }
 }
 

@@ -104,6 +104,7 @@ OccupancyMap load_voxels(const VoxelSource& source, const LoadConfig& config,
 
 OccupancyMap load_cloud(const PointCloud& cloud, const LoadConfig& config, const std::string& name,
                         LoadNotes* notes) {
+  require_no_faces(cloud, name);
   if (cloud.points.empty()) {
     throw InputError(name,
                      cloud.skipped > 0 ? "has no point with finite coordinates" : "has no points",
@@ -121,10 +122,6 @@ OccupancyMap load_cloud(const PointCloud& cloud, const LoadConfig& config, const
     tell(notes, std::to_string(cloud.skipped) + " of " +
                     std::to_string(cloud.skipped + cloud.points.size()) +
                     " points were skipped: a coordinate is not finite");
-  }
-  if (cloud.ignored_faces > 0) {
-    tell(notes, std::to_string(cloud.ignored_faces) +
-                    " faces were ignored: only the vertices of the mesh are taken as obstacles");
   }
   tell(notes,
        "the cloud does not record free space: everything within bounds that is not occupied is "

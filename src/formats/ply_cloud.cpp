@@ -216,6 +216,14 @@ void read_vertices(BodyReader& body, const Element& element, PointCloud& cloud) 
   }
 }
 
+/// Polygons or strips of triangles, whatever their name.
+bool has_faces(const Element& element) {
+  return element.name == "face" || element.name == "tristrips" ||
+         std::any_of(element.properties.begin(), element.properties.end(), [](const Property& p) {
+           return p.count_type && (p.name == "vertex_indices" || p.name == "vertex_index");
+         });
+}
+
 void require_coordinates(const ByteReader& reader, const Header& header) {
   std::array<bool, 4> found{};
   if (std::count_if(header.elements.begin(), header.elements.end(),
@@ -243,7 +251,7 @@ PointCloud read_ply(std::string_view bytes, const std::string& name) {
   BodyReader body(reader, header.encoding);
   for (const Element& element : header.elements) {
     body.require(element);
-    if (element.name == "face" || element.name == "tristrips") cloud.ignored_faces += element.count;
+    if (has_faces(element)) cloud.faces += element.count;
     if (element.name == "vertex")
       read_vertices(body, element, cloud);
     else

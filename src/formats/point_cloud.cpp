@@ -37,6 +37,16 @@ VoxelRange checked_range(const Box& bounds, double voxel_size) {
 
 std::string describe(const Box& box) { return describe(box.min) + " to " + describe(box.max); }
 
+void require_no_faces(const PointCloud& cloud, const std::string& name) {
+  if (cloud.faces == 0) return;
+  throw InputError(name,
+                   "is a mesh of " + std::to_string(cloud.faces) +
+                       " faces; a map of its vertices alone would be open between them",
+                   "name it in a world (`meshes: [{file: ...}]`), record that with `ridgeway "
+                   "simulate` and make a map of it with `ridgeway fuse`; or sample its faces as "
+                   "points, no farther from each other than a voxel");
+}
+
 Box extent(const PointCloud& cloud, const Eigen::Isometry3d& T_map_cloud) {
   if (cloud.points.empty()) return {};
   Eigen::AlignedBox3d box;

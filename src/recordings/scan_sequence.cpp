@@ -146,8 +146,10 @@ ScanSequence open_scans(const fs::path& folder) {
 PointCloud read_scan(const Scan& scan) {
   const std::string bytes = read_file(scan.cloud), name = scan.cloud.string();
   if (is_pcd(bytes)) return read_pcd(bytes, name);
-  if (is_ply(bytes)) return read_ply(bytes, name);
-  return read_xyz(bytes, name);
+  if (!is_ply(bytes)) return read_xyz(bytes, name);
+  PointCloud cloud = read_ply(bytes, name);
+  require_no_faces(cloud, name);
+  return cloud;
 }
 
 }  // namespace ridgeway

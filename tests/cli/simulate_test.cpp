@@ -94,7 +94,7 @@ TEST_F(CliSimulate, SurfaceOfAFusedMap) {
   const PointCloud cloud = read_ply(bytes, "one.ply");
   const World world = load_world(house());
   EXPECT_GT(cloud.points.size(), 2000u);
-  EXPECT_GT(cloud.ignored_faces, cloud.points.size());
+  EXPECT_GT(cloud.faces, cloud.points.size());
   std::size_t near = 0;
   for (const Point& p : cloud.points)
     near += std::abs(surface_distance(world, p).distance) < 0.1 ? 1 : 0;

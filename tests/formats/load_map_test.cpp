@@ -98,10 +98,29 @@ TEST(LoadMap, NotesTellWhatAPersonMustKnow) {
   std::string all;
   for (const std::string& note : notes.notes) all += note + '\n';
   EXPECT_TRUE(contains(all, "1 of 3 points were skipped")) << all;
-  EXPECT_TRUE(contains(all, "1 faces were ignored")) << all;
   EXPECT_TRUE(contains(all, "everything within bounds that is not occupied is taken as free"))
       << all;
   EXPECT_TRUE(contains(all, "2 occupied voxels in clusters of fewer than 2")) << all;
+}
+
+TEST(LoadMap, AMeshIsNotTakenForTheCloudOfItsVertices) {
+  const TemporaryFolder folder;
+  for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+    write_whole(folder / "room.ply",
+                testing::write_ply({{0, 0, 0}, {1, 0, 0}, {1, 1, 1}}, format, true));
+    const std::string message = refusal([&] { load_map(folder / "room.ply"); });
+    EXPECT_TRUE(contains(message, "room.ply: is a mesh of 1 faces")) << message;
+    EXPECT_TRUE(contains(message, "ridgeway fuse")) << message;
+  }
+}
+
+TEST(LoadMap, CornersOfBoxesAreNotTakenForPoints) {
+  const TemporaryFolder folder;
+  write_whole(folder / "boxes.txt", "0 0 0 10 6 3\n4 0 0 4.2 6 3\n");
+  const std::string message = refusal([&] {
+    load_map(folder / "boxes.txt", {.voxel_size = 0.1, .bounds = Box{{0, 0, 0}, {10, 6, 3}}});
+  });
+  EXPECT_TRUE(contains(message, "boxes.txt: line 1 has 6 columns")) << message;
 }
 
 TEST(LoadMap, QuarterTurnsAreExactForCloudsAndVoxels) {

@@ -123,7 +123,7 @@ TEST(Pcd, HeadersThatLieAreRefused) {
 
 TEST(Ply, HeadersThatLieAreRefused) {
   for (const char* format : {"ascii", "binary_little_endian"}) {
-    const std::string good = testing::write_ply(some_points(3), format);
+    const std::string good = testing::write_ply(some_points(3), format, true);
     const std::vector<std::pair<std::string, std::string>> lies = {
         {"element vertex 3", "element vertex 4"},
         {"element vertex 3", "element vertex 99999999999999999"},
@@ -146,14 +146,51 @@ TEST(Ply, HeadersThatLieAreRefused) {
   }
 }
 
-TEST(Xyz, SeparatorsCommentsAndFurtherColumnsAreRead) {
+TEST(Ply, FacesAreCountedWhateverTheyAreCalled) {
+  const std::string file = testing::write_ply(some_points(3), "ascii", true);
+  EXPECT_EQ(read_ply(testing::write_ply(some_points(3), "ascii"), "a.ply").faces, 0u);
+  for (const char* name : {"element face", "element tristrips", "element polygon"}) {
+    std::string named = file;
+    named.replace(named.find("element face"), 12, name);
+    EXPECT_EQ(read_ply(named, "a.ply").faces, 1u) << name;
+  }
+}
+
+TEST(Xyz, SeparatorsAndCommentsAreRead) {
   const PointCloud cloud = read_xyz(
-      "x,y,z\n# comment\n\n1 2 3\n\t4\t5\t6\t7\n7,8,9,255\n// more\n 1e1 ; +1.5;-.25\n-0 0 0",
-      "a.xyz");
+      "x,y,z\n# comment\n\n1 2 3\n\t4\t5\t6\n7,8,9,\n// more\n 1e1 ; +1.5;-.25\n-0 0 0", "a.xyz");
   ASSERT_EQ(cloud.points.size(), 5u);
   EXPECT_EQ(cloud.points[1], Point(4, 5, 6));
   EXPECT_EQ(cloud.points[2], Point(7, 8, 9));
   EXPECT_EQ(cloud.points[3], Point(10, 1.5, -0.25));
+}
+
+TEST(Xyz, ColumnsThatAreNamedAreFoundByTheirNames) {
+  for (const char* text :
+       {"x y z intensity\n1 2 3 0.5\n", "# x y z r g b\n1 2 3 255 0 7\n",
+        "//X Y Z R G B\n1 2 3 9 9 9\n", "\"Gps_Time\",\"Z\",\"Y\",\"X\"\n1e9,3,2,1\n",
+        "# made by hand\n#x y z label\n1 2 3 chair\n", "X;Y;Z;Nx;Ny;Nz\n1;2;3;0;0;1\n"}) {
+    const PointCloud cloud = read_xyz(text, "a.xyz");
+    ASSERT_EQ(cloud.points.size(), 1u) << text;
+    EXPECT_EQ(cloud.points[0], Point(1, 2, 3)) << text;
+  }
+}
+
+/// Corners of boxes, spheres and the like begin with x, y, z too.
+TEST(Xyz, ColumnsThatNothingNamesAreRefused) {
+  for (const char* text :
+       {"0 0 0 10 6 3\n", "0 0 0 1\n", "1 2 3\n4 5 6 7\n", "x y z\n0 0 0 10 6 3\n",
+        "# x y z r g b\n1 2 3\n", "# boxes, x y z of both corners\n0 0 0 10 6 3\n",
+        "x y z radius\n0 0 0 1\n", "x1 y1 z1 x2 y2 z2\n0 0 0 10 6 3\n",
+        "x y z x y z\n0 0 0 10 6 3\n", "1.5 0 0 0 0 0 0 1\n"}) {
+    try {
+      read_xyz(text, "boxes.xyz");
+      ADD_FAILURE() << text;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("boxes.xyz: line "), std::string::npos)
+          << error.what();
+    }
+  }
 }
 
 TEST(Xyz, BadLinesAreNamedByNumber) {

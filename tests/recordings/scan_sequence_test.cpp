@@ -106,6 +106,11 @@ TEST_F(ScanFolder, MistakesAreNamedWithFileAndLine) {
   write_whole(folder_ / "poses.txt", "a.xyz 0 0 0 0 0 0 1\n");
   const ScanSequence sequence = open_scans(folder_.path());
   expect_in(refusal([&] { read_scan(sequence.scans[0]); }), {"a.xyz", "line 1"});
+  write_whole(folder_ / "a.xyz",
+              "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+              "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+              "end_header\n1 2 3\n3 0 0 0\n");
+  expect_in(refusal([&] { read_scan(sequence.scans[0]); }), {"a.xyz", "is a mesh of 1 faces"});
 }
 
 TEST_F(ScanFolder, RegistrationsMoveEachScanToTheReference) {

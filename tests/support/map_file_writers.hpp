@@ -69,19 +69,21 @@ inline std::string write_pcd(const std::vector<CloudPoint>& points, const std::s
 }
 
 /// A .ply file whose vertices have other properties, lists too, and stand between other elements.
-inline std::string write_ply(const std::vector<CloudPoint>& points, const std::string& format) {
+inline std::string write_ply(const std::vector<CloudPoint>& points, const std::string& format,
+                             bool has_face = false) {
   std::string file = "ply\nformat " + format +
                      " 1.0\ncomment made by a test\nelement camera 2\nproperty float focal\n"
                      "element patch 2\nproperty list uchar int indices\nelement vertex " +
                      std::to_string(points.size()) +
                      "\nproperty uchar red\nproperty float x\nproperty list ushort short marks\n"
-                     "property double y\nproperty float64 z\nelement face 1\n"
-                     "property list uchar uint vertex_indices\nend_header\n";
+                     "property double y\nproperty float64 z\nelement face " +
+                     (has_face ? "1" : "0") +
+                     "\nproperty list uchar uint vertex_indices\nend_header\n";
   if (format == "ascii") {
     file += "0.5\n0.25\n2 4 5\n0\n";
     for (const auto& [x, y, z] : points)
       file += "255 " + text_of(x) + " 2 -1 -2 " + text_of(y) + ' ' + text_of(z) + '\n';
-    return file + "3 0 1 2\n";
+    return has_face ? file + "3 0 1 2\n" : file;
   }
   const bool turned = format == "binary_big_endian";
   append(file, 0.5f, turned);
@@ -99,6 +101,7 @@ inline std::string write_ply(const std::vector<CloudPoint>& points, const std::s
     append(file, y, turned);
     append(file, z, turned);
   }
+  if (!has_face) return file;
   append(file, std::uint8_t{3});
   for (const std::uint32_t i : {0u, 1u, 2u}) append(file, i, turned);
   return file;

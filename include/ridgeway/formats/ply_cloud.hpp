@@ -13,8 +13,8 @@ namespace ridgeway {
 bool is_ply(std::string_view bytes);
 
 /// The vertices of a .ply file, ascii or binary in either byte order: properties x, y and z of the
-/// element `vertex`, among any other properties and elements, lists too. Faces are counted and
-/// ignored. Throws InputError naming file and byte.
+/// element `vertex`, among any other properties and elements, lists too. Faces are counted, not
+/// read. Throws InputError naming file and byte.
 PointCloud read_ply(std::string_view bytes, const std::string& name);
 
 }  // namespace ridgeway

@@ -15,9 +15,9 @@ namespace ridgeway {
 
 /// Points of a file, in its own frame, metres.
 struct PointCloud {
-  std::vector<Point> points;      ///< all finite
-  std::size_t skipped = 0;        ///< points left out because a coordinate is NaN or infinite
-  std::size_t ignored_faces = 0;  ///< faces of a mesh file, of which only the vertices are taken
+  std::vector<Point> points;  ///< all finite
+  std::size_t skipped = 0;    ///< points left out because a coordinate is NaN or infinite
+  std::size_t faces = 0;      ///< of the file: the points are the vertices of a mesh
 
   void add(double x, double y, double z) {
     if (std::isfinite(x) && std::isfinite(y) && std::isfinite(z))
@@ -39,6 +39,10 @@ struct CloudMapConfig {
 /// within the bounds, they hold no voxel, or a point lies beyond 1e9 voxels.
 OccupancyMap map_from_points(const PointCloud& cloud, const CloudMapConfig& config,
                              const std::string& name);
+
+/// Throws InputError where a cloud is the vertices of a mesh: between them are walls that it does
+/// not show. `name` is its file.
+void require_no_faces(const PointCloud& cloud, const std::string& name);
 
 /// Box around the points of a cloud, moved into the map frame.
 Box extent(const PointCloud& cloud, const Eigen::Isometry3d& T_map_cloud);
