@@ -7,6 +7,7 @@
 #include "ridge_header.hpp"
 #include "ridge_sections.hpp"
 #include "ridgeway/common/error.hpp"
+#include "roadmap/bounded_hub_labels.hpp"
 
 namespace ridgeway {
 

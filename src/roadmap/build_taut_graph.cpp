@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include <algorithm>
 
+#include "bounded_hub_labels.hpp"
 #include "cell_parts.hpp"
 #include "corner_links.hpp"
 #include "paths/shorten.hpp"

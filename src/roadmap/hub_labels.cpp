@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "best_first_search.hpp"
+#include "bounded_hub_labels.hpp"
 
 namespace ridgeway {
 namespace {
@@ -109,6 +110,10 @@ HubLabels label_hubs(const SparseGraph& graph, std::size_t most_steps) {
     hubs.first.push_back(static_cast<std::uint32_t>(hubs.labels.size()));
   }
   return hubs;
+}
+
+HubLabels label_hubs(const SparseGraph& graph) {
+  return *detail::label_hubs_within(graph, std::numeric_limits<std::size_t>::max());
 }
 
 std::vector<VertexId> way_to_hub(const HubLabels& hubs, VertexId from, std::uint32_t hub) {

@@ -9,6 +9,7 @@
 #include <limits>
 #include <random>
 
+#include "roadmap/bounded_hub_labels.hpp"
 #include "support/dijkstra.hpp"
 
 namespace ridgeway {
