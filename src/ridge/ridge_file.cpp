@@ -55,8 +55,9 @@ Roadmap load_roadmap(const std::filesystem::path& path) {
   roadmap.landmarks = place_landmarks(roadmap.graph);
   if (TautGraph& taut = roadmap.taut; !taut.graph.vertices.empty()) {
     index_links(taut.graph);
-    taut.hubs = label_hubs(taut.graph);
-    if (taut.hubs.first.empty()) reader.damaged("taut_edges", "has too many shortest ways");
+    auto hubs = detail::label_hubs_within(taut.graph);
+    if (!hubs) reader.damaged("taut_edges", "has too many shortest ways");
+    taut.hubs = *std::move(hubs);
   }
   return roadmap;
 }

@@ -81,8 +81,9 @@ class Learning {
       more = pairs_;
       if (known < kKnown) continue;
       if (!link()) break;
-      taut_.hubs = label_hubs(taut_.graph);
-      if (taut_.hubs.first.empty()) break;
+      auto hubs = detail::label_hubs_within(taut_.graph);
+      if (!hubs) break;
+      taut_.hubs = *std::move(hubs);
       list_seen();
       return std::move(taut_);
     }

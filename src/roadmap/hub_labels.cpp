@@ -82,14 +82,15 @@ std::vector<VertexId> by_importance(const SparseGraph& graph, ShortestTrees& tre
 
 }  // namespace
 
-HubLabels label_hubs(const SparseGraph& graph, std::size_t most_steps) {
+std::optional<HubLabels> detail::label_hubs_within(const SparseGraph& graph,
+                                                   std::size_t most_steps) {
   ShortestTrees trees(graph);
   const std::vector<VertexId> order = by_importance(graph, trees);
   std::vector<std::vector<Way>> ways(order.size());
   std::vector<double> to_root(order.size(), kFar);  // by hub
   std::size_t compared = 0;
   for (std::uint32_t hub = 0; hub < order.size(); ++hub) {
-    if (compared + trees.steps() > most_steps) return {};
+    if (compared + trees.steps() > most_steps) return std::nullopt;
     const VertexId root = order[hub];
     for (const Way& way : ways[number(root)]) to_root[way.hub] = way.length;
     trees.grow(root, [&](VertexId v, VertexId parent, double length) {

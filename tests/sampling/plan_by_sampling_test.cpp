@@ -9,6 +9,7 @@
 #include <random>
 #include <thread>
 
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "sampling/two_rooms.hpp"

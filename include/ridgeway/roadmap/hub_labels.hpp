@@ -33,11 +33,8 @@ struct HubLabels {
 
 /// Pruned landmark labelling (Akiba, Iwata and Yoshida, "Fast exact shortest-path distance queries
 /// on large networks by pruned landmark labeling", 2013): from each hub, the most important first,
-/// a Dijkstra that stops where earlier hubs already know a way as short. Deterministic. How much
-/// work that is, a graph does not show: most often labels are few, in the worst case the work is
-/// cubic. `first` is left empty where it would take more than `most_steps` links followed and
-/// labels compared; 4e9 take some ten seconds.
-HubLabels label_hubs(const SparseGraph& graph, std::size_t most_steps = 4'000'000'000);
+/// a Dijkstra that stops where earlier hubs already know a way as short. Deterministic.
+HubLabels label_hubs(const SparseGraph& graph);
 
 /// The vertices on the way from one that has a label of the hub, itself first, to the hub.
 std::vector<VertexId> way_to_hub(const HubLabels& hubs, VertexId from, std::uint32_t hub);
