@@ -3,13 +3,13 @@
 //
 // The parts of a query, one after the other on one thread, and whole queries. Each iteration is one
 // of them, on random places of the map that comes with the project.
-#include "attach_way.hpp"
 #include "bench_data.hpp"
-#include "graph_search.hpp"
+#include "paths/shorten.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/planning/plan.hpp"
-#include "shorten.hpp"
-#include "taut_search.hpp"
+#include "roadmap/attach_way.hpp"
+#include "roadmap/graph_search.hpp"
+#include "roadmap/taut_search.hpp"
 
 namespace ridgeway {
 namespace {

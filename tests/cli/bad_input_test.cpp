@@ -105,7 +105,7 @@ TEST_F(CliBadInput, FramesThatWouldSpoilAMapAreNamed) {
                                        const std::vector<std::string>& words) {
     expect_refused({"fuse", run, "-o", path("map.ridge")}, words);
   };
-  expect_fuse_refused(record("1e300 0 0 0 0 0 1"), {"b.png", "pose", "5e8 voxels"});
+  expect_fuse_refused(record("1e300 0 0 0 0 0 1"), {"b.png", "pose", "1e9 voxels"});
   expect_fuse_refused(record("0 0 0 0 0 0 2"), {"groundtruth.txt line 2", "quaternion"});
   const std::string run = record("0 0 0 0 0 0 1");
   write_depth_png({32, 24, std::vector<float>(32 * 24, 2.0f)}, folder_ / "run/b.png", 5000.0);

@@ -32,11 +32,11 @@ TEST_F(CliBuild, JsonHasTheKeysThatScriptsRelyOn) {
 
 TEST_F(CliBuild, SameBytesForAnyNumberOfThreads) {
   for (const char* threads : {"1", "2"}) {
-    const Outcome built = run({"build", kScan, "-o", path(threads), "--min-clearance", "0.3",
-                               "--threads", threads, "--quiet"});
+    const Outcome built = run({"build", kScan, "-o", path(threads) + ".ridge", "--min-clearance",
+                               "0.3", "--threads", threads, "--quiet"});
     ASSERT_EQ(built.code, 0) << built.err;
   }
-  EXPECT_TRUE(read_whole(folder_ / "1") == read_whole(folder_ / "2"));
+  EXPECT_TRUE(read_whole(folder_ / "1.ridge") == read_whole(folder_ / "2.ridge"));
 }
 
 TEST_F(CliBuild, SummaryIsForPeopleAndNotesGoToStderr) {

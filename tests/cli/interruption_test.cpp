@@ -74,7 +74,7 @@ class CliInterruption : public Program {
     return names;
   }
 
-  std::string house() { return std::string(RIDGEWAY_WORLDS_DIR) + "/house.yaml"; }
+  std::string house() { return RIDGEWAY_WORLDS_DIR "/house.yaml"; }
 };
 
 TEST_F(CliInterruption, LeavesNothingBehindWheneverItComes) {

@@ -13,7 +13,7 @@ namespace {
 
 class CliSimulate : public Program {
  protected:
-  std::string house() { return std::string(RIDGEWAY_WORLDS_DIR) + "/house.yaml"; }
+  std::string house() { return RIDGEWAY_WORLDS_DIR "/house.yaml"; }
 };
 
 TEST_F(CliSimulate, WritesARecordingThatOpens) {
@@ -107,7 +107,7 @@ TEST_F(CliSimulate, SurfaceOfAFusedMap) {
   expect_refused({"export", path("map.ridge"), "--mesh", path("a.ply"), "-o", path("b.ply")},
                  {"--mesh"});
   expect_refused({"export", path("map.ridge"), "-o", path("graph.ply")}, {"not a roadmap"});
-  save_tsdf({0.1, 0.4, {}, {}, {}}, "nothing", path("empty.ridge"));
+  save_tsdf({0.1, {}, 0.4, {}, {}, {}}, "nothing", path("empty.ridge"));
   expect_refused({"export", path("empty.ridge"), "--mesh", path("out.ply")}, {"no surface"});
 }
 

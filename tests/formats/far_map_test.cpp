@@ -158,7 +158,9 @@ void expect_same_answers(Shifted& maps, unsigned seed, std::size_t queries) {
     const PathSurroundings beside_far = far_around.along(goal_far.plan.waypoints, radius);
     const double rounding = 4e-15 * maps.shift(ends.first).cwiseAbs().maxCoeff();
     if (!goal.plan.ok()) continue;
-    if (std::isfinite(beside.known)) EXPECT_NEAR(beside.known, beside_far.known, rounding);
+    if (std::isfinite(beside.known)) {
+      EXPECT_NEAR(beside.known, beside_far.known, rounding);
+    }
     EXPECT_NEAR(beside.unknown, beside_far.unknown, rounding);
   }
 }

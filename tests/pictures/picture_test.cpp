@@ -153,7 +153,7 @@ TEST(Picture, BandsChooseTheHeights) {
   const Roadmap roadmap = synthetic_roadmap();
   PictureConfig floor;
   floor.diagram = floor.graph = false;
-  floor.band = HeightBand{-0.3, -0.2};  // the floor itself: all occupied
+  floor.band = HeightBand{12.0, 12.1};  // the floor itself: all occupied
   draw_floor_plan(roadmap, {}, folder / "floor.png", floor);
   PictureConfig rooms = floor;
   rooms.band.reset();

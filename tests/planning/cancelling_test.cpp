@@ -20,7 +20,7 @@ TEST(Cancelling, StopsBuildsAndChecksAtEveryStage) {
   const auto checking = [&](const Progress& progress) {
     check_roadmap(roadmap, {.queries = 200}, progress);
   };
-  EXPECT_EQ(testing::places_to_stop(checking), 4);  // before each 64 queries
+  EXPECT_EQ(testing::places_to_stop(checking), 5);  // before the edges and each 64 queries
 }
 
 }  // namespace

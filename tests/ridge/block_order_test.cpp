@@ -26,6 +26,7 @@ OccupancyMap grown(const OccupancyMap& map, unsigned seed, std::size_t at_once) 
   std::shuffle(blocks.begin(), blocks.end(), std::mt19937(seed));
   OccupancyMap result;
   result.voxel_size = map.voxel_size;
+  result.origin = map.origin;
   result.state = VoxelField<VoxelState>(result.layout);
   for (std::size_t first = 0; first < blocks.size(); first += at_once) {
     const auto more = std::span(blocks).subspan(first, std::min(at_once, blocks.size() - first));

@@ -100,7 +100,7 @@ TEST(TrajectoryOnMaps, HoldsBesideTheUnknownWhereItIsIgnored) {
     }
   }
   Tally tally;
-  fly(map, {.min_clearance = 0.3, .unknown = UnknownPolicy::kIgnore}, 40, tally);
+  fly(map, {.min_clearance = 0.3, .unknown = UnknownPolicy::kIgnore}, 80, tally);
   EXPECT_GE(tally.flown, 20);
   EXPECT_GT(tally.not_smooth, 0);
 }
