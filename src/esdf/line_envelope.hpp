@@ -65,6 +65,10 @@ constexpr std::int64_t crossing_of_neighbours(const LineCandidate& a, const Line
 
 /// Lower envelope of the candidates of one run of a line, built left to right. Equal distances go
 /// to the candidate on the left, which holds the (z, y, x) tie rule through all three sweeps.
+///
+/// Plain form: plain_winner() in plain_envelope.hpp, for each position. From it,
+/// docs/fast-kernels.md section 1: two candidates cross once (4), so that each wins one stretch
+/// (5); those that win nothing between the last and the next are left out (6).
 class LineEnvelope {
  public:
   /// For runs of up to so many positions.

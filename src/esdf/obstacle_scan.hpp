@@ -22,6 +22,8 @@ struct SolidVoxels {
 /// the obstacles, or `best` where none is nearer. Looks at every obstacle that could be nearer:
 /// whole blocks as one box where they are solid, rows of voxels otherwise; none that lies inside
 /// the ball which the distance field keeps free around the middle of the segment.
+/// Plain form: brute_squared_distance() in plain_distances.hpp; docs/fast-kernels.md, section 2
+/// (7).
 class ObstacleScan {
  public:
   ObstacleScan(const SolidVoxels& solid, const Eigen::Vector3d& a, const Eigen::Vector3d& b)

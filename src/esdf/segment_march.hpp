@@ -139,6 +139,11 @@ enum class Wanted { kWhether, kWhere, kWhetherClearly };
 /// since it is concave but for |x|^2: from a place that is far from everything the march takes a
 /// long step, close to obstacles a short one, and where bounds do not decide it looks at the
 /// obstacles themselves.
+///
+/// Plain form of minimum(): brute_squared_distance() in plain_distances.hpp; the others tell
+/// whether that is below a limit, and where. From it, docs/fast-kernels.md section 2: bounds at a
+/// point (1) and between two (2), steps (3, 4), a limit that falls (5), places that decide at once
+/// (6).
 class SegmentMarch {
  public:
   SegmentMarch(const EsdfMap& esdf, const Vector& a, const Vector& b)

@@ -70,6 +70,10 @@ std::vector<Junction> find_junctions(const EsdfMap& esdf, const VoxelMask& trave
 
 /// Kruskal over the junctions from the top down. A pass that is narrower than both its ends
 /// waits until the level has sunk to it.
+///
+/// Plain form: plain_watershed.hpp, Kruskal over all moves of all voxels. From it,
+/// docs/fast-kernels.md section 3: basins in place of voxels (1), critical voxels alone (2), of the
+/// moves to a part of their higher neighbours one (3), none to their own basin (4), dips wait (5).
 class PassFinder {
  public:
   PassFinder(const EsdfMap& esdf, double threshold, Basins& basins)

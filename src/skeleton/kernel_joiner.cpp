@@ -17,6 +17,10 @@ namespace {
 /// invariant: diagram voxels that space connects at this level are connected along the diagram at
 /// this level; and from any voxel of a connected region that holds a diagram voxel, following
 /// `next` leads to one.
+///
+/// Plain form: regions_at() in plain_regions.hpp, by which flooding space and the diagram has to
+/// agree at every level. docs/fast-kernels.md section 5: arcs span regions (1), what is connected
+/// at the level reached (2) is so at all above (3), and moves that dip (4).
 class KernelJoiner {
  public:
   KernelJoiner(const EsdfMap& esdf, double threshold, Basins& basins)

@@ -16,6 +16,10 @@ struct Landscape {
 };
 
 /// Leads every voxel to its peak by the steepest of the ways that do not dip.
+///
+/// Plain form: plain_watershed.hpp, plain_climb() for each voxel. From it, docs/fast-kernels.md
+/// section 3: critical voxels by a local test (2), peaks by the drains of blocks (7), four voxels
+/// at a time (8); obstinate voxels, section 4 (2).
 Landscape survey(const EsdfMap& esdf, const VoxelMask& traversable);
 
 }  // namespace ridgeway::detail

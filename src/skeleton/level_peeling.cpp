@@ -120,6 +120,10 @@ VoxelId voxel_of_turn(std::uint64_t turn) {
 /// Almost all voxels go at their first turn, in which their neighbours with earlier turns are gone
 /// and those with later turns still there: no look at them is needed. What is played through is
 /// only the fate of those that do not go so, and of all that find one of these beside them.
+///
+/// Plain form: peel_in_order() in plain_peeling.hpp. From it, docs/fast-kernels.md section 4: what
+/// a voxel sees at its first turn (1), which turns need not be played (2), that the others see what
+/// they would (3), who is asked again (4), the order of turns (5).
 class LevelPeeling {
  public:
   LevelPeeling(const EsdfMap& esdf, const VoxelMask& traversable, VoxelMask obstinate,

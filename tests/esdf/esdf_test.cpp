@@ -15,32 +15,13 @@ namespace {
 using testing::all_obstacles;
 using testing::random_map;
 
-struct Nearest {
-  std::int64_t squared = kNoSite;
-  VoxelIndex site;
-};
-
-/// The first of the nearest obstacles in (z, y, x) order.
-Nearest brute_nearest(const VoxelIndex& v, const std::vector<VoxelIndex>& obstacles) {
-  Nearest nearest;
-  for (const VoxelIndex& o : obstacles) {
-    std::int64_t squared = 0;
-    for (const int k : {o.x - v.x, o.y - v.y, o.z - v.z}) {
-      const std::int64_t twice = std::max(2 * std::abs(k) - 1, 0);
-      squared += twice * twice;
-    }
-    if (squared < nearest.squared) nearest = {squared, o};
-  }
-  return nearest;
-}
-
 void expect_equal_to_brute_force(const OccupancyMap& map, const EsdfConfig& config,
                                  const EsdfMap& esdf) {
   const std::vector<VoxelIndex> obstacles = all_obstacles(map, config.unknown);
   const double limit = config.max_distance / map.voxel_size * (1 + 1e-9);
   for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id) {
     const VoxelIndex v = esdf.layout.index_of(id);
-    const Nearest nearest = brute_nearest(v, obstacles);
+    const detail::PlainNearest nearest = detail::plain_nearest(v, obstacles);
     if (nearest.squared == kNoSite ||
         std::sqrt(0.25 * static_cast<double>(nearest.squared)) > limit) {
       ASSERT_EQ(esdf.squared[id], kNoSite);

@@ -4,14 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
-#include <set>
-#include <vector>
-
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
-#include "ridgeway/skeleton/simple_point.hpp"
+#include "skeleton/plain_peeling.hpp"
 #include "support/betti.hpp"
 #include "support/random_maps.hpp"
 #include "support/shapes.hpp"
@@ -83,33 +79,9 @@ TEST(Kernel, OpensTheShellAroundAFloatingObstacleIntoCurves) {
   }
 }
 
-/// The kernel by its definition: each level's voxels are asked in rounds, sub-field by sub-field,
-/// then those of this and of lower levels beside a voxel that went.
 VoxelMask peel_in_order(const Stage& stage) {
-  const BlockLayout& layout = stage.esdf.layout;
-  const VoxelMask keep = significant_peaks(stage.esdf, stage.basins);
-  std::map<std::uint32_t, std::vector<VoxelId>> levels;
-  for (const VoxelId id : stage.traversable.members(stage.esdf.layout))
-    levels[stage.esdf.squared[id]].push_back(id);
-  VoxelMask left = stage.traversable, due(layout);
-  for (auto& [level, work] : levels) {
-    for (const VoxelId id : work) due.set(id);
-    while (!work.empty()) {
-      std::set<VoxelId> beside;
-      for (std::uint32_t field = 0; field < 8; ++field)
-        for (const VoxelId id : work) {
-          const bool is_in_field = ((id & 1) | (id >> 3 & 1) << 1 | (id >> 6 & 1) << 2) == field;
-          if (!is_in_field || keep.test(id) || !is_simple(cube_around(layout, left, id))) continue;
-          left.reset(id);
-          due.reset(id);
-          for (int d = 0; d < 27; ++d) beside.insert(layout.neighbour(id, d));
-        }
-      work.clear();
-      for (const VoxelId id : beside)
-        if (id != kNoVoxel && due.test(id)) work.push_back(id);
-    }
-  }
-  return left;
+  return detail::peel_in_order(stage.esdf, stage.traversable,
+                               significant_peaks(stage.esdf, stage.basins));
 }
 
 TEST(Kernel, IsWhatPeelingEveryVoxelInOrderLeaves) {

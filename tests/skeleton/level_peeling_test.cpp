@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "skeleton/level_peeling.hpp"
+
+#include <gtest/gtest.h>
+
+#include "random_levels.hpp"
+#include "skeleton/landscape.hpp"
+#include "skeleton/plain_peeling.hpp"
+
+namespace ridgeway {
+namespace {
+
+TEST(LevelPeeling, LeavesWhatPeelingInOrderLeavesWhateverTheLevels) {
+  std::size_t left = 0, gone = 0, kept = 0;
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(seed);
+    const testing::RandomLevels levels = testing::random_levels(seed);
+    std::mt19937 random(seed);
+    VoxelMask keep(levels.esdf.layout);
+    for (VoxelId id = 0; id < levels.esdf.layout.voxel_count(); ++id)
+      if (levels.traversable.test(id) && random() % 200 < seed % 5) keep.set(id);
+    const detail::Landscape land = detail::survey(levels.esdf, levels.traversable);
+    const VoxelMask plain = detail::peel_in_order(levels.esdf, levels.traversable, keep);
+    ASSERT_EQ(detail::peel_levels(levels.esdf, levels.traversable, land.basins.obstinate, keep),
+              plain);
+    left += plain.count();
+    gone += levels.traversable.count() - plain.count();
+    kept += keep.count();
+  }
+  EXPECT_GT(left, 10000u);
+  EXPECT_GT(gone, 100000u);
+  EXPECT_GT(kept, 1000u);
+}
+
+}  // namespace
+}  // namespace ridgeway
