@@ -105,7 +105,9 @@ TEST(Surroundings, DistancesToKnownAndUnknownAreThoseOfBruteForceUnderEveryPolic
       const double clearance = FreeSpace(esdf).clearance(path);
       const double expected =
           policy == UnknownPolicy::kObstacle ? std::min(found.known, found.unknown) : found.known;
-      if (std::isfinite(expected)) EXPECT_NEAR(clearance, expected, 1e-9);
+      if (std::isfinite(expected)) {
+        EXPECT_NEAR(clearance, expected, 1e-9);
+      }
     }
   }
   EXPECT_GT(paths, 60);
