@@ -8,6 +8,7 @@
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "interruption.hpp"
 #include "json.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/graph_export.hpp"
@@ -56,6 +57,8 @@ std::vector<std::filesystem::path> list_outputs(const Options& options) {
   std::vector<std::filesystem::path> inputs = {options.file};
   if (!options.path.empty()) inputs.emplace_back(options.path);
   require_writable(files, inputs);
+  if (!options.json_graph.empty())
+    require_extension(options.json_graph, "a graph as JSON", {".json"});
   return files;
 }
 
@@ -105,7 +108,10 @@ int run(const Options& options, const Globals& globals) {
   const std::vector<Point> path =
       options.path.empty() ? std::vector<Point>{} : read_path(options.path);
   const Roadmap roadmap = load_roadmap(options.file);
-  for (const auto& file : files) write(roadmap, path, options, file);
+  for (const auto& file : files) {
+    stop_if_interrupted();
+    write(roadmap, path, options, file);
+  }
   return report(files, globals);
 }
 

@@ -28,6 +28,7 @@ pid_t process;
 /// Runs in the main thread, which alone writes files, so that none is made while they are removed.
 /// Only what is safe in a handler is called.
 void handle(int signal) {
+  if (::getpid() != process) ::_exit(128 + signal);  // a child: the files are its parent's
   if (::pthread_equal(::pthread_self(), main_thread) == 0) {
     ::pthread_kill(main_thread, signal);
     return;
@@ -37,7 +38,7 @@ void handle(int signal) {
     ::alarm(patience);
     return;
   }
-  if (::getpid() == process) remove_temporaries();  // not in a child, whose they are not
+  remove_temporaries();
   ::_exit(interrupted_exit_code());
 }
 

@@ -12,6 +12,7 @@
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "interruption.hpp"
 #include "json.hpp"
 #include "plan_options.hpp"
 #include "plan_output.hpp"
@@ -67,8 +68,10 @@ Answer plan_once(const Roadmap& roadmap, const Query& query, const PlanOptions& 
 Answer plan_repeatedly(const Roadmap& roadmap, const Query& query, const PlanOptions& options) {
   Answer answer = plan_once(roadmap, query, options, 0);
   std::vector<PlanSeconds> runs = {answer.plan.seconds};
-  for (int run = 1; run < options.repeat; ++run)
+  for (int run = 1; run < options.repeat; ++run) {
+    stop_if_interrupted();
     runs.push_back(plan_once(roadmap, query, options, run).plan.seconds);
+  }
   for (double PlanSeconds::*part :
        {&PlanSeconds::attach, &PlanSeconds::search, &PlanSeconds::shorten, &PlanSeconds::total}) {
     const auto middle = runs.begin() + static_cast<std::ptrdiff_t>(runs.size() / 2);
@@ -107,6 +110,7 @@ int run_batch(const PlanOptions& options, const Roadmap& roadmap, const Globals&
   Json results = Json::array();
   std::size_t solved = 0;
   for (const Query& query : queries) {
+    stop_if_interrupted();
     const Answer answer = plan_repeatedly(roadmap, query, options);
     const PlanResult& result = answer.plan;
     solved += result.ok();

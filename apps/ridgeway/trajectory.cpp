@@ -12,6 +12,7 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "flight_picture.hpp"
+#include "interruption.hpp"
 #include "json.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/path_io.hpp"
@@ -97,6 +98,7 @@ int run(const Options& options, const Globals& globals) {
   }
   if (!options.picture.empty()) written.emplace_back(options.picture);
   require_writable(written, {options.file});
+  if (!options.picture.empty()) require_extension(options.picture, "a picture", {".png", ".svg"});
 
   const Roadmap roadmap = load_roadmap(options.file);
   const double radius = options.radius.value_or(roadmap.min_clearance);
@@ -111,6 +113,7 @@ int run(const Options& options, const Globals& globals) {
     return report_none(std::string(name_of(flown.status)), explain_no_trajectory(flown),
                        Json::parse(trajectory_json(path, flown, options.step)), globals);
 
+  stop_if_interrupted();
   constexpr double kMostSamples = 1e6;
   if (!(flown.duration / options.step <= kMostSamples))
     throw InputError("--step " + text_of(options.step, 6),

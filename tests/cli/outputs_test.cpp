@@ -103,11 +103,10 @@ TEST_F(CliOutputs, OneThreadIsEnough) {
   // Nobody else runs as this user, who may have but one thread; root has no such limit.
   const std::string map = rooms();
   fs::permissions(folder_.path(), fs::perms::all);
-  const std::string limit =
+  const std::string user =
       ::geteuid() == 0 ? "setpriv --reuid=54321 --regid=54321 --clear-groups --inh-caps=-all " : "";
-  const std::string command = limit + "sh -c 'ulimit -u 1 && exec \"$0\" \"$@\"' " +
-                              RIDGEWAY_PROGRAM + " check " + map + " --queries 20 > " +
-                              path("stdout") + " 2> " + path("stderr");
+  const std::string command = user + "prlimit --nproc=1:1 " + RIDGEWAY_PROGRAM + " check " + map +
+                              " --queries 20 > " + path("stdout") + " 2> " + path("stderr");
   const int status = std::system(command.c_str());
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 0) << read_whole(folder_ / "stderr");
