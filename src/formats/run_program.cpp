@@ -94,7 +94,7 @@ class Child {
   ~Child() {
     const pid_t ended = wait(WNOHANG);
     if (ended != 0) return;
-    ::kill(pid_, SIGKILL);
+    ::kill(-pid_, SIGKILL);  // with what it started: it is the first of its group
     wait(0);
   }
   Child(const Child&) = delete;

@@ -30,8 +30,8 @@ struct ProgramOutput {
 /// errors go nowhere. Spawned, not forked: safe whatever threads this process has. It is of a
 /// process group of its own, so that Ctrl-C on a terminal reaches this process alone, which
 /// decides. `go_on`, if any, is called some twenty times a second; false kills the program. When
-/// this returns, or throws, the program has ended and left no zombie. Throws InputError where it
-/// cannot be started.
+/// this returns, or throws, the program has ended, with what it started in its group, and left no
+/// zombie. Throws InputError where it cannot be started.
 ProgramOutput run_program(const std::filesystem::path& program,
                           const std::vector<std::string>& arguments, const ProgramLimits& limits,
                           const std::function<bool()>& go_on = {});
