@@ -59,7 +59,7 @@ ob::PlannerPtr make_planner(const ob::SpaceInformationPtr& space, const Sampling
 
 /// Trees of far smaller steps than a voxel take for ever and find nothing more.
 void require_range(const SamplingConfig& config, double voxel_size) {
-  constexpr double kLeastVoxels = 0.05;
+  constexpr double kLeastVoxels = 0.1 * (1.0 - 1e-9);
   if (config.range == 0.0 || config.range >= kLeastVoxels * voxel_size) return;
   throw InputError("range",
                    "is " + number_text(config.range) + " m, far below the map's voxel size of " +

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <sstream>
+#include <utility>
 
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
@@ -28,8 +29,14 @@ std::string plans_on(const Roadmap& roadmap) {
   const std::vector<Vertex>& vertices = roadmap.graph.vertices;
   text << vertices.size() << " vertices, " << roadmap.graph.edges.size() << " edges, "
        << roadmap.taut.graph.vertices.size() << " corners\n";
-  const Point start = to_world(roadmap.esdf, vertices.front().position),
-              goal = to_world(roadmap.esdf, vertices.back().position);
+  // The vertices farthest apart, in different rooms.
+  std::pair<Point, Point> ends(vertices[0].position, vertices[0].position);
+  for (const Vertex& a : vertices)
+    for (const Vertex& b : vertices)
+      if ((a.position - b.position).norm() > (ends.first - ends.second).norm())
+        ends = {a.position, b.position};
+  const Point start = to_world(roadmap.esdf, ends.first),
+              goal = to_world(roadmap.esdf, ends.second);
   for (const Planner planner : {Planner::kGraph, Planner::kDiagram, Planner::kEsdf}) {
     const PlanResult result = plan(roadmap, start, goal, {.planner = planner});
     text << name_of(planner) << ": " << name_of(result.status) << ", length " << result.length
