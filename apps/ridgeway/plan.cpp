@@ -161,8 +161,8 @@ int run(const PlanOptions& options, const Globals& globals) {
 }
 
 void add_sampling_options(Command& command, PlanOptions& options) {
-  command.seed(options.sampling.seed, "Of a planner that samples");
   options.sampling_options = {
+      command.seed(options.sampling.seed, "Of a planner that samples"),
       command.whole("--iteration-limit", options.iteration_limit, {0, 1'000'000'000'000},
                     "Rounds of a planner that samples; what ends by it repeats exactly"),
       command.number("--range", options.range, kLengths,

@@ -35,7 +35,12 @@ class CliOptions : public Program {
       words.push_back(value);
     else
       words.insert(words.end(), {name, value});
-    expect_refused(words, {name + " '" + value + "'"});
+    // A word that begins with a dash is no positional; of a list of words the first bad one is
+    // named.
+    const bool is_unknown_option = option["positional"] && value.starts_with("-");
+    const bool is_list = option["type"] == "choices";
+    const std::string word = is_list ? value.substr(0, value.find(',')) : value;
+    expect_refused(words, {(is_unknown_option ? "'" : name + " '") + word + "'"});
   }
 };
 

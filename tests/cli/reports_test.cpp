@@ -82,12 +82,12 @@ TEST_F(CliInfo, TellsOfMapsWithoutBuilding) {
 TEST_F(CliExport, WritesEveryFormat) {
   const Outcome exported = run({"export", rooms(), "-o", path("g.json"), "-o", path("g.graphml"),
                                 "-o", path("g.ply"), "-o", path("g.svg"), "--json-graph",
-                                path("links"), "--picture", path("g.png"), "--json"});
+                                path("links.json"), "--picture", path("g.png"), "--json"});
   ASSERT_EQ(exported.code, 0) << exported.err;
   EXPECT_EQ(exported.json()["written"].size(), 6u);
-  for (const char* name : {"g.json", "g.graphml", "g.ply", "g.svg", "links", "g.png"})
+  for (const char* name : {"g.json", "g.graphml", "g.ply", "g.svg", "links.json", "g.png"})
     EXPECT_TRUE(exists(name)) << name;
-  EXPECT_EQ(read_whole(folder_ / "g.json"), read_whole(folder_ / "links"));
+  EXPECT_EQ(read_whole(folder_ / "g.json"), read_whole(folder_ / "links.json"));
   ASSERT_EQ(run({"export", path("rooms.ridge"), "--what", "diagram", "-o", path("d.ply")}).code, 0);
   EXPECT_NE(read_whole(folder_ / "d.ply"), read_whole(folder_ / "g.ply"));
 }
