@@ -2,13 +2,13 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "bench_data.hpp"
 
-#include "ridgeway/common/random.hpp"
+#include "common/random.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/formats/load_map.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
+#include "ridgeway/skeleton/diagram.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
-#include "ridgeway/skeleton/kernel.hpp"
 
 namespace ridgeway {
 namespace {

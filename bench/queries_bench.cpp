@@ -9,7 +9,7 @@
 #include "ridgeway/planning/plan.hpp"
 #include "roadmap/attach_way.hpp"
 #include "roadmap/graph_search.hpp"
-#include "roadmap/taut_search.hpp"
+#include "roadmap/tangent_search.hpp"
 
 namespace ridgeway {
 namespace {
@@ -68,16 +68,16 @@ void graph_search(benchmark::State& state) {
   });
 }
 
-void taut_search(benchmark::State& state) {
+void tangent_search(benchmark::State& state) {
   const Roadmap& roadmap = pipeline().roadmap;
   const EsdfMap& esdf = roadmap.esdf;
   const FreeSpace space(esdf);
   const auto seen = [&](const Point& place) {
-    return roadmap.taut.seen_from(esdf.layout.find(voxel_at(place, esdf.voxel_size)));
+    return roadmap.tangents.seen_from(esdf.layout.find(voxel_at(place, esdf.voxel_size)));
   };
   one_by_one(state, "searches", solvable_queries(), [&](const Query& ends) {
-    return detail::search_taut(
-        roadmap.taut.graph, roadmap.taut.hubs, space,
+    return detail::search_tangents(
+        roadmap.tangents.graph, roadmap.tangents.hubs, space,
         {ends.first, ends.second, kRadius, seen(ends.first), seen(ends.second)});
   });
 }
@@ -105,7 +105,7 @@ BENCHMARK_CAPTURE(segment_check, free_three_metres, 3.0, true)->Unit(benchmark::
 BENCHMARK_CAPTURE(segment_check, blocked_three_metres, 3.0, false)->Unit(benchmark::kMicrosecond);
 BENCHMARK(attach)->Unit(benchmark::kMicrosecond);
 BENCHMARK(graph_search)->Unit(benchmark::kMicrosecond);
-BENCHMARK(taut_search)->Unit(benchmark::kMicrosecond);
+BENCHMARK(tangent_search)->Unit(benchmark::kMicrosecond);
 BENCHMARK(shortening)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(query, graph_raw, PlanConfig{.shorten = false})->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(query, graph_quick, PlanConfig{.quick = true})->Unit(benchmark::kMicrosecond);

@@ -8,11 +8,8 @@
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/formats/load_map.hpp"
 #include "ridgeway/roadmap/build_graph.hpp"
-#include "ridgeway/roadmap/simplify_graph.hpp"
 #include "ridgeway/skeleton/diagram.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
-#include "ridgeway/skeleton/kernel.hpp"
-#include "ridgeway/skeleton/thinning.hpp"
 
 namespace ridgeway {
 namespace {
@@ -107,7 +104,7 @@ void attach_field(benchmark::State& state) {
 
 void corner_learning(benchmark::State& state) {
   const Roadmap& roadmap = pipeline().roadmap;
-  for (auto _ : state) benchmark::DoNotOptimize(build_taut_graph(roadmap));
+  for (auto _ : state) benchmark::DoNotOptimize(build_tangent_graph(roadmap));
 }
 
 BENCHMARK(copy_of_the_field)->Unit(benchmark::kMillisecond)->UseRealTime();

@@ -3,11 +3,11 @@
 //
 // Decisions about single voxels and curves, on one thread, as the skeleton's stages take them.
 #include "bench_data.hpp"
-#include "ridgeway/skeleton/simple_point.hpp"
-#include "ridgeway/skeleton/thinning.hpp"
+#include "ridgeway/skeleton/gvd.hpp"
 #include "roadmap/curve_following.hpp"
 #include "roadmap/diagram_curves.hpp"
 #include "roadmap/vertex_selection.hpp"
+#include "skeleton/simple_point.hpp"
 
 namespace ridgeway {
 namespace {

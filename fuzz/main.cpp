@@ -13,9 +13,9 @@
 #include <fstream>
 #include <string>
 
+#include "files/read_file.hpp"
 #include "readers.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/files/read_file.hpp"
 #include "unpacked_ridge.hpp"
 
 namespace {

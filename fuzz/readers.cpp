@@ -10,24 +10,23 @@
 #include <fstream>
 #include <string>
 
+#include "formats/benchmark_map.hpp"
+#include "formats/benchmark_scenarios.hpp"
+#include "formats/mesh_file.hpp"
 #include "formats/mesh_packing.hpp"
+#include "formats/octomap.hpp"
+#include "formats/pcd.hpp"
+#include "formats/ply_cloud.hpp"
+#include "formats/xyz.hpp"
+#include "recordings/depth_png.hpp"
 #include "recordings/pose_text.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/formats/benchmark_map.hpp"
-#include "ridgeway/formats/benchmark_scenarios.hpp"
-#include "ridgeway/formats/mesh_file.hpp"
-#include "ridgeway/formats/octomap.hpp"
 #include "ridgeway/formats/path_io.hpp"
-#include "ridgeway/formats/pcd.hpp"
-#include "ridgeway/formats/ply_cloud.hpp"
 #include "ridgeway/formats/point_cloud.hpp"
 #include "ridgeway/formats/world_file.hpp"
-#include "ridgeway/formats/xyz.hpp"
-#include "ridgeway/recordings/depth_png.hpp"
 #include "ridgeway/recordings/depth_sequence.hpp"
 #include "ridgeway/recordings/scan_sequence.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
-#include "ridgeway/ridge/tsdf_file.hpp"
 #include "unpacked_ridge.hpp"
 
 namespace ridgeway {

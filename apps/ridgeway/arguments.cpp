@@ -9,10 +9,10 @@
 #include <optional>
 #include <system_error>
 
-#include "ridgeway/common/number_text.hpp"
-#include "ridgeway/files/atomic_file.hpp"
-#include "ridgeway/mapping/map_transform.hpp"
-#include "ridgeway/mapping/voxel_range.hpp"
+#include "common/number_text.hpp"
+#include "files/atomic_file.hpp"
+#include "ridgeway/mapping/map_edits.hpp"
+#include "ridgeway/mapping/occupancy_map.hpp"
 
 namespace ridgeway::cli {
 namespace {

@@ -7,8 +7,8 @@
 #include "bench.hpp"
 #include "bench_table.hpp"
 #include "console.hpp"
+#include "experiments/fusion_speed.hpp"
 #include "interruption.hpp"
-#include "ridgeway/experiments/fusion_speed.hpp"
 
 namespace ridgeway::cli {
 namespace {

@@ -9,16 +9,16 @@
 
 #include "bench.hpp"
 #include "bench_table.hpp"
+#include "common/number_text.hpp"
 #include "console.hpp"
+#include "experiments/grid.hpp"
+#include "files/atomic_file.hpp"
+#include "files/read_file.hpp"
+#include "formats/benchmark_map.hpp"
+#include "formats/benchmark_scenarios.hpp"
 #include "interruption.hpp"
+#include "pictures/scatter.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
-#include "ridgeway/experiments/grid.hpp"
-#include "ridgeway/files/atomic_file.hpp"
-#include "ridgeway/files/read_file.hpp"
-#include "ridgeway/formats/benchmark_map.hpp"
-#include "ridgeway/formats/benchmark_scenarios.hpp"
-#include "ridgeway/pictures/chart.hpp"
 
 namespace ridgeway::cli {
 namespace {

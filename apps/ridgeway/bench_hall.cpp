@@ -13,12 +13,12 @@
 #include "bench.hpp"
 #include "bench_table.hpp"
 #include "console.hpp"
+#include "experiments/hall.hpp"
+#include "files/temporary.hpp"
 #include "interruption.hpp"
+#include "pictures/scatter.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/experiments/hall.hpp"
-#include "ridgeway/files/temporary.hpp"
 #include "ridgeway/formats/load_map.hpp"
-#include "ridgeway/pictures/chart.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
 
 namespace ridgeway::cli {

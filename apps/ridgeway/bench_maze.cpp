@@ -7,8 +7,8 @@
 #include "bench.hpp"
 #include "bench_table.hpp"
 #include "console.hpp"
+#include "experiments/maze.hpp"
 #include "interruption.hpp"
-#include "ridgeway/experiments/maze.hpp"
 #include "ridgeway/pictures/picture.hpp"
 
 namespace ridgeway::cli {

@@ -7,9 +7,9 @@
 #include "bench.hpp"
 #include "bench_table.hpp"
 #include "console.hpp"
+#include "experiments/noise.hpp"
 #include "interruption.hpp"
-#include "ridgeway/experiments/noise.hpp"
-#include "ridgeway/pictures/chart.hpp"
+#include "pictures/scatter.hpp"
 #include "ridgeway/pictures/picture.hpp"
 
 namespace ridgeway::cli {

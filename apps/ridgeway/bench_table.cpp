@@ -12,11 +12,11 @@
 
 #include "arguments.hpp"
 #include "console.hpp"
+#include "files/atomic_file.hpp"
 #include "interruption.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/files/atomic_file.hpp"
 #include "ridgeway/formats/world_file.hpp"
-#include "ridgeway/sensing/world_generators.hpp"
+#include "sensing/world_generators.hpp"
 
 namespace ridgeway::cli {
 namespace {

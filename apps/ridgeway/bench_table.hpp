@@ -9,7 +9,7 @@
 
 #include "command.hpp"
 #include "json.hpp"
-#include "ridgeway/sensing/poses.hpp"
+#include "sensing/poses.hpp"
 
 namespace ridgeway::cli {
 

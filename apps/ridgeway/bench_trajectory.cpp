@@ -10,15 +10,15 @@
 #include "bench.hpp"
 #include "bench_table.hpp"
 #include "console.hpp"
+#include "experiments/flights.hpp"
 #include "flight_picture.hpp"
 #include "interruption.hpp"
+#include "pictures/scatter.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/experiments/flights.hpp"
 #include "ridgeway/formats/load_map.hpp"
 #include "ridgeway/mapping/world_map.hpp"
-#include "ridgeway/pictures/chart.hpp"
-#include "ridgeway/sensing/poses.hpp"
-#include "ridgeway/sensing/world_generators.hpp"
+#include "sensing/poses.hpp"
+#include "sensing/world_generators.hpp"
 
 namespace ridgeway::cli {
 namespace {

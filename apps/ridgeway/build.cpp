@@ -83,11 +83,12 @@ struct Stage {
   const char* name;
   double BuildSeconds::*seconds;
 };
-constexpr Stage kStages[] = {{"esdf", &BuildSeconds::esdf},     {"gvd", &BuildSeconds::gvd},
-                             {"edges", &BuildSeconds::edges},   {"thin", &BuildSeconds::thin},
-                             {"kernel", &BuildSeconds::kernel}, {"graph", &BuildSeconds::graph},
-                             {"attach", &BuildSeconds::attach}, {"taut", &BuildSeconds::taut},
-                             {"total", &BuildSeconds::total}};
+constexpr Stage kStages[] = {
+    {"esdf", &BuildSeconds::esdf},     {"gvd", &BuildSeconds::gvd},
+    {"edges", &BuildSeconds::edges},   {"thin", &BuildSeconds::thin},
+    {"kernel", &BuildSeconds::kernel}, {"graph", &BuildSeconds::graph},
+    {"attach", &BuildSeconds::attach}, {"tangents", &BuildSeconds::tangents},
+    {"total", &BuildSeconds::total}};
 
 /// Builds `repeat` times; the times of the stages are then medians.
 BuildResult build_repeatedly(OccupancyMap map, const BuildConfig& config, int repeat,

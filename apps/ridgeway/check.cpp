@@ -8,9 +8,9 @@
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "files/atomic_file.hpp"
 #include "interruption.hpp"
 #include "json.hpp"
-#include "ridgeway/files/atomic_file.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
 
 namespace ridgeway::cli {

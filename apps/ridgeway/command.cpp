@@ -8,11 +8,11 @@
 #include <limits>
 #include <utility>
 
+#include "common/number_text.hpp"
 #include "console.hpp"
 #include "json.hpp"
 #include "nearest_word.hpp"
 #include "option_names.hpp"
-#include "ridgeway/common/number_text.hpp"
 
 namespace ridgeway::cli {
 

@@ -12,11 +12,9 @@
 #include "json.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/graph_export.hpp"
-#include "ridgeway/formats/mesh_export.hpp"
 #include "ridgeway/formats/path_io.hpp"
 #include "ridgeway/pictures/picture.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
-#include "ridgeway/ridge/tsdf_file.hpp"
 
 namespace ridgeway::cli {
 namespace {

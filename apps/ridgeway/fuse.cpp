@@ -16,7 +16,7 @@
 #include "ridgeway/mapping/tsdf_fusion.hpp"
 #include "ridgeway/recordings/depth_sequence.hpp"
 #include "ridgeway/recordings/scan_sequence.hpp"
-#include "ridgeway/ridge/tsdf_file.hpp"
+#include "ridgeway/ridge/ridge_file.hpp"
 
 namespace ridgeway::cli {
 namespace {

@@ -39,7 +39,7 @@ std::vector<Memory> memory_of(const Roadmap& roadmap) {
   const EsdfMap& esdf = roadmap.esdf;
   const SparseGraph& graph = roadmap.graph;
   const ClearanceTree& tree = roadmap.tree;
-  const TautGraph& taut = roadmap.taut;
+  const TangentGraph& tangents = roadmap.tangents;
   return {{"esdf", esdf.layout.memory_bytes() + esdf.state.memory_bytes() +
                        esdf.squared.memory_bytes() + esdf.site.memory_bytes() +
                        esdf.obstacle.memory_bytes()},
@@ -47,11 +47,11 @@ std::vector<Memory> memory_of(const Roadmap& roadmap) {
           {"graph", bytes_of(graph.vertices) + bytes_of(graph.edges) + bytes_of(graph.first_link) +
                         bytes_of(graph.links)},
           {"attach", roadmap.attach.next.memory_bytes()},
-          {"taut", bytes_of(taut.graph.vertices) + bytes_of(taut.graph.edges) +
-                       bytes_of(taut.graph.first_link) + bytes_of(taut.graph.links) +
-                       bytes_of(taut.hubs.first) + bytes_of(taut.hubs.labels) +
-                       bytes_of(taut.hubs.next) + bytes_of(taut.cell_of_block) +
-                       bytes_of(taut.first_seen) + bytes_of(taut.seen)},
+          {"tangents", bytes_of(tangents.graph.vertices) + bytes_of(tangents.graph.edges) +
+                           bytes_of(tangents.graph.first_link) + bytes_of(tangents.graph.links) +
+                           bytes_of(tangents.hubs.first) + bytes_of(tangents.hubs.labels) +
+                           bytes_of(tangents.hubs.next) + bytes_of(tangents.cell_of_block) +
+                           bytes_of(tangents.first_seen) + bytes_of(tangents.seen)},
           {"tree", bytes_of(tree.parent) + bytes_of(tree.clearance) + bytes_of(tree.place)}};
 }
 

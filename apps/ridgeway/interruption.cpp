@@ -9,8 +9,8 @@
 #include <atomic>
 #include <csignal>
 
+#include "files/temporary.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/files/temporary.hpp"
 
 namespace ridgeway::cli {
 namespace {

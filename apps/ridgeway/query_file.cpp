@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "arguments.hpp"
+#include "common/number_text.hpp"
+#include "files/read_file.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
-#include "ridgeway/files/read_file.hpp"
 
 namespace ridgeway::cli {
 namespace {

@@ -11,7 +11,7 @@
 #include "json.hpp"
 #include "ridgeway/formats/world_file.hpp"
 #include "ridgeway/recordings/depth_sequence.hpp"
-#include "ridgeway/sensing/poses.hpp"
+#include "sensing/poses.hpp"
 
 namespace ridgeway::cli {
 namespace {

@@ -8,17 +8,17 @@
 #include <system_error>
 
 #include "console.hpp"
+#include "files/read_file.hpp"
+#include "formats/benchmark_map.hpp"
+#include "formats/octomap.hpp"
+#include "formats/pcd.hpp"
+#include "formats/ply_cloud.hpp"
+#include "formats/xyz.hpp"
 #include "json.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/files/read_file.hpp"
-#include "ridgeway/formats/benchmark_map.hpp"
 #include "ridgeway/formats/load_map.hpp"
-#include "ridgeway/formats/octomap.hpp"
-#include "ridgeway/formats/pcd.hpp"
-#include "ridgeway/formats/ply_cloud.hpp"
 #include "ridgeway/formats/point_cloud.hpp"
-#include "ridgeway/formats/xyz.hpp"
-#include "ridgeway/ridge/tsdf_file.hpp"
+#include "ridgeway/ridge/ridge_file.hpp"
 
 namespace ridgeway::cli {
 namespace {

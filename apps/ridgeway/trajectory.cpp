@@ -16,7 +16,6 @@
 #include "json.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/path_io.hpp"
-#include "ridgeway/formats/trajectory_io.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
 #include "ridgeway/trajectory/plan_trajectory.hpp"

@@ -9,7 +9,7 @@
 #include "console.hpp"
 #include "json.hpp"
 #include "ridgeway/formats/world_file.hpp"
-#include "ridgeway/sensing/world_generators.hpp"
+#include "sensing/world_generators.hpp"
 
 namespace ridgeway::cli {
 namespace {

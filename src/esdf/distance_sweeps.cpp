@@ -112,7 +112,7 @@ class FirstSweep {
   void write(const Places& along, VoxelId id) const {
     for (const int k : along) {
       const bool is_near = k >= -kFarthestSite && k <= kFarthestSite;
-      nearest_.squared[id] = is_near ? quarter_squared(k) : kNoSite;
+      nearest_.squared[id] = is_near ? squared_halves(k) : kNoSite;
       nearest_.offset[id] = {static_cast<std::int16_t>(is_near ? k : 0), 0, 0};
       ++id;
     }
@@ -190,7 +190,7 @@ class EnvelopeSweep {
         const int along = std::clamp(winner - i, -kFarthestSite - 1, kFarthestSite + 1);
         (axis_ == 1 ? offset.y : offset.z) = static_cast<std::int16_t>(along);
         nearest_.offset[id] = offset;
-        nearest_.squared[id] = across + quarter_squared(along);
+        nearest_.squared[id] = across + squared_halves(along);
       });
     });
   }

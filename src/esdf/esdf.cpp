@@ -6,11 +6,11 @@
 #include <cassert>
 #include <vector>
 
+#include "common/number_text.hpp"
 #include "distance_sweeps.hpp"
+#include "mapping/memory_limit.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/mapping/memory_limit.hpp"
 #include "work_domain.hpp"
 
 namespace ridgeway {
@@ -23,17 +23,13 @@ constexpr int kSweepBytesPerVoxel = 11;  // of blocks that sweeps pass through, 
 VoxelMask find_obstacles(const BlockLayout& layout, const VoxelField<VoxelState>& state,
                          UnknownPolicy unknown) {
   assert(state.is_of(layout));
-  const bool solid_unknown = unknown == UnknownPolicy::kObstacle;
   VoxelMask obstacle(layout);
   parallel_for_each_index(
       layout.block_count(),
       [&](std::size_t slot) {
         const auto block = static_cast<std::uint32_t>(slot);
         const VoxelState* states = state.block(block);
-        obstacle.block(block) = block_where([&](int v) {
-          return (states[v] == VoxelState::kOccupied) |
-                 ((states[v] == VoxelState::kUnknown) & solid_unknown);
-        });
+        obstacle.block(block) = block_where([&](int v) { return is_obstacle(states[v], unknown); });
       },
       16);
   return obstacle;
@@ -80,7 +76,7 @@ NearestSites sweep_through_unknown(const EsdfMap& map, double farthest) {
 /// Sites that are too far become none.
 void drop_far_sites(EsdfMap& map, double farthest) {
   const double reach = std::min(farthest, static_cast<double>(kFarthestSite));
-  const auto limit = static_cast<std::uint32_t>(squared_threshold(reach, 1.0) * (1.0 + 4e-9));
+  const auto limit = static_cast<std::uint32_t>(least_clearance(reach, 1.0).value * (1.0 + 4e-9));
   parallel_for_each_index(
       map.layout.block_count(),
       [&](std::size_t index) {

@@ -20,7 +20,7 @@ using Vector = Eigen::Vector3d;
 
 /// Squared radius, voxel units, that a squared distance has to reach.
 double squared_limit(double radius, double voxel_size) {
-  return 0.25 * squared_threshold(radius, voxel_size);
+  return 0.25 * least_clearance(radius, voxel_size).value;
 }
 
 /// Whether a point lies in, or on the border of, a known-free voxel.
@@ -124,26 +124,28 @@ bool FreeSpace::is_known_free(const Point& a, const Point& b) const {
   return true;
 }
 
-double FreeSpace::slow_move_clearance(VoxelId from, VoxelId to, int direction,
-                                      double enough) const {
-  const double low = std::min(esdf_.squared[from], esdf_.squared[to]);
-  if (low == kNoSite) return low;  // both ends farther than max_distance from everything
+SquaredHalves FreeSpace::slow_move_clearance(VoxelId from, VoxelId to, int direction,
+                                             SquaredHalves enough) const {
+  const SquaredHalves low = std::min(esdf_.squared[from], esdf_.squared[to]);
+  if (low == SquaredHalves(kNoSite))
+    return low;  // both ends farther than max_distance from everything
   const VoxelIndex v = esdf_.layout.index_of(from), o = offset_of(direction);
   const Vector a(v.x + 0.5, v.y + 0.5, v.z + 0.5), b = a + Vector(o.x, o.y, o.z);
   // Sites of the two ends first: near an obstacle one of them usually is the nearest on the way.
-  double best = 0.25 * low;
+  double best = 0.25 * low.value;
   for (const VoxelId end : {from, to}) {
     if (esdf_.squared[end] == kNoSite) continue;
     const SiteOffset& site = esdf_.site[end];
     const VoxelIndex cube = (end == from ? v : v + o) + VoxelIndex{site.x, site.y, site.z};
     best = std::min(best, detail::squared_distance(a, b, detail::cube_of(cube)));
   }
-  if (4.0 * best < enough - 1e-7) {
-    if (enough < low) return 4.0 * best;  // the caller only asks whether it is enough
+  if (4.0 * best < enough.value - 1e-7) {
+    if (enough < low)
+      return SquaredHalves(4.0 * best);  // the caller only asks whether it is enough
   }
   best = detail::ObstacleScan(esdf_, a, b).run(best);
   // Rounding must not make a level place look like a dip.
-  return 4.0 * best > low - 1e-7 ? low : 4.0 * best;
+  return 4.0 * best > low.value - 1e-7 ? low : SquaredHalves(4.0 * best);
 }
 
 }  // namespace ridgeway

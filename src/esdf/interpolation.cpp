@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/esdf/interpolation.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "ridgeway/esdf/distance_field.hpp"
 
 namespace ridgeway {
 namespace {
 
 /// Distance, voxels, from a centre to the cube at an offset.
 double distance_to_cube(int dx, int dy, int dz) {
-  return 0.5 * std::sqrt(static_cast<double>(quarter_squared(dx) + quarter_squared(dy) +
-                                             quarter_squared(dz)));
+  return 0.5 * std::sqrt(static_cast<double>(squared_halves(dx) + squared_halves(dy) +
+                                             squared_halves(dz)));
 }
 
 /// Distance, voxels, from an obstacle voxel's centre to the nearest cube that is no obstacle, at
@@ -64,6 +64,15 @@ DistanceAndGradient interpolate_distance(const EsdfMap& esdf, const Point& point
   result.gradient.z() = y1 - y0;
   result.gradient /= s;
   return result;
+}
+
+std::optional<DistanceAndGradient> distance_at(const EsdfMap& esdf, const Point& point_world,
+                                               double deepest) {
+  const Point local = to_local(esdf, point_world);
+  if (!has_voxel(local, esdf.voxel_size)) return std::nullopt;
+  const VoxelId id = esdf.layout.find(voxel_at(local, esdf.voxel_size));
+  if (id == kNoVoxel || esdf.state[id] == VoxelState::kUnknown) return std::nullopt;
+  return interpolate_distance(esdf, local, deepest);
 }
 
 }  // namespace ridgeway

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "box_distance.hpp"
-#include "ridgeway/esdf/esdf_map.hpp"
+#include "ridgeway/esdf/esdf.hpp"
 
 namespace ridgeway::detail {
 

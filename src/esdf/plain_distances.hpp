@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "ridgeway/esdf/esdf_map.hpp"
+#include "ridgeway/esdf/esdf.hpp"
 
 /// Distances obstacle by obstacle: what the sweeps (distance_sweeps.cpp), the march
 /// (segment_march.hpp) and the scan (obstacle_scan.hpp) compute, for tests. docs/fast-kernels.md
@@ -29,10 +29,7 @@ inline std::vector<VoxelIndex> all_obstacles(const OccupancyMap& map, UnknownPol
   for (int z = low.z - 1; z <= high.z + 1; ++z)
     for (int y = low.y - 1; y <= high.y + 1; ++y)
       for (int x = low.x - 1; x <= high.x + 1; ++x) {
-        const VoxelState state = map.at({x, y, z});
-        if (state == VoxelState::kOccupied ||
-            (state == VoxelState::kUnknown && policy == UnknownPolicy::kObstacle))
-          obstacles.push_back({x, y, z});
+        if (is_obstacle(map.at({x, y, z}), policy)) obstacles.push_back({x, y, z});
       }
   return obstacles;
 }

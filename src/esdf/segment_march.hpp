@@ -241,7 +241,7 @@ class SegmentMarch {
   bool is_low(const Vector& x, double limit) {
     const VoxelIndex voxel = voxel_holding(x);
     const VoxelId id = finder_.find(voxel);
-    if (id == kNoVoxel) return esdf_.unknown == UnknownPolicy::kObstacle;
+    if (id == kNoVoxel) return esdf_.is_obstacle(id);
     const double squared = 0.25 * esdf_.squared[id];
     if (squared >= limit) return false;
     const double off = (x - Vector(voxel.x + 0.5, voxel.y + 0.5, voxel.z + 0.5)).norm();
@@ -261,7 +261,7 @@ class SegmentMarch {
   double at_site(const Vector& x, double farthest = kInfinity) {
     const VoxelIndex voxel = voxel_holding(x);
     const VoxelId id = finder_.find(voxel);
-    if (id == kNoVoxel) return esdf_.unknown == UnknownPolicy::kObstacle ? 0.0 : kInfinity;
+    if (id == kNoVoxel) return esdf_.is_obstacle(id) ? 0.0 : kInfinity;
     if (esdf_.squared[id] == kNoSite || 0.25 * esdf_.squared[id] > farthest) return kInfinity;
     const SiteOffset& o = esdf_.site[id];
     return squared_distance(x, cube_of(voxel + VoxelIndex{o.x, o.y, o.z}));

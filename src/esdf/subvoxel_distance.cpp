@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/esdf/subvoxel_distance.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "common/number_text.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/voxel/for_each_voxel.hpp"
+#include "ridgeway/esdf/distance_field.hpp"
+#include "voxel/for_each_voxel.hpp"
 
 namespace ridgeway {
 namespace {

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "mapping/memory_limit.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/mapping/memory_limit.hpp"
 
 namespace ridgeway::detail {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/experiments/flight_judge.hpp"
+#include "flight_judge.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "common/number_text.hpp"
+#include "mapping/memory_limit.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
-#include "ridgeway/mapping/memory_limit.hpp"
 
 namespace ridgeway {
 namespace {

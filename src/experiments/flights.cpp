@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/experiments/flights.hpp"
+#include "flights.hpp"
 
 #include <cmath>
 
+#include "common/number_text.hpp"
+#include "common/random.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/common/random.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 
@@ -26,7 +26,7 @@ TrajectoryConfig trajectory_config(const FlightsConfig& config) {
 
 std::vector<VoxelId> traversable_voxels(const EsdfMap& esdf, double radius) {
   std::vector<VoxelId> voxels;
-  const auto least = squared_threshold(radius, esdf.voxel_size);
+  const auto least = least_clearance(radius, esdf.voxel_size);
   for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
     if (esdf.state[id] == VoxelState::kFree && esdf.squared[id] >= least) voxels.push_back(id);
   return voxels;

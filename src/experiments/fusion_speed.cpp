@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/experiments/fusion_speed.hpp"
+#include "fusion_speed.hpp"
 
 #include <cmath>
 #include <functional>
 
+#include "common/clock.hpp"
+#include "common/random.hpp"
 #include "plain_fusion.hpp"
-#include "ridgeway/common/clock.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/random.hpp"
 
 namespace ridgeway {
 namespace {

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/experiments/hall.hpp"
+#include "hall.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 
+#include "common/clock.hpp"
+#include "common/number_text.hpp"
+#include "common/random.hpp"
 #include "memory_traffic.hpp"
 #include "process_memory.hpp"
-#include "ridgeway/common/clock.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/common/random.hpp"
-#include "ridgeway/common/spread.hpp"
 #include "ridgeway/mapping/world_map.hpp"
+#include "ridgeway/planning/check.hpp"
 #include "ridgeway/planning/plan.hpp"
-#include "ridgeway/sensing/poses.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
+#include "sensing/poses.hpp"
 
 namespace ridgeway {
 namespace {
@@ -50,7 +50,7 @@ std::vector<Query> draw_queries(const Roadmap& roadmap, std::size_t count, std::
 
 StageNumbers stages_of(const BuildSeconds& s) {
   const double graph = s.gvd + s.edges + s.thin + s.kernel + s.graph;
-  return {s.esdf, s.gvd, s.edges, s.thin, s.kernel, s.graph, s.attach, s.taut, graph, s.total};
+  return {s.esdf, s.gvd, s.edges, s.thin, s.kernel, s.graph, s.attach, s.tangents, graph, s.total};
 }
 
 /// All that is measured of one map with one number of threads.

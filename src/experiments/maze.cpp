@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/experiments/maze.hpp"
+#include "maze.hpp"
 
 #include <cmath>
 #include <functional>
 
-#include "ridgeway/common/clock.hpp"
+#include "common/clock.hpp"
+#include "common/number_text.hpp"
+#include "common/random.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
-#include "ridgeway/common/random.hpp"
 #include "ridgeway/mapping/world_map.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "ridgeway/sampling/plan_by_sampling.hpp"
-#include "ridgeway/sensing/poses.hpp"
+#include "sensing/poses.hpp"
 
 namespace ridgeway {
 namespace {

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "ridgeway/common/clock.hpp"
+#include "common/clock.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/common/spread.hpp"
+#include "ridgeway/planning/check.hpp"
 #include "ridgeway/skeleton/basins.hpp"
 
 namespace ridgeway::detail {
@@ -46,9 +46,9 @@ StageNumbers least_traffic(const BuildReport& counts) {
   bytes.graph = allocated * kMask + diagram * kSquared;
   bytes.attach = allocated * kMask + diagram * (kSquared + kNext);
   // One look for the widest place of each cell; the rest is queries, here and there.
-  bytes.taut = allocated * kNext + traversable * kSquared;
+  bytes.tangents = allocated * kNext + traversable * kSquared;
   bytes.esdf_to_graph = bytes.gvd + bytes.edges + bytes.thin + bytes.kernel + bytes.graph;
-  bytes.total = bytes.esdf + bytes.esdf_to_graph + bytes.attach + bytes.taut;
+  bytes.total = bytes.esdf + bytes.esdf_to_graph + bytes.attach + bytes.tangents;
   return bytes;
 }
 
@@ -56,7 +56,7 @@ StageNumbers voxels_walked(const BuildReport& counts) {
   const auto traversable = static_cast<double>(counts.traversable_voxels);
   const auto diagram = static_cast<double>(counts.diagram_voxels);
   StageNumbers voxels;
-  voxels.esdf = voxels.taut = static_cast<double>(counts.allocated_voxels);
+  voxels.esdf = voxels.tangents = static_cast<double>(counts.allocated_voxels);
   voxels.gvd = voxels.kernel = voxels.esdf_to_graph = traversable;
   voxels.edges = static_cast<double>(counts.gvd_voxels);
   voxels.thin = static_cast<double>(counts.edge_voxels);

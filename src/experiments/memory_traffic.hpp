@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "ridgeway/experiments/hall.hpp"
+#include "hall.hpp"
 
 namespace ridgeway::detail {
 

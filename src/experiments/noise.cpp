@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/experiments/noise.hpp"
+#include "noise.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 
-#include "ridgeway/common/clock.hpp"
+#include "common/clock.hpp"
+#include "common/number_text.hpp"
+#include "common/random.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/common/random.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/mapping/map_edits.hpp"
 #include "ridgeway/mapping/world_map.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/skeleton/basins.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
-#include "ridgeway/voxel/disjoint_sets.hpp"
+#include "voxel/disjoint_sets.hpp"
 
 namespace ridgeway {
 namespace {

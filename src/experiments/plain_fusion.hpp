@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ridgeway/mapping/occupancy_map.hpp"
-#include "ridgeway/mapping/tsdf_map.hpp"
+#include "ridgeway/mapping/tsdf_fusion.hpp"
 #include "ridgeway/sensing/depth_camera.hpp"
 
 namespace ridgeway::detail {

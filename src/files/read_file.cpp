@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/files/read_file.hpp"
+#include "read_file.hpp"
 
 #include <cerrno>
 #include <fstream>
 #include <system_error>
 
 #include "file_error.hpp"
+#include "mapping/memory_limit.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/mapping/memory_limit.hpp"
 
 namespace ridgeway {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/files/temporary.hpp"
+#include "temporary.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>

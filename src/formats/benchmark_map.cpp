@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/formats/benchmark_map.hpp"
+#include "benchmark_map.hpp"
 
 #include <optional>
 #include <utility>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/formats/benchmark_scenarios.hpp"
+#include "benchmark_scenarios.hpp"
 
 #include <cmath>
 #include <optional>

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <vector>
 
+#include "common/number_text.hpp"
+#include "files/atomic_file.hpp"
 #include "files/little_endian.hpp"
 #include "pictures/colour_map.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
-#include "ridgeway/files/atomic_file.hpp"
 
 namespace ridgeway {
 namespace {

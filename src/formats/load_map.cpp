@@ -10,19 +10,18 @@
 #include <string_view>
 #include <utility>
 
+#include "benchmark_map.hpp"
+#include "files/read_file.hpp"
+#include "mapping/memory_limit.hpp"
+#include "octomap.hpp"
+#include "pcd.hpp"
+#include "ply_cloud.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/files/read_file.hpp"
-#include "ridgeway/formats/benchmark_map.hpp"
-#include "ridgeway/formats/octomap.hpp"
-#include "ridgeway/formats/pcd.hpp"
-#include "ridgeway/formats/ply_cloud.hpp"
 #include "ridgeway/formats/point_cloud.hpp"
-#include "ridgeway/formats/xyz.hpp"
 #include "ridgeway/mapping/map_edits.hpp"
-#include "ridgeway/mapping/map_transform.hpp"
-#include "ridgeway/mapping/memory_limit.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
-#include "ridgeway/ridge/tsdf_file.hpp"
+#include "ridgeway/ridge/ridge_file.hpp"
+#include "xyz.hpp"
 
 namespace ridgeway {
 namespace {

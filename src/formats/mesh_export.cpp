@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/formats/mesh_export.hpp"
-
+#include "common/number_text.hpp"
+#include "files/atomic_file.hpp"
 #include "files/little_endian.hpp"
-#include "ridgeway/common/number_text.hpp"
-#include "ridgeway/files/atomic_file.hpp"
+#include "ridgeway/formats/graph_export.hpp"
 
 namespace ridgeway {
 

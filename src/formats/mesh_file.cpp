@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/formats/mesh_file.hpp"
+#include "mesh_file.hpp"
 
 #include <unistd.h>
 
@@ -12,11 +12,11 @@
 #include <string>
 #include <system_error>
 
+#include "files/read_file.hpp"
+#include "mapping/memory_limit.hpp"
 #include "mesh_packing.hpp"
+#include "ply_cloud.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/files/read_file.hpp"
-#include "ridgeway/formats/ply_cloud.hpp"
-#include "ridgeway/mapping/memory_limit.hpp"
 #include "run_program.hpp"
 
 namespace ridgeway {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "ridgeway/common/triangle.hpp"
+#include "ridgeway/sensing/solid_mesh.hpp"
 #include "ridgeway/voxel/index.hpp"
 
 namespace ridgeway {

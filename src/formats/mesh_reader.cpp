@@ -26,10 +26,10 @@
 #include <string>
 #include <vector>
 
+#include "files/read_file.hpp"
 #include "files/text.hpp"
 #include "mesh_packing.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/files/read_file.hpp"
 
 namespace ridgeway {
 namespace {

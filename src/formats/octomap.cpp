@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/formats/octomap.hpp"
+#include "octomap.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -10,9 +10,9 @@
 #include <sstream>
 #include <utility>
 
+#include "common/number_text.hpp"
 #include "files/byte_reader.hpp"
 #include "files/text.hpp"
-#include "ridgeway/common/number_text.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
 
 namespace ridgeway {

@@ -11,10 +11,10 @@
 #include <sstream>
 #include <string_view>
 
+#include "common/number_text.hpp"
+#include "files/atomic_file.hpp"
+#include "files/read_file.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
-#include "ridgeway/files/atomic_file.hpp"
-#include "ridgeway/files/read_file.hpp"
 
 namespace ridgeway {
 namespace {

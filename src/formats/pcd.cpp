@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/formats/pcd.hpp"
+#include "pcd.hpp"
 
 #include <lzf.h>
 

@@ -7,9 +7,9 @@
 #include <sstream>
 #include <utility>
 
+#include "common/number_text.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
-#include "ridgeway/mapping/map_transform.hpp"
+#include "ridgeway/mapping/map_edits.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
 
 namespace ridgeway {

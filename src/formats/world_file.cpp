@@ -12,11 +12,11 @@
 #include <numbers>
 #include <string_view>
 
+#include "common/number_text.hpp"
+#include "files/atomic_file.hpp"
+#include "files/read_file.hpp"
+#include "mesh_file.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
-#include "ridgeway/files/atomic_file.hpp"
-#include "ridgeway/files/read_file.hpp"
-#include "ridgeway/formats/mesh_file.hpp"
 
 namespace ridgeway {
 namespace {

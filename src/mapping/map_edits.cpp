@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include "common/number_text.hpp"
+#include "memory_limit.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/mapping/memory_limit.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
-#include "ridgeway/mapping/voxel_range.hpp"
+#include "ridgeway/mapping/occupancy_map.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
 
 namespace ridgeway {

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/mapping/map_transform.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <utility>
 #include <vector>
 
+#include "memory_limit.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/mapping/map_edits.hpp"
-#include "ridgeway/mapping/memory_limit.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
 
 namespace ridgeway {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/mapping/memory_limit.hpp"
+#include "memory_limit.hpp"
 
 #include <sys/resource.h>
 #include <unistd.h>

@@ -9,7 +9,7 @@
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
-#include "ridgeway/mapping/voxel_range.hpp"
+#include "ridgeway/mapping/occupancy_map.hpp"
 
 namespace ridgeway {
 namespace {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "memory_limit.hpp"
 #include "ridgeway/common/error.hpp"
 
 namespace ridgeway {

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "ridgeway/mapping/voxel_range.hpp"
-
 namespace ridgeway {
 
 VoxelCounts count_voxels(const OccupancyMap& map) {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
+#include "common/number_text.hpp"
 #include "depth_surfaces.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
 #include "ridgeway/common/parallel.hpp"
 
 namespace ridgeway::detail {

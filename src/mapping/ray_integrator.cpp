@@ -7,8 +7,8 @@
 #include <limits>
 #include <unordered_map>
 
+#include "common/number_text.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
 #include "ridgeway/common/parallel.hpp"
 
 namespace ridgeway::detail {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/mapping/surface_mesh.hpp"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -10,8 +8,9 @@
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/voxel/for_each_voxel.hpp"
+#include "ridgeway/mapping/tsdf_fusion.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
+#include "voxel/for_each_voxel.hpp"
 
 // Marching tetrahedra (Doi and Koide 1991). Every cell between eight voxel centres is cut into the
 // six tetrahedra that climb from its lowest corner to its highest, one axis after the other (Kuhn

@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "ridgeway/mapping/memory_limit.hpp"
+#include "memory_limit.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
 
 namespace ridgeway::detail {

@@ -7,14 +7,14 @@
 #include <string>
 #include <utility>
 
+#include "common/require.hpp"
 #include "depth_surfaces.hpp"
 #include "projective_integrator.hpp"
 #include "ray_integrator.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/require.hpp"
-#include "ridgeway/mapping/map_transform.hpp"
+#include "ridgeway/mapping/map_edits.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
-#include "ridgeway/mapping/voxel_range.hpp"
+#include "ridgeway/mapping/occupancy_map.hpp"
 #include "tsdf_blocks.hpp"
 
 namespace ridgeway {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/mapping/voxel_range.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <sstream>
 
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/mapping/occupancy_map.hpp"
 
 namespace ridgeway {
 namespace {

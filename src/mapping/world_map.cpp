@@ -4,10 +4,10 @@
 
 #include <vector>
 
+#include "memory_limit.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/mapping/memory_limit.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
-#include "ridgeway/mapping/voxel_range.hpp"
+#include "ridgeway/mapping/occupancy_map.hpp"
 
 namespace ridgeway {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "ridgeway/common/clock.hpp"
+#include "common/clock.hpp"
 
 namespace ridgeway::detail {
 

@@ -88,7 +88,7 @@ double largest_free_share(const MayBeFree& may_be_free, const IsWorthIt& is_wort
   return good;
 }
 
-/// The corners of a path pulled taut, round by round.
+/// The corners of a path pulled tight, round by round.
 class Tightening {
  public:
   Tightening(const FreeSpace& space, const std::vector<Point>& path, double radius,

@@ -8,7 +8,7 @@
 
 #include "deadline.hpp"
 #include "ridgeway/esdf/free_space.hpp"
-#include "ridgeway/voxel/polyline.hpp"
+#include "ridgeway/voxel/index.hpp"
 
 namespace ridgeway::detail {
 

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "files/atomic_file.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/files/atomic_file.hpp"
 
 namespace ridgeway {
 namespace {

@@ -24,13 +24,13 @@ void for_each_known(const EsdfMap& esdf, const Visit& visit) {
 }
 
 /// Extent of the known voxels in the lattice, and how many free ones there are at each height.
-struct Survey {
+struct KnownExtent {
   VoxelIndex min{INT_MAX, INT_MAX, INT_MAX}, max{INT_MIN, INT_MIN, INT_MIN};
   std::map<int, std::size_t> free_at_height;
 };
 
-Survey survey(const EsdfMap& esdf) {
-  Survey found;
+KnownExtent known_extent(const EsdfMap& esdf) {
+  KnownExtent found;
   std::array<std::size_t, kBlockSide> free_in_layer{};
   for (std::uint32_t slot = 0; slot < esdf.layout.block_count(); ++slot) {
     const VoxelState* state = esdf.state.block(slot);
@@ -54,7 +54,7 @@ Survey survey(const EsdfMap& esdf) {
 }
 
 /// Heights between which the middle three fifths of the free voxels lie.
-HeightBand middle_band(const Survey& found, double voxel_size) {
+HeightBand middle_band(const KnownExtent& found, double voxel_size) {
   if (found.free_at_height.empty()) {
     return {found.min.z * voxel_size, (found.max.z + 1) * voxel_size};
   }
@@ -73,7 +73,7 @@ HeightBand middle_band(const Survey& found, double voxel_size) {
 
 FloorRaster make_floor_raster(const EsdfMap& esdf, const std::optional<HeightBand>& band,
                               int most_cells) {
-  const Survey found = survey(esdf);
+  const KnownExtent found = known_extent(esdf);
   if (found.min.x > found.max.x) {
     throw InputError("map", "has no known voxels to draw", "build the map from other data");
   }

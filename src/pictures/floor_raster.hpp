@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "ridgeway/esdf/esdf_map.hpp"
+#include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/pictures/picture.hpp"
 
 namespace ridgeway {

@@ -11,7 +11,7 @@
 #include "map_layers.hpp"
 #include "picture_frame.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/voxel/polyline.hpp"
+#include "ridgeway/voxel/index.hpp"
 
 namespace ridgeway {
 namespace {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
+#include "scatter.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,7 +9,6 @@
 #include "canvas.hpp"
 #include "picture_frame.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/pictures/chart.hpp"
 
 namespace ridgeway {
 namespace {

@@ -30,7 +30,7 @@ class AnyAngleSearch {
         goal_(goal),
         target_(esdf.layout.index_of(goal)),
         radius_(radius),
-        threshold_(squared_threshold(radius, esdf.voxel_size)),
+        threshold_(least_clearance(radius, esdf.voxel_size)),
         blocks_(esdf.layout.block_count()),
         open_(distance_between(esdf.layout.index_of(start), target_)) {}
 
@@ -119,7 +119,8 @@ class AnyAngleSearch {
   const FreeSpace space_;
   const VoxelId start_, goal_;
   const VoxelIndex target_;
-  const double radius_, threshold_;
+  const double radius_;
+  const SquaredHalves threshold_;
   std::vector<std::unique_ptr<Block>> blocks_;
   OpenBuckets open_;
 };

@@ -98,10 +98,10 @@ std::optional<BlockedRoute> RouteBlocks::between(const Point& start, const Point
     return to_world(esdf_, centre_of(voxel, esdf_.voxel_size));
   };
   if (const std::optional<Pass> narrow = parts_.narrowest_move(ends.from, ends.to)) {
-    blocked.radius = 0.5 * esdf_.voxel_size * std::sqrt(narrow->level);
+    blocked.radius = narrow->clearance.metres(esdf_.voxel_size);
     VoxelId from = narrow->from, to = narrow->to;
     const VoxelId lower = esdf_.squared[from] <= esdf_.squared[to] ? from : to;
-    if (esdf_.squared[lower] <= narrow->level) from = to = lower;  // else it dips on the way
+    if (esdf_.squared[lower] <= narrow->clearance) from = to = lower;  // else it dips on the way
     const std::array<Point, 2> move{place_of(esdf_.layout.index_of(from)),
                                     place_of(esdf_.layout.index_of(to))};
     blocked.place = 0.5 * (move[0] + move[1]);

@@ -40,7 +40,7 @@ std::vector<Query> draw_queries(const Roadmap& roadmap, const CheckConfig& confi
     for (std::size_t k = 0; k < places.size(); ++k) {
       const double radius = kRadiusFactors[k] * roadmap.min_clearance;
       if ((k == 0 || radius <= largest) &&
-          esdf.squared[id] >= squared_threshold(radius, esdf.voxel_size))
+          esdf.squared[id] >= least_clearance(radius, esdf.voxel_size))
         places[k].push_back(id);
     }
   }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ridgeway/voxel/polyline.hpp"
+#include "ridgeway/voxel/index.hpp"
 
 namespace ridgeway::detail {
 namespace {

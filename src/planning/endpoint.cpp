@@ -23,7 +23,7 @@ Endpoint find_endpoint(const EsdfMap& esdf, const Point& point, double radius) {
   const FreeSpace space(esdf);
   if (!space.is_free(point, radius)) return {EndpointStatus::kInCollision, kNoVoxel};
 
-  const double threshold = squared_threshold(radius, esdf.voxel_size);
+  const SquaredHalves threshold = least_clearance(radius, esdf.voxel_size);
   const auto joins = [&](VoxelId id) {
     return id != kNoVoxel && esdf.state[id] == VoxelState::kFree && esdf.squared[id] >= threshold &&
            space.is_free(point, centre_of(esdf.layout.index_of(id), esdf.voxel_size), radius);

@@ -30,7 +30,7 @@ class PlacesAround {
         finder_(esdf.layout),
         box_(esdf.layout),
         point_(point / esdf.voxel_size),
-        threshold_(squared_threshold(radius, esdf.voxel_size)),
+        threshold_(least_clearance(radius, esdf.voxel_size)),
         farthest_(kFarthest * radius / esdf.voxel_size) {
     open_roots();
   }
@@ -84,23 +84,25 @@ class PlacesAround {
     const int half = side / 2;
     const VoxelId middle = finder_.find({low.x + half, low.y + half, low.z + half});
     if (middle == kNoVoxel)
-      return side > kBlockSide && (esdf_.unknown == UnknownPolicy::kIgnore || reaches(0.0, half));
+      return side > kBlockSide &&
+             (esdf_.unknown == UnknownPolicy::kIgnore || reaches(SquaredHalves(), half));
     if (side == 1 && esdf_.state[middle] != VoxelState::kFree) return false;
     return esdf_.squared[middle] == kNoSite || reaches(esdf_.squared[middle], half);
   }
 
   /// Whether a voxel of a cube may be free whose middle is at a squared distance.
-  bool reaches(double squared, int half) const {
+  bool reaches(SquaredHalves squared, int half) const {
     if (half == 0) return squared >= threshold_;
-    const double most = 0.5 * std::sqrt(squared) + std::numbers::sqrt3 * half;
-    return most * (1.0 + kSlack) >= 0.5 * std::sqrt(threshold_);
+    const double most = 0.5 * std::sqrt(squared.value) + std::numbers::sqrt3 * half;
+    return most * (1.0 + kSlack) >= 0.5 * std::sqrt(threshold_.value);
   }
 
   const EsdfMap& esdf_;
   VoxelFinder finder_;
   const LayoutBox box_;
   const Eigen::Vector3d point_;  // voxels
-  const double threshold_, farthest_;
+  const SquaredHalves threshold_;
+  const double farthest_;
   std::priority_queue<Cube> open_;
   int looks_ = 0;
 };

@@ -63,7 +63,7 @@ std::vector<VoxelId> trace_back(const BlockLayout& layout, SearchMemory& memory,
 
 LatticePath search_lattice(const EsdfMap& esdf, VoxelId start, VoxelId goal, double radius,
                            const LatticeOptions& options, const Deadline& deadline) {
-  const double threshold = squared_threshold(radius, esdf.voxel_size);
+  const SquaredHalves threshold = least_clearance(radius, esdf.voxel_size);
   const FreeSpace space(esdf);
   const VoxelIndex target = esdf.layout.index_of(goal);
   SearchMemory memory(esdf.layout.block_count());

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "paths/deadline.hpp"
-#include "ridgeway/esdf/esdf_map.hpp"
+#include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
 
 namespace ridgeway::detail {

@@ -8,17 +8,17 @@
 #include <string>
 #include <utility>
 
+#include "common/name_table.hpp"
+#include "common/number_text.hpp"
 #include "endpoint.hpp"
 #include "escape.hpp"
 #include "paths/deadline.hpp"
 #include "paths/shorten.hpp"
 #include "query.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/name_table.hpp"
-#include "ridgeway/common/number_text.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "route.hpp"
-#include "taut_path.hpp"
+#include "tangent_path.hpp"
 #include "tightest.hpp"
 
 namespace ridgeway {
@@ -112,19 +112,19 @@ PlanResult plan_between(const Roadmap& roadmap, const Point& start, const Point&
     return finish(PlanStatus::kOk);
   }
   const detail::RouteQuery query{ends.from, ends.to, start, goal, radius, config.prefer_clearance};
-  const bool may_ask_taut = config.shorten && config.planner == Planner::kGraph &&
-                            radius <= roadmap.taut.graph.min_clearance * (1.0 + 1e-9);
-  detail::TautPath taut;
-  if (may_ask_taut)
-    taut = detail::plan_taut(roadmap.taut, esdf, space, query,
-                             config.quick && config.prefer_clearance == 0.0, deadline);
-  result.seconds.search = taut.search_seconds;
-  result.seconds.shorten = taut.shorten_seconds;
-  if (taut.will_do && config.prefer_clearance == 0.0) {
-    result.waypoints = std::move(taut.waypoints);
-    detail::describe(space, taut.known, result);
+  const bool may_ask_tangents = config.shorten && config.planner == Planner::kGraph &&
+                                radius <= roadmap.tangents.graph.min_clearance * (1.0 + 1e-9);
+  detail::TangentPath tangents;
+  if (may_ask_tangents)
+    tangents = detail::plan_tangents(roadmap.tangents, esdf, space, query,
+                                     config.quick && config.prefer_clearance == 0.0, deadline);
+  result.seconds.search = tangents.search_seconds;
+  result.seconds.shorten = tangents.shorten_seconds;
+  if (tangents.will_do && config.prefer_clearance == 0.0) {
+    result.waypoints = std::move(tangents.waypoints);
+    detail::describe(space, tangents.known, result);
     if (detail::is_verified(esdf, space, result, radius)) return finish(PlanStatus::kOk);
-    taut.waypoints.clear();  // of no more use
+    tangents.waypoints.clear();  // of no more use
   }
   detail::RouteResult found = detail::find_route(roadmap, query, config.planner, deadline);
   result.seconds.attach = found.attach_seconds;
@@ -138,7 +138,7 @@ PlanResult plan_between(const Roadmap& roadmap, const Point& start, const Point&
     result.waypoints = {start, goal};
   } else {
     result.waypoints = config.shorten ? detail::tightest(roadmap, space, found, query,
-                                                         std::move(taut.waypoints), deadline)
+                                                         std::move(tangents.waypoints), deadline)
                                       : found.route;
   }
   result.seconds.shorten += seconds_now() - shortening;

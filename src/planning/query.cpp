@@ -7,10 +7,10 @@
 #include <limits>
 #include <span>
 
+#include "common/number_text.hpp"
 #include "endpoint.hpp"
 #include "paths/shorten.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
 
 namespace ridgeway::detail {
 namespace {

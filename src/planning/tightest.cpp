@@ -31,7 +31,7 @@ constexpr double kLatticeExcess = 1.05;   // by which a lattice path shrinks whe
 /// The nearest voxel with even coordinates that a point can move to.
 VoxelId even_voxel(const EsdfMap& esdf, const FreeSpace& space, const Point& p, double radius) {
   const VoxelIndex v = voxel_at(p, esdf.voxel_size);
-  const double threshold = squared_threshold(radius, esdf.voxel_size);
+  const SquaredHalves threshold = least_clearance(radius, esdf.voxel_size);
   for (int i = 0; i < 8; ++i) {
     const auto even = [&](int at, int bit) { return (at & ~1) + 2 * (at & 1 & (i >> bit)); };
     const VoxelIndex near{even(v.x, 0), even(v.y, 1), even(v.z, 2)};
@@ -77,7 +77,7 @@ Route redirect_tight(const EsdfMap& esdf, const FreeSpace& space, const Route& p
 Route ask_again(const Roadmap& roadmap, const FreeSpace& space, Route best, double radius,
                 double as_found, const Deadline& deadline) {
   const EsdfMap& esdf = roadmap.esdf;
-  const bool knows_corners = !roadmap.taut.empty();
+  const bool knows_corners = !roadmap.tangents.empty();
   const double expected =
       (knows_corners ? kUnexpected : kSuspicious) * (best.back() - best.front()).norm();
   for (const int stride : std::span(kStrides).first(knows_corners ? 1 : 2)) {

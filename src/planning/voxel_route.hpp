@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "ridgeway/esdf/esdf_map.hpp"
+#include "ridgeway/esdf/esdf.hpp"
 #include "route.hpp"
 
 namespace ridgeway::detail {

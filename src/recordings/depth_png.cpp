@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/recordings/depth_png.hpp"
+#include "depth_png.hpp"
 
 #include <png.h>
 
@@ -11,10 +11,10 @@
 #include <string>
 #include <string_view>
 
+#include "files/atomic_file.hpp"
+#include "files/read_file.hpp"
+#include "mapping/memory_limit.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/files/atomic_file.hpp"
-#include "ridgeway/files/read_file.hpp"
-#include "ridgeway/mapping/memory_limit.hpp"
 
 namespace ridgeway {
 namespace {

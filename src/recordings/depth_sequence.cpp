@@ -9,9 +9,9 @@
 #include <tuple>
 
 #include "depth_layouts.hpp"
+#include "depth_png.hpp"
 #include "pose_text.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/recordings/depth_png.hpp"
 
 namespace ridgeway {
 namespace {

@@ -3,12 +3,12 @@
 #include <sstream>
 #include <system_error>
 
+#include "common/number_text.hpp"
 #include "depth_layouts.hpp"
+#include "depth_png.hpp"
+#include "files/atomic_file.hpp"
 #include "files/file_error.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
-#include "ridgeway/files/atomic_file.hpp"
-#include "ridgeway/recordings/depth_png.hpp"
 #include "ridgeway/recordings/depth_sequence.hpp"
 
 namespace ridgeway {

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <system_error>
 
+#include "common/number_text.hpp"
+#include "files/read_file.hpp"
 #include "files/text.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
-#include "ridgeway/files/read_file.hpp"
 
 namespace ridgeway {
 namespace {

@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "files/read_file.hpp"
+#include "formats/pcd.hpp"
+#include "formats/ply_cloud.hpp"
+#include "formats/xyz.hpp"
 #include "pose_text.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/files/read_file.hpp"
-#include "ridgeway/formats/pcd.hpp"
-#include "ridgeway/formats/ply_cloud.hpp"
-#include "ridgeway/formats/xyz.hpp"
 
 namespace ridgeway {
 namespace {

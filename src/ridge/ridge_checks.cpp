@@ -203,20 +203,20 @@ Defect find_size_defect(const Roadmap& roadmap) {
       tree.place.size() != vertices) {
     return RoadmapDefect{"tree", "does not fit the number of vertices"};
   }
-  const TautGraph& taut = roadmap.taut;
-  if (taut.graph.vertices.size() > TautGraph::kMostCorners) {
+  const TangentGraph& tangents = roadmap.tangents;
+  if (tangents.graph.vertices.size() > TangentGraph::kMostCorners) {
     return RoadmapDefect{"corners", "has more of them than are learnt"};
   }
-  if (taut.graph.edges.size() > kMostEdgesPerVertex * taut.graph.vertices.size())
+  if (tangents.graph.edges.size() > kMostEdgesPerVertex * tangents.graph.vertices.size())
     return RoadmapDefect{"taut_edges", "has more of them than the corners can have"};
-  for (std::size_t cell = 1; cell < taut.first_seen.size(); ++cell)
-    if (taut.first_seen[cell] - taut.first_seen[cell - 1] > TautGraph::kMostSeen)
+  for (std::size_t cell = 1; cell < tangents.first_seen.size(); ++cell)
+    if (tangents.first_seen[cell] - tangents.first_seen[cell - 1] > TangentGraph::kMostSeen)
       return RoadmapDefect{"cells", "counts more corners than are listed"};
-  const bool has_cells = !taut.empty();
-  if (has_cells == taut.graph.vertices.empty() ||
-      (has_cells &&
-       (taut.cell_of_block.size() != blocks || taut.first_seen.back() != taut.seen.size() ||
-        taut.first_seen.size() != number_cells(esdf.layout).count + 1u))) {
+  const bool has_cells = !tangents.empty();
+  if (has_cells == tangents.graph.vertices.empty() ||
+      (has_cells && (tangents.cell_of_block.size() != blocks ||
+                     tangents.first_seen.back() != tangents.seen.size() ||
+                     tangents.first_seen.size() != number_cells(esdf.layout).count + 1u))) {
     return RoadmapDefect{"cells", "does not fit the blocks, or the corners"};
   }
   return {};
@@ -228,10 +228,11 @@ Defect find_graph_defect(const Roadmap& roadmap) {
 }
 
 Defect find_taut_defect(const Roadmap& roadmap) {
-  const TautGraph& taut = roadmap.taut;
-  if (Defect defect = find_defect(roadmap, taut.graph, {"corners", "taut_edges"})) return defect;
-  for (const VertexId v : taut.seen)
-    if (number(v) >= taut.graph.vertices.size())
+  const TangentGraph& tangents = roadmap.tangents;
+  if (Defect defect = find_defect(roadmap, tangents.graph, {"corners", "taut_edges"}))
+    return defect;
+  for (const VertexId v : tangents.seen)
+    if (number(v) >= tangents.graph.vertices.size())
       return RoadmapDefect{"seen", "has a corner that does not exist"};
   return {};
 }

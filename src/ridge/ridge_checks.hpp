@@ -22,7 +22,7 @@ std::optional<RoadmapDefect> find_size_defect(const Roadmap& roadmap);
 /// narrowest place in no allocated block, a clearance tree that goes in circles, a way of the
 /// attach field that leaves traversable space or never ends. The links need not be there yet.
 std::optional<RoadmapDefect> find_graph_defect(const Roadmap& roadmap);
-/// The same of the taut graph.
+/// The same of the tangent graph.
 std::optional<RoadmapDefect> find_taut_defect(const Roadmap& roadmap);
 std::optional<RoadmapDefect> find_attach_defect(const Roadmap& roadmap);
 

@@ -53,11 +53,11 @@ Roadmap load_roadmap(const std::filesystem::path& path) {
   if (defect) reader.damaged(defect->part, defect->what);
   index_links(roadmap.graph);
   roadmap.landmarks = place_landmarks(roadmap.graph);
-  if (TautGraph& taut = roadmap.taut; !taut.graph.vertices.empty()) {
-    index_links(taut.graph);
-    auto hubs = detail::label_hubs_within(taut.graph);
+  if (TangentGraph& tangents = roadmap.tangents; !tangents.graph.vertices.empty()) {
+    index_links(tangents.graph);
+    auto hubs = detail::label_hubs_within(tangents.graph);
     if (!hubs) reader.damaged("taut_edges", "has too many shortest ways");
-    taut.hubs = *std::move(hubs);
+    tangents.hubs = *std::move(hubs);
   }
   return roadmap;
 }

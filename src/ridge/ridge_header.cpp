@@ -44,7 +44,7 @@ UnknownPolicy parse_policy(const std::string& name) {
 void check_counts(const RidgeHeader& header) {
   const double voxels = static_cast<double>(header.blocks) * kBlockVoxels;
   if (header.vertices > voxels) throw std::out_of_range("there are more vertices than voxels");
-  if (header.corners > std::min<double>(voxels, TautGraph::kMostCorners))
+  if (header.corners > std::min<double>(voxels, TangentGraph::kMostCorners))
     throw std::out_of_range("there are more corners than are learnt");
   if (header.edges > kMostEdgesPerVertex * header.vertices ||
       header.taut_edges > kMostEdgesPerVertex * header.corners)
@@ -94,8 +94,8 @@ RidgeHeader header_of(const Roadmap& roadmap) {
           roadmap.esdf.layout.block_count(),
           static_cast<std::uint32_t>(roadmap.graph.vertices.size()),
           static_cast<std::uint32_t>(roadmap.graph.edges.size()),
-          static_cast<std::uint32_t>(roadmap.taut.graph.vertices.size()),
-          static_cast<std::uint32_t>(roadmap.taut.graph.edges.size())};
+          static_cast<std::uint32_t>(roadmap.tangents.graph.vertices.size()),
+          static_cast<std::uint32_t>(roadmap.tangents.graph.edges.size())};
 }
 
 std::string header_text(const RidgeHeader& header) {

@@ -27,7 +27,7 @@ struct RidgeHeader {
   std::uint32_t blocks = 0;
   std::uint32_t vertices = 0;
   std::uint32_t edges = 0;
-  std::uint32_t corners = 0;  ///< of the taut graph, and its edges
+  std::uint32_t corners = 0;  ///< of the tangent graph, and its edges
   std::uint32_t taut_edges = 0;
 };
 

@@ -89,16 +89,16 @@ std::vector<std::byte> tree_bytes(const ClearanceTree& tree) {
   return bytes;
 }
 
-std::vector<std::byte> cell_bytes(const TautGraph& taut) {
+std::vector<std::byte> cell_bytes(const TangentGraph& tangents) {
   std::vector<std::byte> bytes;
-  for (std::size_t cell = 1; cell < taut.first_seen.size(); ++cell)
-    append_number(bytes, taut.first_seen[cell] - taut.first_seen[cell - 1]);
+  for (std::size_t cell = 1; cell < tangents.first_seen.size(); ++cell)
+    append_number(bytes, tangents.first_seen[cell] - tangents.first_seen[cell - 1]);
   return bytes;
 }
 
-std::vector<std::byte> seen_bytes(const TautGraph& taut) {
+std::vector<std::byte> seen_bytes(const TangentGraph& tangents) {
   std::vector<std::byte> bytes;
-  append_plane(bytes, taut.seen, [](VertexId v) { return static_cast<std::uint32_t>(v); });
+  append_plane(bytes, tangents.seen, [](VertexId v) { return static_cast<std::uint32_t>(v); });
   return bytes;
 }
 
@@ -125,27 +125,28 @@ void load_edges(const RidgeReader& reader, const char* name, std::uint32_t count
   edges.take<double>([&](std::size_t i, double c) { graph.edges[i].clearance = c; });
 }
 
-/// Files of before there was a taut graph have none.
-void load_taut(const RidgeReader& reader, const RidgeHeader& header, const BlockLayout& layout,
-               TautGraph& taut) {
+/// Files of before there was a tangent graph have none.
+void load_tangents(const RidgeReader& reader, const RidgeHeader& header, const BlockLayout& layout,
+                   TangentGraph& tangents) {
   if (header.corners == 0) return;
-  taut.graph.min_clearance = header.min_clearance;
-  load_vertices(reader, "corners", header, header.corners, taut.graph);
-  load_edges(reader, "taut_edges", header.taut_edges, taut.graph);
+  tangents.graph.min_clearance = header.min_clearance;
+  load_vertices(reader, "corners", header, header.corners, tangents.graph);
+  load_edges(reader, "taut_edges", header.taut_edges, tangents.graph);
   BlockCells cells = number_cells(layout);
-  taut.cell_of_block = std::move(cells.cell_of_block);
-  taut.first_seen.push_back(0);
+  tangents.cell_of_block = std::move(cells.cell_of_block);
+  tangents.first_seen.push_back(0);
   std::uint64_t seen = 0;
   Planes counts(reader, "cells", kNumbersType, cells.count, kNumberBytes);
   counts.take<std::uint32_t>([&](std::size_t, std::uint32_t count) {
-    if (count > std::min<std::size_t>(TautGraph::kMostSeen, header.corners))
+    if (count > std::min<std::size_t>(TangentGraph::kMostSeen, header.corners))
       reader.damaged("cells", "counts more corners than are listed");
     seen += count;
-    taut.first_seen.push_back(static_cast<std::uint32_t>(seen));
+    tangents.first_seen.push_back(static_cast<std::uint32_t>(seen));
   });
   Planes corners(reader, "seen", kNumbersType, seen, kNumberBytes);
-  taut.seen.resize(seen);
-  corners.take<std::uint32_t>([&](std::size_t i, std::uint32_t v) { taut.seen[i] = VertexId{v}; });
+  tangents.seen.resize(seen);
+  corners.take<std::uint32_t>(
+      [&](std::size_t i, std::uint32_t v) { tangents.seen[i] = VertexId{v}; });
 }
 
 }  // namespace
@@ -159,10 +160,10 @@ std::vector<RidgeSectionSource> list_sections(const Roadmap& roadmap) {
           plain_section("vertices", kVerticesType, vertex_bytes(roadmap.graph)),
           plain_section("edges", kEdgesType, edge_bytes(roadmap.graph)),
           plain_section("tree", kTreeType, tree_bytes(roadmap.tree)),
-          plain_section("corners", kVerticesType, vertex_bytes(roadmap.taut.graph)),
-          plain_section("taut_edges", kEdgesType, edge_bytes(roadmap.taut.graph)),
-          plain_section("cells", kNumbersType, cell_bytes(roadmap.taut)),
-          plain_section("seen", kNumbersType, seen_bytes(roadmap.taut))};
+          plain_section("corners", kVerticesType, vertex_bytes(roadmap.tangents.graph)),
+          plain_section("taut_edges", kEdgesType, edge_bytes(roadmap.tangents.graph)),
+          plain_section("cells", kNumbersType, cell_bytes(roadmap.tangents)),
+          plain_section("seen", kNumbersType, seen_bytes(roadmap.tangents))};
 }
 
 BlockLayout load_blocks(const RidgeReader& reader, std::uint32_t count) {
@@ -188,7 +189,7 @@ BlockLayout load_blocks(const RidgeReader& reader, std::uint32_t count) {
 void load_graph(const RidgeReader& reader, const RidgeHeader& header, Roadmap& roadmap) {
   load_vertices(reader, "vertices", header, header.vertices, roadmap.graph);
   load_edges(reader, "edges", header.edges, roadmap.graph);
-  load_taut(reader, header, roadmap.esdf.layout, roadmap.taut);
+  load_tangents(reader, header, roadmap.esdf.layout, roadmap.tangents);
 
   ClearanceTree& tree = roadmap.tree;
   Planes nodes(reader, "tree", kTreeType, header.vertices, kTreeBytes);

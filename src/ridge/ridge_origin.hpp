@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "ridgeway/mapping/voxel_range.hpp"
+#include "ridgeway/mapping/occupancy_map.hpp"
 
 namespace ridgeway {
 

@@ -33,12 +33,12 @@ void check_memory(const RidgeReader& reader, const RidgeHeader& header);
 /// Fills esdf (the layout must stand), diagram and attach.
 void load_voxels(const RidgeReader& reader, const RidgeHeader& header, Roadmap& roadmap);
 
-/// Sections blocks, vertices, edges, tree, and those of the taut graph: corners, taut_edges, cells
-/// (how many corners are seen from each) and seen (which).
+/// Sections blocks, vertices, edges, tree, and those of the tangent graph: corners, taut_edges,
+/// cells (how many corners are seen from each) and seen (which).
 std::vector<RidgeSectionSource> list_sections(const Roadmap& roadmap);
 RidgeSectionSource blocks_section(const BlockLayout& layout);
 BlockLayout load_blocks(const RidgeReader& reader, std::uint32_t count);
-/// Fills graph (without links), tree and taut graph; the layout must stand.
+/// Fills graph (without links), tree and tangent graph; the layout must stand.
 void load_graph(const RidgeReader& reader, const RidgeHeader& header, Roadmap& roadmap);
 
 }  // namespace ridgeway

@@ -7,9 +7,9 @@
 #include <bit>
 #include <cstring>
 
+#include "mapping/memory_limit.hpp"
 #include "ridge_sections.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/mapping/memory_limit.hpp"
 #include "site_codec.hpp"
 #include "voxel_chunks.hpp"
 
@@ -46,7 +46,10 @@ void load_plane(const std::byte* raw, bool narrow, BlockPlane& plane) {
 bool decode_states(const std::byte* raw, EsdfMap& esdf, std::uint32_t slot, BlockPlane& live) {
   std::array<std::uint8_t, kBlockVoxels> obstacle;
   VoxelState* state = esdf.state.block(slot);
-  const unsigned obstacles = 1u << 2 | (esdf.unknown == UnknownPolicy::kObstacle ? 1u << 0 : 0);
+  unsigned obstacles = 0;  // by state
+  for (const VoxelState kind : {VoxelState::kUnknown, VoxelState::kFree, VoxelState::kOccupied})
+    obstacles |= static_cast<unsigned>(is_obstacle(kind, esdf.unknown))
+                 << static_cast<unsigned>(kind);
   unsigned bad = 0;
   for (std::size_t i = 0; i < kBlockVoxels; ++i) {
     const auto byte = static_cast<unsigned>(raw[i]);

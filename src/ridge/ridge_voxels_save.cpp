@@ -25,9 +25,9 @@ void fill_states(const EsdfMap& esdf, const BlockRange& range, std::vector<std::
 /// A distance that is not that of its site would come back as another one: refused.
 void check_voxel(const EsdfMap& esdf, VoxelId id, bool obstacle) {
   const std::uint32_t squared = esdf.squared[id];
-  const bool matches =
-      squared == kNoSite ? !obstacle && esdf.site[id] == SiteOffset{}
-                         : squared == quarter_squared(esdf.site[id]) && obstacle == (squared == 0);
+  const bool matches = squared == kNoSite
+                           ? !obstacle && esdf.site[id] == SiteOffset{}
+                           : squared == squared_halves(esdf.site[id]) && obstacle == (squared == 0);
   if (!matches || obstacle != esdf.obstacle.test(id) ||
       (obstacle && esdf.site[id] != SiteOffset{})) {
     const VoxelIndex v = esdf.layout.index_of(id);
@@ -41,7 +41,7 @@ void check_voxel(const EsdfMap& esdf, VoxelId id, bool obstacle) {
 void gather_sites(const EsdfMap& esdf, std::uint32_t slot, SitePlanes& sites, BlockPlane& live) {
   for (std::uint32_t i = 0; i < kBlockVoxels; ++i) {
     const VoxelId id = slot * kBlockVoxels + i;
-    const bool obstacle = is_solid(esdf.state[id], esdf.unknown);
+    const bool obstacle = is_obstacle(esdf.state[id], esdf.unknown);
     check_voxel(esdf, id, obstacle);
     live[i] = !obstacle && esdf.squared[id] != kNoSite ? -1 : 0;
     sites.x[i] = esdf.site[id].x;

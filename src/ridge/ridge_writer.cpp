@@ -6,11 +6,11 @@
 #include <stdexcept>
 
 #include "crc32c.hpp"
+#include "files/atomic_file.hpp"
 #include "files/little_endian.hpp"
 #include "ridge_container.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/files/atomic_file.hpp"
 
 namespace ridgeway {
 namespace {

@@ -15,7 +15,7 @@ namespace {
 constexpr int kNone = 1 << 30;
 
 /// How much 4 d^2 / s^2 grows by when an offset grows by one along an axis: the difference of
-/// quarter_squared(k + 1) and quarter_squared(k). No branches: loops over it become vector code.
+/// squared_halves(k + 1) and squared_halves(k). No branches: loops over it become vector code.
 constexpr int growth(int k) {
   return 8 * (k > 0 ? k : 0) + 8 * (k < -1 ? k + 1 : 0) + (k == 0) - (k == -1);
 }
@@ -77,7 +77,7 @@ class SiteChecks {
   static int longest_distance(const EsdfMap& esdf) {
     const double reach =
         std::min(esdf.max_distance / esdf.voxel_size, static_cast<double>(kFarthestSite));
-    return static_cast<int>(squared_threshold(reach, 1.0) * (1.0 + 4e-9));
+    return static_cast<int>(least_clearance(reach, 1.0).value * (1.0 + 4e-9));
   }
 
   /// Whether a voxel at one distance may stand beside one at another, whose site is one more voxel

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "ridgeway/esdf/esdf_map.hpp"
+#include "ridgeway/esdf/esdf.hpp"
 
 namespace ridgeway {
 

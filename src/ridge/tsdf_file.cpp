@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/ridge/tsdf_file.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "files/little_endian.hpp"
+#include "mapping/memory_limit.hpp"
 #include "ridge_container.hpp"
 #include "ridge_origin.hpp"
 #include "ridge_sections.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/mapping/memory_limit.hpp"
+#include "ridgeway/ridge/ridge_file.hpp"
 
 namespace ridgeway {
 namespace {

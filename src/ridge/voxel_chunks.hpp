@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "ridgeway/esdf/esdf_map.hpp"
+#include "ridgeway/esdf/esdf.hpp"
 
 namespace ridgeway {
 
@@ -27,12 +27,6 @@ inline BlockRange blocks_of_chunk(std::size_t chunk, std::uint32_t block_count) 
 
 inline std::size_t chunks_for(std::uint32_t block_count) {
   return (block_count + kBlocksPerChunk - 1) / kBlocksPerChunk;
-}
-
-/// Whether voxels of a state are obstacles.
-inline bool is_solid(VoxelState state, UnknownPolicy unknown) {
-  return state == VoxelState::kOccupied ||
-         (state == VoxelState::kUnknown && unknown == UnknownPolicy::kObstacle);
 }
 
 }  // namespace ridgeway

@@ -21,12 +21,12 @@ VertexId vertex_at(const SparseGraph& graph, const VoxelIndex& voxel) {
 
 AttachWay follow_attach(const Roadmap& roadmap, VoxelId from, double radius) {
   const EsdfMap& esdf = roadmap.esdf;
-  const double threshold = squared_threshold(radius, esdf.voxel_size);
+  const SquaredHalves threshold = least_clearance(radius, esdf.voxel_size);
   const FreeSpace space(esdf);
   AttachWay way;
-  double narrowest = std::numeric_limits<double>::infinity();
+  SquaredHalves narrowest(std::numeric_limits<double>::infinity());
   const auto stop = [&] {
-    way.clearance = 0.5 * esdf.voxel_size * std::sqrt(narrowest);
+    way.clearance = narrowest.metres(esdf.voxel_size);
     return way;
   };
   for (VoxelId id = from;;) {
@@ -43,7 +43,7 @@ AttachWay follow_attach(const Roadmap& roadmap, VoxelId from, double radius) {
     // Ways lead away from obstacles: mostly the first moves are the narrowest.
     if (FreeSpace::move_bound(esdf.squared[id], esdf.squared[to], squared_length(next)) <
         narrowest) {
-      const double clearance = space.move_clearance(id, to, next);
+      const SquaredHalves clearance = space.move_clearance(id, to, next);
       if (clearance < threshold) return stop();
       narrowest = std::min(narrowest, clearance);
     }

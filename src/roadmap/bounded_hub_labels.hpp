@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "ridgeway/roadmap/hub_labels.hpp"
+#include "ridgeway/roadmap/tangent_graph.hpp"
 
 namespace ridgeway::detail {
 

@@ -6,9 +6,9 @@
 #include <cassert>
 #include <cmath>
 
+#include "common/require.hpp"
 #include "diagram_curves.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/common/require.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "segment_fitting.hpp"
 #include "vertex_selection.hpp"

@@ -6,19 +6,16 @@
 #include <numbers>
 #include <string>
 
-#include "ridgeway/common/clock.hpp"
+#include "common/clock.hpp"
+#include "common/number_text.hpp"
+#include "common/require.hpp"
+#include "mapping/memory_limit.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
-#include "ridgeway/common/require.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/mapping/map_edits.hpp"
-#include "ridgeway/mapping/memory_limit.hpp"
 #include "ridgeway/roadmap/build_graph.hpp"
-#include "ridgeway/roadmap/simplify_graph.hpp"
 #include "ridgeway/skeleton/diagram.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
-#include "ridgeway/skeleton/kernel.hpp"
-#include "ridgeway/skeleton/thinning.hpp"
 
 namespace ridgeway {
 namespace {
@@ -61,7 +58,7 @@ SimplifyConfig simplification_of(const BuildConfig& config) {
   return {.significance = config.significance};
 }
 
-TautConfig corners_of(const BuildConfig& config) { return {.most_pairs = config.taut_pairs}; }
+TangentConfig corners_of(const BuildConfig& config) { return {.most_pairs = config.tangent_pairs}; }
 
 }  // namespace
 
@@ -155,12 +152,13 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
   report.diagram_voxels = roadmap.diagram.voxels.count();
   clock.end(report.seconds.attach);
 
-  clock.begin("taut");
-  roadmap.taut = build_taut_graph(roadmap, corners_of(config));
-  clock.end(report.seconds.taut);
+  clock.begin("tangents");
+  roadmap.tangents = build_tangent_graph(roadmap, corners_of(config));
+  clock.end(report.seconds.tangents);
 
   const BuildSeconds& s = report.seconds;
-  report.seconds.total = s.esdf + s.gvd + s.edges + s.thin + s.kernel + s.graph + s.attach + s.taut;
+  report.seconds.total =
+      s.esdf + s.gvd + s.edges + s.thin + s.kernel + s.graph + s.attach + s.tangents;
   if (progress && !progress("done", 1.0)) throw Cancelled();
   return result;
 }

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "ridgeway/roadmap/build_graph.hpp"
-#include "ridgeway/voxel/disjoint_sets.hpp"
+#include "voxel/disjoint_sets.hpp"
 
 namespace ridgeway {
 namespace {
@@ -40,17 +40,17 @@ class TreeBuilder {
       return esdf_.squared[voxels_[a]] > esdf_.squared[voxels_[b]];
     });
     std::size_t pass = 0;
-    const auto sink_to = [&](double level) {
-      for (; pass < basins_.passes.size() && basins_.passes[pass].level > level; ++pass)
+    const auto sink_to = [&](SquaredHalves level) {
+      for (; pass < basins_.passes.size() && basins_.passes[pass].clearance > level; ++pass)
         meet(basins_.passes[pass]);
     };
     for (const std::uint32_t v : order) {
-      const double level = esdf_.squared[voxels_[v]];
+      const SquaredHalves level = esdf_.squared[voxels_[v]];
       sink_to(level);
       std::uint32_t& root = root_[regions_.find(basins_.basin[voxels_[v]])];
       root = root == kNone ? v : link(root, v, level, voxels_[v]);
     }
-    sink_to(0.0);
+    sink_to(SquaredHalves());
     return std::move(tree_);
   }
 
@@ -63,14 +63,14 @@ class TreeBuilder {
     const VoxelId narrow = esdf_.squared[pass.from] <= esdf_.squared[pass.to] ? pass.from : pass.to;
     const std::uint32_t root = ra == kNone   ? rb
                                : rb == kNone ? ra
-                                             : link(ra, rb, pass.level, narrow);
+                                             : link(ra, rb, pass.clearance, narrow);
     root_[regions_.join(a, b)] = root;
   }
 
-  std::uint32_t link(std::uint32_t a, std::uint32_t b, double level, VoxelId place) {
+  std::uint32_t link(std::uint32_t a, std::uint32_t b, SquaredHalves level, VoxelId place) {
     if (size_[a] < size_[b]) std::swap(a, b);
     tree_.parent[b] = VertexId{a};
-    tree_.clearance[b] = 0.5 * esdf_.voxel_size * std::sqrt(level);
+    tree_.clearance[b] = level.metres(esdf_.voxel_size);
     tree_.place[b] = esdf_.layout.index_of(place);
     size_[a] += size_[b];
     return a;

@@ -8,7 +8,7 @@
 
 #include "ridgeway/skeleton/basins.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
-#include "ridgeway/voxel/disjoint_sets.hpp"
+#include "voxel/disjoint_sets.hpp"
 
 namespace ridgeway {
 namespace {
@@ -24,8 +24,8 @@ class SinkingLevel {
   std::uint32_t set_of(VoxelId id) { return sets_.find(basins_.basin[id]); }
 
   /// Joins over all passes at or above a level.
-  void sink_to(double level) {
-    for (; next_ < basins_.passes.size() && basins_.passes[next_].level >= level; ++next_)
+  void sink_to(SquaredHalves level) {
+    for (; next_ < basins_.passes.size() && basins_.passes[next_].clearance >= level; ++next_)
       sets_.join(set_of(basins_.passes[next_].from), set_of(basins_.passes[next_].to));
   }
   const Pass* next_pass() const {
@@ -81,7 +81,7 @@ SpaceParts::SpaceParts(const EsdfMap& esdf)
 
 ComponentReport SpaceParts::report(double radius, const std::vector<VoxelId>& asked) const {
   SinkingLevel level(basins_);
-  level.sink_to(squared_threshold(radius, esdf_.voxel_size));
+  level.sink_to(least_clearance(radius, esdf_.voxel_size));
   std::vector<std::size_t> component_of(basins_.peaks.size(), kNone);  // by set
   ComponentReport report;
   report.components =
@@ -94,7 +94,7 @@ ComponentReport SpaceParts::report(double radius, const std::vector<VoxelId>& as
         esdf_.squared[pass->from] <= esdf_.squared[pass->to] ? pass->from : pass->to;
     if (a != kNone && b != kNone && a != b)
       report.joins.push_back({std::min(a, b), std::max(a, b),
-                              0.5 * esdf_.voxel_size * std::sqrt(pass->level),
+                              pass->clearance.metres(esdf_.voxel_size),
                               centre_in_world(esdf_, narrow)});
     component_of[level.join_next()] = std::min(a, b);  // kNone is the largest
   }
@@ -105,13 +105,13 @@ std::optional<Pass> SpaceParts::narrowest_move(VoxelId a, VoxelId b) const {
   if (a == b) return std::nullopt;
   // Each voxel climbs to its peak without a dip, so its own place is the narrowest up there.
   const VoxelId lower = esdf_.squared[a] <= esdf_.squared[b] ? a : b;
-  const Pass own{static_cast<double>(esdf_.squared[lower]), lower, lower};
+  const Pass own{esdf_.squared[lower], lower, lower};
   SinkingLevel level(basins_);
   std::optional<Pass> narrowest = own;
   while (level.set_of(a) != level.set_of(b)) {
     const Pass* pass = level.next_pass();
     if (pass == nullptr) return std::nullopt;
-    narrowest = pass->level < own.level ? *pass : own;
+    narrowest = pass->clearance < own.clearance ? *pass : own;
     level.join_next();
   }
   return narrowest;

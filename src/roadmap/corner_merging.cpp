@@ -65,7 +65,7 @@ CornerMerging::Bucket CornerMerging::bucket_of(const Point& p) const {
 /// Of the eight voxels around a corner the nearest one that is no nearer to obstacles.
 VoxelId CornerMerging::voxel_for(const Point& corner) const {
   const double s = esdf_.voxel_size;
-  const double least = squared_threshold(std::max(space_.distance(corner), radius_), s);
+  const SquaredHalves least = least_clearance(std::max(space_.distance(corner), radius_), s);
   const Point low = corner / s - Point::Constant(0.5);
   const VoxelIndex first{floor_to_int(low.x()), floor_to_int(low.y()), floor_to_int(low.z())};
   VoxelId best = kNoVoxel;

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "attach_way.hpp"
+#include "common/random.hpp"
 #include "graph_search.hpp"
 #include "paths/shorten.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/common/random.hpp"
 
 namespace ridgeway::detail {
 namespace {

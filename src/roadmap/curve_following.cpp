@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 #include <unordered_map>
 
-#include "ridgeway/voxel/disjoint_sets.hpp"
+#include "voxel/disjoint_sets.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 /// A move over which two floods meet, or one meets itself.
 struct Meeting {
   DiagramNumber a, b;
-  double width;
+  SquaredHalves width;
   double length;  // of the whole way from vertex to vertex
 };
 
@@ -60,8 +61,7 @@ void keep_best_of_groups(const DiagramCurves& curves, std::vector<Meeting>& meet
   for (std::uint32_t i = 0; i < meetings.size(); ++i) {
     const Meeting& m = meetings[i];
     const auto [place, fresh] = best.try_emplace(groups.find(i), m);
-    if (!fresh &&
-        std::pair(-m.width, m.length) < std::pair(-place->second.width, place->second.length))
+    if (!fresh && std::tie(place->second.width, m.length) < std::tie(m.width, place->second.length))
       place->second = m;
   }
   meetings.clear();
@@ -77,7 +77,7 @@ std::vector<Curve> follow_curves(const DiagramCurves& curves, const DiagramFlood
     for (const DiagramMove& move : curves.moves_of(a)) {
       const DiagramNumber b = move.to;
       if (b <= a || flood.toward[a] == b || flood.toward[b] == a) continue;
-      Meeting meeting{a, b, std::min({flood.width[a], move.width, flood.width[b]}),
+      Meeting meeting{a, b, std::min({flood.width[a], move.clearance, flood.width[b]}),
                       static_cast<double>(flood.distance[a] + move.length + flood.distance[b])};
       const bool same = flood.vertex[a] == flood.vertex[b];
       if (same && loop_length(flood, meeting) < shortest_loop) continue;

@@ -22,7 +22,7 @@ DiagramNumber DiagramCurves::find(VoxelId id) const {
 
 DiagramCurves index_diagram(const EsdfMap& esdf, const VoxelMask& diagram, double min_clearance) {
   constexpr std::array<float, 4> kLengths{0.0f, 1.0f, 1.41421356f, 1.73205081f};
-  const double threshold = squared_threshold(min_clearance, esdf.voxel_size);
+  const SquaredHalves threshold = least_clearance(min_clearance, esdf.voxel_size);
   const FreeSpace space(esdf);
   DiagramCurves curves;
   curves.layout = &esdf.layout;
@@ -40,10 +40,10 @@ DiagramCurves index_diagram(const EsdfMap& esdf, const VoxelMask& diagram, doubl
              cube &= cube - 1) {
           const int d = std::countr_zero(cube);
           const VoxelId other = esdf.layout.neighbour(id, d);
-          const double width = space.move_clearance(id, other, d);
-          if (width < threshold) continue;
-          moves[i].push_back(
-              {curves.find(other), kLengths[static_cast<std::size_t>(squared_length(d))], width});
+          const SquaredHalves clearance = space.move_clearance(id, other, d);
+          if (clearance < threshold) continue;
+          moves[i].push_back({curves.find(other),
+                              kLengths[static_cast<std::size_t>(squared_length(d))], clearance});
         }
       },
       64);
@@ -57,24 +57,23 @@ DiagramCurves index_diagram(const EsdfMap& esdf, const VoxelMask& diagram, doubl
 
 DiagramFlood flood_from(const DiagramCurves& curves, std::span<const DiagramNumber> vertices) {
   struct Way {
-    double width;
+    SquaredHalves width;
     float distance;
     DiagramNumber from;
     bool operator<(const Way& other) const {  // the widest is best, then the shortest
-      return std::tuple(-width, distance, from) <
-             std::tuple(-other.width, other.distance, other.from);
+      return std::tie(other.width, distance, from) < std::tie(width, other.distance, other.from);
     }
   };
-  BestFirstSearch<DiagramNumber, Way> search(curves.size(), {-1.0, 0.0f, kNowhere});
+  BestFirstSearch<DiagramNumber, Way> search(curves.size(), {SquaredHalves(-1.0), 0.0f, kNowhere});
   DiagramFlood flood;
   flood.vertex.assign(curves.size(), kNowhere);
   flood.toward.assign(curves.size(), kNowhere);
-  flood.width.assign(curves.size(), 0.0);
+  flood.width.assign(curves.size(), {});
   flood.distance.assign(curves.size(), 0.0f);
   for (std::uint32_t i = 0; i < vertices.size(); ++i) {
     const DiagramNumber v = vertices[i];
     flood.vertex[v] = i;
-    search.offer(v, {static_cast<double>(curves.squared[v]), 0.0f, v}, v);
+    search.offer(v, {curves.squared[v], 0.0f, v}, v);
   }
   search.run([&](DiagramNumber voxel) {
     const Way way = search.cost(voxel);
@@ -83,8 +82,8 @@ DiagramFlood flood_from(const DiagramCurves& curves, std::span<const DiagramNumb
     flood.width[voxel] = way.width;
     flood.distance[voxel] = way.distance;
     for (const DiagramMove& move : curves.moves_of(voxel))
-      search.offer(move.to, {std::min(way.width, move.width), way.distance + move.length, voxel},
-                   voxel);
+      search.offer(move.to,
+                   {std::min(way.width, move.clearance), way.distance + move.length, voxel}, voxel);
     return true;
   });
   return flood;

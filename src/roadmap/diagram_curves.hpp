@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "ridgeway/esdf/esdf_map.hpp"
+#include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
 
 namespace ridgeway::detail {
@@ -19,7 +19,7 @@ inline constexpr DiagramNumber kNowhere = 0xffffffffu;
 struct DiagramMove {
   DiagramNumber to;
   float length;  ///< voxels
-  double width;  ///< 4 c^2 / s^2, c the move's clearance
+  SquaredHalves clearance;
 };
 
 /// The diagram as a compact graph of its voxels and their legal moves: everything the sparse
@@ -27,7 +27,7 @@ struct DiagramMove {
 struct DiagramCurves {
   const BlockLayout* layout = nullptr;    ///< of the map
   std::vector<VoxelId> voxels;            ///< in the layout's order
-  std::vector<std::uint32_t> squared;     ///< 4 d^2 / s^2
+  std::vector<std::uint32_t> squared;     ///< as in EsdfMap
   std::vector<Point> position;            ///< voxel centres, metres
   std::vector<std::uint32_t> first_move;  ///< voxels.size() + 1 entries into `moves`
   std::vector<DiagramMove> moves;
@@ -47,7 +47,7 @@ DiagramCurves index_diagram(const EsdfMap& esdf, const VoxelMask& diagram, doubl
 struct DiagramFlood {
   std::vector<std::uint32_t> vertex;  ///< index into the given vertices; kNowhere: not reached
   std::vector<DiagramNumber> toward;  ///< next voxel; itself at a vertex
-  std::vector<double> width;          ///< 4 c^2 / s^2 of the way
+  std::vector<SquaredHalves> width;   ///< clearance of the way
   std::vector<float> distance;        ///< voxels
 };
 DiagramFlood flood_from(const DiagramCurves& curves, std::span<const DiagramNumber> vertices);

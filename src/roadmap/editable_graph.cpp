@@ -6,7 +6,7 @@
 #include <limits>
 #include <tuple>
 
-#include "ridgeway/voxel/disjoint_sets.hpp"
+#include "voxel/disjoint_sets.hpp"
 
 namespace ridgeway::detail {
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/roadmap/graph_lengths.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "best_first_search.hpp"
+#include "ridgeway/roadmap/sparse_graph.hpp"
 
 namespace ridgeway {
 namespace {

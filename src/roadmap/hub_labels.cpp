@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/roadmap/hub_labels.hpp"
-
 #include <algorithm>
 #include <limits>
 
 #include "best_first_search.hpp"
 #include "bounded_hub_labels.hpp"
+#include "ridgeway/roadmap/tangent_graph.hpp"
 
 namespace ridgeway {
 namespace {

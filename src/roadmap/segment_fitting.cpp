@@ -10,10 +10,10 @@
 namespace ridgeway::detail {
 namespace {
 
-double width_between(const DiagramCurves& curves, DiagramNumber a, DiagramNumber b) {
+SquaredHalves clearance_between(const DiagramCurves& curves, DiagramNumber a, DiagramNumber b) {
   for (const DiagramMove& move : curves.moves_of(a))
-    if (move.to == b) return move.width;
-  return 0.0;
+    if (move.to == b) return move.clearance;
+  return {};
 }
 
 struct Farthest {
@@ -42,9 +42,9 @@ Farthest farthest_from_line(const DiagramCurves& curves, const Curve& curve, std
 void fit_segments(const EsdfMap& esdf, const DiagramCurves& curves, const Curve& curve,
                   const FitConfig& config, std::vector<Segment>& segments) {
   const FreeSpace space(esdf);
-  std::vector<double> width(curve.size() - 1);  // of each move
+  std::vector<SquaredHalves> width(curve.size() - 1);  // of each move
   for (std::size_t i = 0; i + 1 < curve.size(); ++i)
-    width[i] = width_between(curves, curve[i], curve[i + 1]);
+    width[i] = clearance_between(curves, curve[i], curve[i + 1]);
   std::vector<std::pair<std::size_t, std::size_t>> open{{0, curve.size() - 1}};
   while (!open.empty()) {
     const auto [first, last] = open.back();
@@ -55,9 +55,10 @@ void fit_segments(const EsdfMap& esdf, const DiagramCurves& curves, const Curve&
     }
     const Farthest farthest = farthest_from_line(curves, curve, first, last);
     if (farthest.distance <= config.split_deviation && curve[first] != curve[last]) {
-      const double narrowest = *std::min_element(width.begin() + static_cast<std::ptrdiff_t>(first),
-                                                 width.begin() + static_cast<std::ptrdiff_t>(last));
-      const double clearance = 0.5 * esdf.voxel_size * std::sqrt(narrowest);
+      const SquaredHalves narrowest =
+          *std::min_element(width.begin() + static_cast<std::ptrdiff_t>(first),
+                            width.begin() + static_cast<std::ptrdiff_t>(last));
+      const double clearance = narrowest.metres(esdf.voxel_size);
       const double wanted = std::max(config.min_clearance, std::min(clearance, config.widest_kept));
       if (space.is_free(curves.position[curve[first]], curves.position[curve[last]], wanted)) {
         segments.push_back({curve[first], curve[last]});

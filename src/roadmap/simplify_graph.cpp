@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/roadmap/simplify_graph.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,10 +7,11 @@
 #include <tuple>
 #include <vector>
 
+#include "common/require.hpp"
 #include "editable_graph.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/common/require.hpp"
 #include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/roadmap/build_graph.hpp"
 
 namespace ridgeway {
 namespace {

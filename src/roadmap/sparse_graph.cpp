@@ -6,7 +6,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "ridgeway/voxel/disjoint_sets.hpp"
+#include "voxel/disjoint_sets.hpp"
 
 namespace ridgeway {
 void index_links(SparseGraph& graph) {

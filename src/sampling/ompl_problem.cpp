@@ -2,7 +2,6 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "ompl_problem.hpp"
 
-#include <ompl/base/MotionValidator.h>
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/objectives/PathLengthOptimizationObjective.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
@@ -12,54 +11,33 @@
 #include <bit>
 #include <limits>
 
+#include "ridgeway/sampling/ompl.hpp"
+
 namespace ridgeway::detail {
 namespace {
 
 namespace ob = ompl::base;
 
-class FreePlaces : public ob::StateValidityChecker {
+/// FreeMotions until the deadline; no motion is free afterwards.
+class TimelyMotions : public FreeMotions {
  public:
-  FreePlaces(const ob::SpaceInformationPtr& space, const EsdfMap& esdf, double radius)
-      : ob::StateValidityChecker(space), free_(esdf), radius_(radius) {}
-
-  bool isValid(const ob::State* state) const override {
-    return free_.is_free(point_of(state), radius_);
-  }
-  double clearance(const ob::State* state) const override {
-    return free_.distance(point_of(state));
-  }
-
- private:
-  const FreeSpace free_;
-  const double radius_;
-};
-
-/// OMPL's counters of motions are left alone: they are not safe between threads.
-class FreeMotions : public ob::MotionValidator {
- public:
-  FreeMotions(const ob::SpaceInformationPtr& space, const EsdfMap& esdf, double radius,
-              const Deadline& deadline)
-      : ob::MotionValidator(space), free_(esdf), radius_(radius), deadline_(deadline) {}
+  TimelyMotions(const ob::SpaceInformationPtr& space, const EsdfMap& esdf, double radius,
+                const Deadline& deadline)
+      : FreeMotions(space, esdf, radius, point_of), deadline_(deadline) {}
 
   bool checkMotion(const ob::State* from, const ob::State* to) const override {
-    return !deadline_.has_passed() && free_.is_free(point_of(from), point_of(to), radius_);
+    return !deadline_.has_passed() && FreeMotions::checkMotion(from, to);
   }
 
   bool checkMotion(const ob::State* from, const ob::State* to,
                    std::pair<ob::State*, double>& last_valid) const override {
-    const Point a = point_of(from), b = point_of(to);
-    const bool is_late = deadline_.has_passed();
-    if (!is_late && free_.is_free(a, b, radius_)) return true;
-    const double length = (b - a).norm();
-    last_valid.second = length > 0.0 && !is_late ? free_.free_length(a, b, radius_) / length : 0.0;
-    if (last_valid.first != nullptr)
-      si_->getStateSpace()->interpolate(from, to, last_valid.second, last_valid.first);
+    if (!deadline_.has_passed()) return FreeMotions::checkMotion(from, to, last_valid);
+    last_valid.second = 0.0;
+    if (last_valid.first != nullptr) si_->copyState(last_valid.first, from);
     return false;
   }
 
  private:
-  const FreeSpace free_;
-  const double radius_;
   const Deadline& deadline_;
 };
 
@@ -140,8 +118,10 @@ OmplProblem make_problem(const EsdfMap& esdf, const Point& start, const Point& g
       return seeds.seeded([&] { return space->allocDefaultStateSampler(); });
     });
     const auto space = std::make_shared<ob::SpaceInformation>(points);
-    space->setStateValidityChecker(std::make_shared<FreePlaces>(space, esdf, config.radius));
-    space->setMotionValidator(std::make_shared<FreeMotions>(space, esdf, config.radius, deadline));
+    space->setStateValidityChecker(
+        std::make_shared<FreeStates>(space, esdf, config.radius, point_of));
+    space->setMotionValidator(
+        std::make_shared<TimelyMotions>(space, esdf, config.radius, deadline));
     space->setup();
 
     const auto definition = std::make_shared<ob::ProblemDefinition>(space);

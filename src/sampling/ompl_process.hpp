@@ -8,7 +8,7 @@
 #include <limits>
 #include <mutex>
 
-#include "ridgeway/common/random.hpp"
+#include "common/random.hpp"
 
 // What OMPL keeps once for the whole process, handled so that calls do not disturb one another.
 namespace ridgeway::detail {

@@ -11,13 +11,13 @@
 #include <cmath>
 #include <string>
 
+#include "common/number_text.hpp"
 #include "ompl_problem.hpp"
 #include "paths/deadline.hpp"
 #include "paths/shorten.hpp"
 #include "planning/query.hpp"
 #include "prm_star.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
 
 namespace ridgeway {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string>
 
+#include "common/random.hpp"
+#include "common/require.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/common/random.hpp"
-#include "ridgeway/common/require.hpp"
 
 namespace ridgeway {
 namespace {

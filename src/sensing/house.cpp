@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/sensing/world_generators.hpp"
+#include "world_generators.hpp"
 
 namespace ridgeway {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/sensing/world_generators.hpp"
+#include "world_generators.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 
-#include "ridgeway/common/random.hpp"
-#include "ridgeway/common/require.hpp"
+#include "common/random.hpp"
+#include "common/require.hpp"
 
 namespace ridgeway {
 namespace {

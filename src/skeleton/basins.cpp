@@ -8,10 +8,10 @@
 #include <numeric>
 #include <queue>
 
-#include "landscape.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
-#include "ridgeway/voxel/disjoint_sets.hpp"
+#include "voxel/disjoint_sets.hpp"
+#include "watershed.hpp"
 
 namespace ridgeway {
 namespace {
@@ -22,7 +22,7 @@ std::uint64_t height(const EsdfMap& esdf, VoxelId id) {
 }
 
 /// A critical voxel and its higher neighbours.
-struct Junction {
+struct CriticalVoxel {
   std::uint64_t height;
   VoxelId id;
   Cube27 higher;
@@ -42,33 +42,34 @@ void for_each_part(Cube27 higher, const Body& body) {
 Cube27 cells_to_join(Cube27 part) { return part & kCells6 ? part & kCells6 : part; }
 
 /// From the top down the critical voxels that may join two basins.
-std::vector<Junction> find_junctions(const EsdfMap& esdf, const VoxelMask& traversable,
-                                     const Basins& basins, const std::vector<VoxelId>& critical) {
-  std::vector<Junction> junctions(critical.size());
+std::vector<CriticalVoxel> order_critical(const EsdfMap& esdf, const VoxelMask& traversable,
+                                          const Basins& basins,
+                                          const std::vector<VoxelId>& critical) {
+  std::vector<CriticalVoxel> voxels(critical.size());
   parallel_for_each_index(
       critical.size(),
       [&](std::size_t i) {
         const VoxelId id = critical[i];
-        junctions[i] = {height(esdf, id), id, 0};
+        voxels[i] = {height(esdf, id), id, 0};
         Cube27 higher = 0;
         for (Cube27 cube = cube_around(esdf.layout, traversable, id) & kCells26; cube != 0;
              cube &= cube - 1) {
           const int d = std::countr_zero(cube);
-          if (height(esdf, esdf.layout.neighbour(id, d)) > junctions[i].height) higher |= 1u << d;
+          if (height(esdf, esdf.layout.neighbour(id, d)) > voxels[i].height) higher |= 1u << d;
         }
         for_each_part(higher, [&](Cube27 part) {
           const VoxelId other = esdf.layout.neighbour(id, std::countr_zero(cells_to_join(part)));
-          if (basins.basin[id] != basins.basin[other]) junctions[i].higher |= part;
+          if (basins.basin[id] != basins.basin[other]) voxels[i].higher |= part;
         });
       },
       64);
-  std::erase_if(junctions, [](const Junction& j) { return j.higher == 0; });
-  std::sort(junctions.begin(), junctions.end(),
-            [](const Junction& a, const Junction& b) { return a.height > b.height; });
-  return junctions;
+  std::erase_if(voxels, [](const CriticalVoxel& j) { return j.higher == 0; });
+  std::sort(voxels.begin(), voxels.end(),
+            [](const CriticalVoxel& a, const CriticalVoxel& b) { return a.height > b.height; });
+  return voxels;
 }
 
-/// Kruskal over the junctions from the top down. A pass that is narrower than both its ends
+/// Kruskal over the voxels from the top down. A pass that is narrower than both its ends
 /// waits until the level has sunk to it.
 ///
 /// Plain form: plain_watershed.hpp, Kruskal over all moves of all voxels. From it,
@@ -76,7 +77,7 @@ std::vector<Junction> find_junctions(const EsdfMap& esdf, const VoxelMask& trave
 /// moves to a part of their higher neighbours one (3), none to their own basin (4), dips wait (5).
 class PassFinder {
  public:
-  PassFinder(const EsdfMap& esdf, double threshold, Basins& basins)
+  PassFinder(const EsdfMap& esdf, SquaredHalves threshold, Basins& basins)
       : esdf_(esdf),
         threshold_(threshold),
         basins_(basins),
@@ -88,37 +89,37 @@ class PassFinder {
     std::iota(highest_.begin(), highest_.end(), 0u);
   }
 
-  void run(const std::vector<Junction>& junctions) {
-    for (const Junction& junction : junctions) {
-      join_waiting(static_cast<double>(esdf_.squared[junction.id]));
-      for_each_part(junction.higher, [&](Cube27 part) { connect(junction.id, part); });
+  void run(const std::vector<CriticalVoxel>& voxels) {
+    for (const CriticalVoxel& voxel : voxels) {
+      join_waiting(esdf_.squared[voxel.id]);
+      for_each_part(voxel.higher, [&](Cube27 part) { connect(voxel.id, part); });
     }
-    join_waiting(0.0);
+    join_waiting(SquaredHalves());
   }
 
  private:
   /// Joins a voxel with a face-connected part of its higher neighbours: by a face if it can, else
   /// by the widest diagonal move.
   void connect(VoxelId id, Cube27 part) {
-    const double own = esdf_.squared[id];
+    const SquaredHalves own = esdf_.squared[id];
     Pass widest;
     for (Cube27 cells = cells_to_join(part); cells != 0; cells &= cells - 1) {
       const int d = std::countr_zero(cells);
       const VoxelId other = esdf_.layout.neighbour(id, d);
       if (sets_.find(basins_.basin[id]) == sets_.find(basins_.basin[other])) return;
-      const double level = space_.move_clearance(id, other, d);
-      if (level > widest.level) widest = {level, id, other};
-      if (level >= own) break;
+      const SquaredHalves clearance = space_.move_clearance(id, other, d);
+      if (clearance > widest.clearance) widest = {clearance, id, other};
+      if (clearance >= own) break;
     }
-    if (widest.level >= own) {
+    if (widest.clearance >= own) {
       join(widest);
-    } else if (widest.level >= threshold_) {
+    } else if (widest.clearance >= threshold_) {
       waiting_.push(widest);
     }
   }
 
-  void join_waiting(double level) {
-    while (!waiting_.empty() && waiting_.top().level > level) {
+  void join_waiting(SquaredHalves level) {
+    while (!waiting_.empty() && waiting_.top().clearance > level) {
       const Pass pass = waiting_.top();
       waiting_.pop();
       join(pass);
@@ -136,13 +137,13 @@ class PassFinder {
     const std::uint32_t higher = lower == highest_[a] ? highest_[b] : highest_[a];
     basins_.dynamics[lower] =
         0.5 * (std::sqrt(static_cast<double>(esdf_.squared[basins_.peaks[lower]])) -
-               std::sqrt(pass.level));
+               std::sqrt(pass.clearance.value));
     highest_[sets_.join(a, b)] = higher;
     basins_.passes.push_back(pass);
   }
 
   const EsdfMap& esdf_;
-  const double threshold_;  // of the narrowest pass that counts
+  const SquaredHalves threshold_;  // of the narrowest pass that counts
   Basins& basins_;
   DisjointSets sets_;
   FreeSpace space_;
@@ -153,11 +154,11 @@ class PassFinder {
 }  // namespace
 
 Basins find_basins(const EsdfMap& esdf, const VoxelMask& traversable, double radius) {
-  detail::Landscape land = detail::survey(esdf, traversable);
-  const double threshold = squared_threshold(radius, esdf.voxel_size);
-  PassFinder(esdf, threshold, land.basins)
-      .run(find_junctions(esdf, traversable, land.basins, land.critical));
-  return std::move(land.basins);
+  detail::Watershed watershed = detail::find_watershed(esdf, traversable);
+  const SquaredHalves threshold = least_clearance(radius, esdf.voxel_size);
+  PassFinder(esdf, threshold, watershed.basins)
+      .run(order_critical(esdf, traversable, watershed.basins, watershed.critical));
+  return std::move(watershed.basins);
 }
 
 }  // namespace ridgeway

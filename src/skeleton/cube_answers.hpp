@@ -6,7 +6,7 @@
 #include <atomic>
 #include <cstdint>
 
-#include "ridgeway/skeleton/simple_point.hpp"
+#include "simple_point.hpp"
 
 namespace ridgeway::detail {
 

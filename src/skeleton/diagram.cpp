@@ -5,7 +5,6 @@
 #include "edge_hooks.hpp"
 #include "kernel_joiner.hpp"
 #include "redundant_voxels.hpp"
-#include "ridgeway/skeleton/kernel.hpp"
 
 namespace ridgeway {
 namespace {
@@ -20,7 +19,7 @@ VoxelMask united(VoxelMask a, const VoxelMask& b) {
 
 VoxelMask join_diagram(const EsdfMap& esdf, const VoxelMask& edges, const VoxelMask& kernel,
                        double min_clearance, Basins& basins) {
-  const double threshold = squared_threshold(min_clearance, esdf.voxel_size);
+  const SquaredHalves threshold = least_clearance(min_clearance, esdf.voxel_size);
   VoxelMask diagram = detail::join_kernel(esdf, kernel, threshold, basins);
   VoxelMask all = united(edges, diagram);
   open_shells(esdf, all, diagram);  // thins edges onto the curves that they touch

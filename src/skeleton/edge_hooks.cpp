@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "ridgeway/esdf/free_space.hpp"
-#include "ridgeway/voxel/disjoint_sets.hpp"
+#include "voxel/disjoint_sets.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -19,7 +19,7 @@ constexpr double kPatience = 1.0;        // voxels of clearance a piece may sink
 
 class EdgeHooks {
  public:
-  EdgeHooks(const EsdfMap& esdf, double threshold, const Basins& basins, VoxelMask& diagram)
+  EdgeHooks(const EsdfMap& esdf, SquaredHalves threshold, const Basins& basins, VoxelMask& diagram)
       : esdf_(esdf),
         layout_(esdf.layout),
         threshold_(threshold),
@@ -35,17 +35,17 @@ class EdgeHooks {
              std::pair(esdf_.squared[a], layout_.order_of(b));
     });
     for (const VoxelId id : voxels) {
-      sink_to(static_cast<double>(esdf_.squared[id]));
+      sink_to(esdf_.squared[id]);
       if (!diagram_.test(id)) add(id);
     }
-    sink_to(0.0);
+    sink_to(SquaredHalves());
   }
 
  private:
   /// Something that happens once the level has sunk to it: two voxels of pieces connect, or
   /// (from == to) a voxel's piece has waited long enough.
   struct Event {
-    double level;
+    SquaredHalves level;
     VoxelId from, to;
   };
 
@@ -59,7 +59,7 @@ class EdgeHooks {
     }
   };
 
-  void sink_to(double level) {
+  void sink_to(SquaredHalves level) {
     while (!events_.empty() && events_.top().level > level) {
       const Event event = events_.top();
       events_.pop();
@@ -72,11 +72,11 @@ class EdgeHooks {
   }
 
   void add(VoxelId id) {
-    const double level = esdf_.squared[id];
+    const SquaredHalves level = esdf_.squared[id];
     const std::uint32_t piece = pieces_.add();
     hooked_.push_back(false);
     struct Move {
-      double width;
+      SquaredHalves width;
       VoxelId other;
     };
     std::vector<Move> moves;
@@ -84,7 +84,7 @@ class EdgeHooks {
     for (Cube27 cube = cube_around(layout_, diagram_, id) & kCells26; cube != 0; cube &= cube - 1) {
       const int d = std::countr_zero(cube);
       const VoxelId other = layout_.neighbour(id, d);
-      const double width = space_.move_clearance(id, other, d);
+      const SquaredHalves width = space_.move_clearance(id, other, d);
       if (width >= threshold_) moves.push_back({width, other});
       alone &= width < level;
     }
@@ -98,8 +98,8 @@ class EdgeHooks {
         events_.push({move.width, id, move.other});
       }
     }
-    const double sunk = std::max(std::sqrt(level) - 2.0 * kPatience, 0.0);
-    if (!is_hooked(id)) events_.push({std::max(sunk * sunk, threshold_), id, id});
+    const double sunk = std::max(std::sqrt(level.value) - 2.0 * kPatience, 0.0);
+    if (!is_hooked(id)) events_.push({std::max(SquaredHalves(sunk * sunk), threshold_), id, id});
   }
 
   bool is_hooked(VoxelId id) { return exact_.test(id) || hooked_[pieces_.find(piece_.at(id))]; }
@@ -139,7 +139,7 @@ class EdgeHooks {
 
   const EsdfMap& esdf_;
   const BlockLayout& layout_;
-  const double threshold_;
+  const SquaredHalves threshold_;
   const Basins& basins_;
   FreeSpace space_;
   const VoxelMask exact_;  // the diagram as it was: everything on it is connected
@@ -152,8 +152,8 @@ class EdgeHooks {
 
 }  // namespace
 
-void hook_edges(const EsdfMap& esdf, const VoxelMask& edges, double threshold, const Basins& basins,
-                VoxelMask& diagram) {
+void hook_edges(const EsdfMap& esdf, const VoxelMask& edges, SquaredHalves threshold,
+                const Basins& basins, VoxelMask& diagram) {
   EdgeHooks(esdf, threshold, basins, diagram).run(edges);
 }
 

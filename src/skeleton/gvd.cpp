@@ -8,10 +8,10 @@
 #include <cmath>
 #include <limits>
 
+#include "common/require.hpp"
 #include "lanes.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/common/require.hpp"
-#include "ridgeway/voxel/cube_gather.hpp"
+#include "voxel/cube_gather.hpp"
 
 namespace ridgeway {
 namespace {
@@ -146,7 +146,7 @@ VoxelMask filter(const BlockLayout& layout, const VoxelMask& mask, const Keep& k
 
 VoxelMask traversable_voxels(const EsdfMap& esdf, double radius) {
   assert(esdf.state.is_of(esdf.layout) && esdf.squared.is_of(esdf.layout));
-  const double threshold = std::ceil(squared_threshold(radius, esdf.voxel_size));
+  const double threshold = std::ceil(least_clearance(radius, esdf.voxel_size).value);
   if (threshold > kNoSite) return VoxelMask(esdf.layout);
   const auto least = static_cast<std::uint32_t>(threshold);
   VoxelMask result(esdf.layout);

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/skeleton/kernel.hpp"
-
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -11,7 +9,8 @@
 
 #include "level_peeling.hpp"
 #include "parallel_deletion.hpp"
-#include "ridgeway/skeleton/simple_point.hpp"
+#include "ridgeway/skeleton/diagram.hpp"
+#include "simple_point.hpp"
 
 namespace ridgeway {
 namespace {
@@ -130,7 +129,8 @@ VoxelMask significant_peaks(const EsdfMap& esdf, const Basins& basins) {
 }
 
 VoxelMask compute_kernel(const EsdfMap& esdf, const VoxelMask& traversable, const Basins& basins) {
-  return detail::peel_levels(esdf, traversable, basins.obstinate, significant_peaks(esdf, basins));
+  return detail::peel_levels(esdf, traversable, basins.not_simple_at_first_turn,
+                             significant_peaks(esdf, basins));
 }
 
 void open_shells(const EsdfMap& esdf, VoxelMask& voxels, const VoxelMask& keep) {

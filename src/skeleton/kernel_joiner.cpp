@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ridgeway/esdf/free_space.hpp"
-#include "ridgeway/voxel/disjoint_sets.hpp"
+#include "voxel/disjoint_sets.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -23,7 +23,7 @@ namespace {
 /// at the level reached (2) is so at all above (3), and moves that dip (4).
 class KernelJoiner {
  public:
-  KernelJoiner(const EsdfMap& esdf, double threshold, Basins& basins)
+  KernelJoiner(const EsdfMap& esdf, SquaredHalves threshold, Basins& basins)
       : esdf_(esdf),
         layout_(esdf.layout),
         threshold_(threshold),
@@ -42,10 +42,12 @@ class KernelJoiner {
              std::pair(esdf_.squared[a], layout_.order_of(b));
     });
     std::size_t pass = 0;
-    const auto sink_to = [&](double level) {
+    const auto sink_to = [&](SquaredHalves level) {
       while (true) {
-        const double move = moves_.empty() ? -1.0 : moves_.top().level;
-        const double next_pass = pass < basins_.passes.size() ? basins_.passes[pass].level : -1.0;
+        constexpr SquaredHalves kNone(-1.0);
+        const SquaredHalves move = moves_.empty() ? kNone : moves_.top().clearance;
+        const SquaredHalves next_pass =
+            pass < basins_.passes.size() ? basins_.passes[pass].clearance : kNone;
         if (std::max(move, next_pass) <= level) return;
         if (move >= next_pass) {
           pieces_.join(piece_.at(moves_.top().from), piece_.at(moves_.top().to));
@@ -56,10 +58,10 @@ class KernelJoiner {
       }
     };
     for (const VoxelId id : voxels) {
-      sink_to(static_cast<double>(esdf_.squared[id]));
+      sink_to(esdf_.squared[id]);
       if (!diagram_.test(id)) add_wanted(id);
     }
-    sink_to(0.0);
+    sink_to(SquaredHalves());
     return diagram_;
   }
 
@@ -92,12 +94,12 @@ class KernelJoiner {
 
   /// Takes a voxel into the diagram and connects it with the neighbours there, at once where the
   /// move is at least as wide as `level`, later where it is narrower but legal.
-  void add_to_diagram(VoxelId id, double level) {
+  void add_to_diagram(VoxelId id, SquaredHalves level) {
     const std::uint32_t piece = piece_.try_emplace(id, pieces_.add()).first->second;
     for (Cube27 cube = cube_around(layout_, diagram_, id) & kCells26; cube != 0; cube &= cube - 1) {
       const int d = std::countr_zero(cube);
       const VoxelId other = layout_.neighbour(id, d);
-      const double width = space_.move_clearance(id, other, d);
+      const SquaredHalves width = space_.move_clearance(id, other, d);
       if (width >= level) {
         pieces_.join(piece, piece_.at(other));
       } else if (width >= threshold_) {
@@ -112,7 +114,7 @@ class KernelJoiner {
   }
 
   /// Adds all of a way that is nowhere narrower than `level`; it ends on the diagram.
-  void add_way(const std::vector<VoxelId>& way, double level) {
+  void add_way(const std::vector<VoxelId>& way, SquaredHalves level) {
     for (std::size_t i = way.size(); i-- > 0;) {
       if (!diagram_.test(way[i])) add_to_diagram(way[i], level);
       if (i + 1 < way.size()) pieces_.join(piece_.at(way[i]), piece_.at(way[i + 1]));
@@ -121,7 +123,7 @@ class KernelJoiner {
 
   void add_wanted(VoxelId id) {
     const std::vector<VoxelId> way = way_from(id);
-    const double level = esdf_.squared[id];
+    const SquaredHalves level = esdf_.squared[id];
     const bool reaches = way.size() > 1 && diagram_.test(way.back());
     add_to_diagram(id, level);
     if (!reaches) {  // the first diagram voxel of its region
@@ -141,8 +143,8 @@ class KernelJoiner {
     if (both) {
       const std::vector<VoxelId> left = way_to_diagram(from), right = way_to_diagram(to);
       if (!same_piece(left.back(), right.back())) {
-        add_way(left, pass.level);
-        add_way(right, pass.level);
+        add_way(left, pass.clearance);
+        add_way(right, pass.clearance);
         pieces_.join(piece_.at(from), piece_.at(to));
       }
     } else {
@@ -161,7 +163,7 @@ class KernelJoiner {
 
   const EsdfMap& esdf_;
   const BlockLayout& layout_;
-  const double threshold_;
+  const SquaredHalves threshold_;
   Basins& basins_;
   FreeSpace space_;
   DisjointSets regions_;        // of basins
@@ -175,7 +177,7 @@ class KernelJoiner {
 
 }  // namespace
 
-VoxelMask join_kernel(const EsdfMap& esdf, const VoxelMask& kernel, double threshold,
+VoxelMask join_kernel(const EsdfMap& esdf, const VoxelMask& kernel, SquaredHalves threshold,
                       Basins& basins) {
   return KernelJoiner(esdf, threshold, basins).run(kernel);
 }

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "lanes.hpp"
-#include "ridgeway/esdf/esdf_map.hpp"
+#include "ridgeway/esdf/esdf.hpp"
 
 namespace ridgeway::detail {
 

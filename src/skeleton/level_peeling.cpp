@@ -13,8 +13,8 @@
 #include "level_gather.hpp"
 #include "parallel_deletion.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/skeleton/simple_point.hpp"
-#include "ridgeway/voxel/cube_gather.hpp"
+#include "simple_point.hpp"
+#include "voxel/cube_gather.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -46,14 +46,14 @@ Surroundings look_around(const EsdfMap& esdf, const VoxelMask& traversable, Voxe
 /// look at all levels around one voxel waits a dozen times for memory.
 class KnownSurroundings {
  public:
-  KnownSurroundings(const EsdfMap& esdf, const VoxelMask& traversable, const VoxelMask& obstinate)
+  KnownSurroundings(const EsdfMap& esdf, const VoxelMask& traversable, const VoxelMask& not_simple)
       : esdf_(esdf),
         traversable_(traversable),
         known_(esdf.layout),
         blocks_(esdf.layout.block_count()) {
     parallel_for_each_index(
         esdf.layout.block_count(),
-        [&](std::size_t slot) { gather(static_cast<std::uint32_t>(slot), obstinate); }, 16);
+        [&](std::size_t slot) { gather(static_cast<std::uint32_t>(slot), not_simple); }, 16);
   }
 
   Surroundings of(VoxelId id) const {
@@ -66,9 +66,9 @@ class KnownSurroundings {
   }
 
  private:
-  /// In one block: of all voxels that are obstinate or beside one that is.
-  void gather(std::uint32_t slot, const VoxelMask& obstinate) {
-    const CubeGather cubes(esdf_.layout, obstinate, slot);
+  /// In one block: of all voxels that are not simple at their first turn, or beside one that is.
+  void gather(std::uint32_t slot, const VoxelMask& not_simple) {
+    const CubeGather cubes(esdf_.layout, not_simple, slot);
     if (cubes.is_empty()) return;
     VoxelMask::Block& known = known_.block(slot);
     for_each_member(traversable_, slot, [&](VoxelId id) {
@@ -126,12 +126,12 @@ VoxelId voxel_of_turn(std::uint64_t turn) {
 /// they would (3), who is asked again (4), the order of turns (5).
 class LevelPeeling {
  public:
-  LevelPeeling(const EsdfMap& esdf, const VoxelMask& traversable, VoxelMask obstinate,
+  LevelPeeling(const EsdfMap& esdf, const VoxelMask& traversable, VoxelMask not_simple,
                const VoxelMask& keep)
       : esdf_(esdf),
         keep_(keep),
-        around_(esdf, traversable, obstinate),
-        queued_(std::move(obstinate)),
+        around_(esdf, traversable, not_simple),
+        queued_(std::move(not_simple)),
         left_(esdf.layout) {
     for (const VoxelId id : queued_.members(esdf.layout)) first_turns_.push_back(turn_of(esdf, id));
     tbb::parallel_sort(first_turns_.begin(), first_turns_.end());
@@ -224,18 +224,18 @@ class LevelPeeling {
   const KnownSurroundings around_;
   VoxelMask queued_;  // those whose turn is, or has been, played
   VoxelMask left_;    // those whose first turn is over and that are still there
-  std::vector<std::uint64_t> first_turns_;  // ascending; of obstinate voxels
+  std::vector<std::uint64_t> first_turns_;  // ascending; of voxels not simple at their first turn
   std::size_t next_ = 0;
   std::priority_queue<std::uint64_t, std::vector<std::uint64_t>, std::greater<>> more_turns_;
 };
 
 }  // namespace
 
-VoxelMask peel_levels(const EsdfMap& esdf, const VoxelMask& traversable, VoxelMask obstinate,
+VoxelMask peel_levels(const EsdfMap& esdf, const VoxelMask& traversable, VoxelMask not_simple,
                       const VoxelMask& keep) {
   for (std::uint32_t slot = 0; slot < keep.block_count(); ++slot)
-    for (std::size_t z = 0; z < kBlockSide; ++z) obstinate.block(slot)[z] |= keep.block(slot)[z];
-  return LevelPeeling(esdf, traversable, std::move(obstinate), keep).run();
+    for (std::size_t z = 0; z < kBlockSide; ++z) not_simple.block(slot)[z] |= keep.block(slot)[z];
+  return LevelPeeling(esdf, traversable, std::move(not_simple), keep).run();
 }
 
 }  // namespace ridgeway::detail

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
-#include "ridgeway/esdf/esdf_map.hpp"
+#include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
 
 namespace ridgeway::detail {
@@ -11,9 +11,9 @@ namespace ridgeway::detail {
 /// until only what carries the topology is left. A level and what the ones below have left is
 /// peeled in rounds; in the first round the level's own voxels are asked, later the neighbours of
 /// deleted ones, each round sub-field by sub-field.
-/// `obstinate`: those that do not go at their first turn even if all their neighbours with earlier
+/// `not_simple`: those that do not go at their first turn even if all their neighbours with earlier
 /// turns went.
-VoxelMask peel_levels(const EsdfMap& esdf, const VoxelMask& traversable, VoxelMask obstinate,
+VoxelMask peel_levels(const EsdfMap& esdf, const VoxelMask& traversable, VoxelMask not_simple,
                       const VoxelMask& keep);
 
 }  // namespace ridgeway::detail

@@ -6,8 +6,8 @@
 #include <set>
 #include <vector>
 
-#include "ridgeway/esdf/esdf_map.hpp"
-#include "ridgeway/skeleton/simple_point.hpp"
+#include "ridgeway/esdf/esdf.hpp"
+#include "simple_point.hpp"
 #include "sub_field.hpp"
 
 namespace ridgeway::detail {

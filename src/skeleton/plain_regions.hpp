@@ -20,7 +20,7 @@ struct Regions {
 };
 
 inline Regions regions_at(const EsdfMap& esdf, double radius, const VoxelMask* within = nullptr) {
-  const double threshold = squared_threshold(radius, esdf.voxel_size);
+  const SquaredHalves threshold = least_clearance(radius, esdf.voxel_size);
   const FreeSpace space(esdf);
   const auto passable = [&](VoxelId id) {
     return id != kNoVoxel && esdf.state[id] == VoxelState::kFree && esdf.squared[id] >= threshold &&

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "ridgeway/esdf/free_space.hpp"
-#include "ridgeway/voxel/disjoint_sets.hpp"
+#include "voxel/disjoint_sets.hpp"
 
-/// What landscape.cpp and basins.cpp compute, voxel by voxel and move by move, for tests.
+/// What watershed.cpp and basins.cpp compute, voxel by voxel and move by move, for tests.
 /// docs/fast-kernels.md derives these from it.
 namespace ridgeway::detail {
 
-/// Whether a voxel is above another in the total order of heights: by 4 d^2 / s^2, of equal ones
+/// Whether a voxel is above another in the total order of heights: by distance, of equal ones
 /// that which is earlier in the order of blocks and then of places in a block.
 inline bool is_above(const EsdfMap& esdf, VoxelId a, VoxelId b) {
   if (esdf.squared[a] != esdf.squared[b]) return esdf.squared[a] > esdf.squared[b];
@@ -60,9 +60,9 @@ inline Direction plain_climb(const EsdfMap& esdf, const VoxelMask& traversable, 
 /// Kruskal over all moves of all voxels, the widest first, where of two regions that meet the one
 /// with the lower peak ends. Infinite for the highest peak of each component.
 inline std::vector<double> plain_dynamics(const EsdfMap& esdf, const VoxelMask& traversable,
-                                          double threshold) {
+                                          SquaredHalves threshold) {
   struct Move {
-    double level;
+    SquaredHalves clearance;
     VoxelId from, to;
   };
   const FreeSpace space(esdf);
@@ -73,17 +73,19 @@ inline std::vector<double> plain_dynamics(const EsdfMap& esdf, const VoxelMask& 
   for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
     if (traversable.test(id))
       plain_neighbours(esdf, traversable, id, [&](VoxelId n, int d) {
-        const double level = d > kCentre ? space.move_clearance(id, n, d) : 0.0;
-        if (level >= threshold) moves.push_back({level, id, n});
+        if (d <= kCentre) return true;  // each move from one of its ends
+        const SquaredHalves clearance = space.move_clearance(id, n, d);
+        if (clearance >= threshold) moves.push_back({clearance, id, n});
         return true;
       });
   std::sort(moves.begin(), moves.end(),
-            [](const Move& a, const Move& b) { return a.level > b.level; });
+            [](const Move& a, const Move& b) { return a.clearance > b.clearance; });
   for (const Move& move : moves) {
     const std::uint32_t a = regions.find(move.from), b = regions.find(move.to);
     if (a == b) continue;
     const double lower = std::min(peak[a], peak[b]), higher = std::max(peak[a], peak[b]);
-    if (lower > move.level) dynamics.push_back(0.5 * (std::sqrt(lower) - std::sqrt(move.level)));
+    if (lower > move.clearance.value)
+      dynamics.push_back(0.5 * (std::sqrt(lower) - std::sqrt(move.clearance.value)));
     peak[regions.join(a, b)] = higher;
   }
   for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)

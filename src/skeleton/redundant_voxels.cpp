@@ -8,7 +8,7 @@
 
 #include "parallel_deletion.hpp"
 #include "ridgeway/esdf/free_space.hpp"
-#include "ridgeway/skeleton/simple_point.hpp"
+#include "simple_point.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -16,25 +16,25 @@ namespace {
 struct Neighbour {
   VoxelId id;
   int direction;
-  double width;  // of the move over the centre
+  SquaredHalves width;  // of the move over the centre
 };
 
 /// Width of the move between two neighbours of a voxel, or 0 where they are not adjacent.
-double width_between(const FreeSpace& space, const Neighbour& a, const Neighbour& b) {
+SquaredHalves width_between(const FreeSpace& space, const Neighbour& a, const Neighbour& b) {
   const VoxelIndex o = offset_of(b.direction) - offset_of(a.direction);
-  if (std::max({std::abs(o.x), std::abs(o.y), std::abs(o.z)}) > 1) return 0.0;
+  if (std::max({std::abs(o.x), std::abs(o.y), std::abs(o.z)}) > 1) return SquaredHalves();
   return space.move_clearance(a.id, b.id, direction_of(o));
 }
 
 /// Whether each pair of neighbours is connected without the centre as widely as over it.
-bool can_do_without(const EsdfMap& esdf, const FreeSpace& space, double threshold, VoxelId id,
-                    Cube27 cube) {
+bool can_do_without(const EsdfMap& esdf, const FreeSpace& space, SquaredHalves threshold,
+                    VoxelId id, Cube27 cube) {
   std::array<Neighbour, 26> neighbours;
   std::size_t count = 0;
   for (Cube27 cells = cube & kCells26; cells != 0; cells &= cells - 1) {
     const int d = std::countr_zero(cells);
     const VoxelId other = esdf.layout.neighbour(id, d);
-    const double width = space.move_clearance(id, other, d);
+    const SquaredHalves width = space.move_clearance(id, other, d);
     if (width >= threshold) neighbours[count++] = {other, d, width};
   }
   std::sort(neighbours.begin(), neighbours.begin() + static_cast<std::ptrdiff_t>(count),
@@ -64,7 +64,7 @@ bool can_do_without(const EsdfMap& esdf, const FreeSpace& space, double threshol
 
 }  // namespace
 
-void remove_redundant_voxels(const EsdfMap& esdf, double threshold, const Basins& basins,
+void remove_redundant_voxels(const EsdfMap& esdf, SquaredHalves threshold, const Basins& basins,
                              VoxelMask& diagram) {
   const FreeSpace space(esdf);
   std::vector<VoxelId> work = diagram.members(esdf.layout);

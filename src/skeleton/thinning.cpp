@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/skeleton/thinning.hpp"
-
 #include <algorithm>
 #include <array>
 #include <vector>
 
 #include "parallel_deletion.hpp"
-#include "ridgeway/skeleton/simple_point.hpp"
+#include "ridgeway/skeleton/gvd.hpp"
+#include "simple_point.hpp"
 
 namespace ridgeway {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "ridgeway/trajectory/spline_objective.hpp"
+#include "spline_objective.hpp"
 
 namespace ridgeway::detail {
 

@@ -56,8 +56,7 @@ class FreeBorder {
     for (int z = -kReach; z <= kReach; ++z)
       for (int y = -kReach; y <= kReach; ++y)
         for (int x = -kReach; x <= kReach; ++x) {
-          const std::uint32_t squared =
-              quarter_squared(x) + quarter_squared(y) + quarter_squared(z);
+          const std::uint32_t squared = squared_halves(x) + squared_halves(y) + squared_halves(z);
           if (squared >= nearest) continue;
           const VoxelId id = centre != kNoVoxel ? esdf_.layout.step(centre, x, y, z)
                                                 : esdf_.layout.find(v + VoxelIndex{x, y, z});

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
-#include "ridgeway/trajectory/spline_objective.hpp"
+#include "spline_objective.hpp"
 
 namespace ridgeway::detail {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/trajectory/optimise_spline.hpp"
+#include "optimise_spline.hpp"
 
 #include <nlopt.h>
 

@@ -7,13 +7,12 @@
 #include <cmath>
 #include <string>
 
+#include "common/clock.hpp"
+#include "common/name_table.hpp"
+#include "common/number_text.hpp"
 #include "initial_spline.hpp"
-#include "ridgeway/common/clock.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/name_table.hpp"
-#include "ridgeway/common/number_text.hpp"
 #include "ridgeway/planning/plan.hpp"
-#include "ridgeway/trajectory/verify_trajectory.hpp"
 #include "smooth_path.hpp"
 #include "speed_scaling.hpp"
 #include "straight_motion.hpp"

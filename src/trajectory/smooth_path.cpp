@@ -6,9 +6,10 @@
 #include <array>
 #include <cmath>
 
+#include "common/clock.hpp"
 #include "obstacle_field.hpp"
-#include "ridgeway/common/clock.hpp"
-#include "ridgeway/trajectory/verify_trajectory.hpp"
+#include "optimise_spline.hpp"
+#include "ridgeway/trajectory/plan_trajectory.hpp"
 #include "speed_scaling.hpp"
 #include "straight_motion.hpp"
 

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
-#include "ridgeway/trajectory/minimum_spline.hpp"
-#include "ridgeway/trajectory/motion_limits.hpp"
+#include "minimum_spline.hpp"
+#include "ridgeway/trajectory/trajectory.hpp"
 
 namespace ridgeway::detail {
 

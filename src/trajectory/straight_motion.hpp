@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "ridgeway/trajectory/motion_limits.hpp"
+#include "ridgeway/trajectory/trajectory.hpp"
 
 namespace ridgeway::detail {
 

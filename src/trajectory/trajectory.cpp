@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ridgeway/common/require.hpp"
+#include "common/require.hpp"
 
 namespace ridgeway {
 namespace {

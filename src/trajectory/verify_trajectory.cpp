@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/trajectory/verify_trajectory.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "bernstein.hpp"
 #include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/trajectory/plan_trajectory.hpp"
 
 namespace ridgeway {
 namespace {

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "bernstein.hpp"
-#include "ridgeway/trajectory/minimum_spline.hpp"
+#include "minimum_spline.hpp"
 
 namespace ridgeway::detail {
 namespace {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/voxel/large_pages.hpp"
 
 #include <sys/mman.h>
 
 #include <cstdint>
+
+#include "ridgeway/voxel/voxel_field.hpp"
 
 namespace ridgeway::detail {
 

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "program.hpp"
-#include "ridgeway/recordings/depth_png.hpp"
+#include "recordings/depth_png.hpp"
 
 namespace ridgeway {
 namespace {

@@ -164,8 +164,8 @@ TEST_F(CliBench, HallHasARowForEveryMapAndNumberOfThreads) {
                             "peak_memory_bytes", "bandwidth", "first_answer", "batch"})
       EXPECT_TRUE(row.contains(key)) << key;
     for (const char* numbers : {"seconds", "bytes", "voxels_per_second"})
-      for (const char* stage : {"esdf", "gvd", "edges", "thin", "kernel", "graph", "attach", "taut",
-                                "esdf_to_graph", "total"})
+      for (const char* stage : {"esdf", "gvd", "edges", "thin", "kernel", "graph", "attach",
+                                "tangents", "esdf_to_graph", "total"})
         EXPECT_GT(row[numbers][stage], 0.0) << numbers << "." << stage;
     EXPECT_GT(row["first_answer"]["total"], row["first_answer"]["load"]);
     EXPECT_GT(row["batch"]["solved"], 0);

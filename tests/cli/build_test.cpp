@@ -25,7 +25,7 @@ TEST_F(CliBuild, JsonHasTheKeysThatScriptsRelyOn) {
     EXPECT_GT(json["graph"][key].get<std::size_t>(), 0u) << key;
   EXPECT_GT(json["traversable"]["voxels"].get<std::size_t>(), 0u);
   for (const char* key : {"load", "esdf", "gvd", "edges", "thin", "kernel", "graph", "attach",
-                          "taut", "save", "total"})
+                          "tangents", "save", "total"})
     EXPECT_GE(json["seconds"][key].get<double>(), 0.0) << key;
   EXPECT_EQ(json["file_bytes"], std::filesystem::file_size(path("rooms.ridge")));
 }

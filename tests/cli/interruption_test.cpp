@@ -9,8 +9,8 @@
 #include <random>
 #include <thread>
 
+#include "files/atomic_file.hpp"
 #include "program.hpp"
-#include "ridgeway/files/atomic_file.hpp"
 
 namespace ridgeway {
 namespace {

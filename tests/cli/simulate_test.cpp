@@ -2,11 +2,11 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include <cmath>
 
+#include "formats/ply_cloud.hpp"
 #include "program.hpp"
-#include "ridgeway/formats/ply_cloud.hpp"
 #include "ridgeway/formats/world_file.hpp"
 #include "ridgeway/recordings/depth_sequence.hpp"
-#include "ridgeway/ridge/tsdf_file.hpp"
+#include "ridgeway/ridge/ridge_file.hpp"
 
 namespace ridgeway {
 namespace {

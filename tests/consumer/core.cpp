@@ -4,8 +4,7 @@
 #include <iostream>
 #include <string_view>
 
-#include "ridgeway/version.hpp"
-#include "ridgeway/voxel/block_layout.hpp"
+#include "ridgeway/ridgeway.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 2 || std::string_view(argv[1]) != ridgeway::kVersion) {

@@ -4,6 +4,7 @@
 
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
+#include "ridgeway/sampling/ompl.hpp"
 #include "ridgeway/sampling/plan_by_sampling.hpp"
 
 // Crosses an empty room.

@@ -106,11 +106,11 @@ TEST_P(FreeSpaceOnRandomMaps, MovesBetweenVoxelsAgreeWithTheSegmentPredicate) {
       if (esdf.squared[to] == kNoSite) continue;
       const Point a = centre_of(esdf.layout.index_of(id), esdf.voxel_size);
       const Point b = centre_of(esdf.layout.index_of(to), esdf.voxel_size);
-      const double clearance = 0.5 * esdf.voxel_size * std::sqrt(space.move_clearance(id, to, d));
+      const double clearance = space.move_clearance(id, to, d).metres(esdf.voxel_size);
       ASSERT_NEAR(clearance, space.clearance(a, b), kTiny);
       dips += clearance < std::min(esdf.distance(id), esdf.distance(to)) - kTiny;
       for (const double radius : {0.05, 0.1, 0.15, 0.2, 0.3, clearance})
-        ASSERT_EQ(space.move_is_free(id, to, d, squared_threshold(radius, esdf.voxel_size)),
+        ASSERT_EQ(space.move_is_free(id, to, d, least_clearance(radius, esdf.voxel_size)),
                   space.is_free(a, b, radius))
             << "radius " << radius << " clearance " << clearance;
     }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/esdf/interpolation.hpp"
-
 #include <gtest/gtest.h>
 
+#include "ridgeway/esdf/distance_field.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "support/brute_force.hpp"
 #include "support/random_maps.hpp"
@@ -64,6 +63,31 @@ TEST(Interpolation, MeetsTheVoxelsAndItsGradientIsTheSlope) {
     ++checked;
   }
   EXPECT_EQ(checked, 4000);
+}
+
+TEST(DistanceAt, AnswersPlacesOfTheWorldThatWereSeen) {
+  constexpr VoxelIndex kFarAway{4650000, 53000000, 0};
+  const OccupancyMap map = testing::random_map(6);
+  OccupancyMap moved = map;
+  moved.origin = moved.origin + kFarAway;
+  const EsdfMap esdf = compute_esdf(map, {}), far = compute_esdf(moved, {});
+  int seen = 0, unseen = 0;
+  for (VoxelId id = 0; id < esdf.layout.voxel_count(); id += 7) {
+    const Point centre = centre_of(esdf.layout.index_of(id), esdf.voxel_size);
+    const auto near = distance_at(esdf, to_world(esdf, centre));
+    const auto there = distance_at(far, to_world(far, centre));
+    ASSERT_EQ(near.has_value(), esdf.state[id] != VoxelState::kUnknown);
+    ASSERT_EQ(there.has_value(), near.has_value());
+    ++(near ? seen : unseen);
+    if (!near) continue;
+    EXPECT_EQ(near->distance, interpolate_distance(esdf, centre).distance);
+    EXPECT_EQ(there->distance, near->distance);
+    EXPECT_EQ(there->gradient, near->gradient);
+  }
+  EXPECT_GT(seen, 50);
+  EXPECT_GT(unseen, 50);
+  EXPECT_FALSE(distance_at(esdf, Point(1e300, 0.0, 0.0)));
+  EXPECT_FALSE(distance_at(esdf, Point(std::nan(""), 0.0, 0.0)));
 }
 
 }  // namespace

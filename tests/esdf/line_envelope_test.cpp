@@ -37,7 +37,7 @@ std::uint32_t random_cost(unsigned seed, std::mt19937& random) {
   if (below(5) < seed / 4 % 5) return kNoSite;
   if (seed % 4 == 0) return 1 + below(4);
   if (seed % 4 == 1) return 1 + below(2000);
-  return quarter_squared(1 + static_cast<int>(below(seed % 4 == 2 ? 4 : 40)));
+  return squared_halves(1 + static_cast<int>(below(seed % 4 == 2 ? 4 : 40)));
 }
 
 TEST(LineEnvelope, WinnersOfARunAreTheNearestCandidatesAndOfEqualOnesTheLeftmost) {

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/esdf/subvoxel_distance.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "ridgeway/esdf/distance_field.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/formats/world_file.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
-#include "ridgeway/sensing/poses.hpp"
+#include "sensing/poses.hpp"
 #include "support/lattice.hpp"
 
 namespace ridgeway {

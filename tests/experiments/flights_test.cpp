@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/experiments/flights.hpp"
+#include "experiments/flights.hpp"
 
 #include <gtest/gtest.h>
 

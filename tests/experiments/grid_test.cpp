@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/experiments/grid.hpp"
+#include "experiments/grid.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "files/read_file.hpp"
+#include "formats/benchmark_map.hpp"
+#include "formats/benchmark_scenarios.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/files/read_file.hpp"
-#include "ridgeway/formats/benchmark_map.hpp"
-#include "ridgeway/formats/benchmark_scenarios.hpp"
 
 namespace ridgeway {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/experiments/hall.hpp"
+#include "experiments/hall.hpp"
 
 #include <gtest/gtest.h>
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/mapping/world_map.hpp"
-#include "ridgeway/sensing/poses.hpp"
+#include "sensing/poses.hpp"
 
 namespace ridgeway {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/experiments/noise.hpp"
+#include "experiments/noise.hpp"
 
 #include <gtest/gtest.h>
 
+#include "experiments/fusion_speed.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/experiments/fusion_speed.hpp"
 #include "ridgeway/mapping/world_map.hpp"
 #include "support/cancelling.hpp"
 #include "support/lattice.hpp"

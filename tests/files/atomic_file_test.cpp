@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/files/atomic_file.hpp"
+#include "files/atomic_file.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/formats/benchmark_scenarios.hpp"
+#include "formats/benchmark_scenarios.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,12 +8,12 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "files/read_file.hpp"
+#include "formats/benchmark_map.hpp"
 #include "planning/lattice_search.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/esdf.hpp"
-#include "ridgeway/files/read_file.hpp"
-#include "ridgeway/formats/benchmark_map.hpp"
 
 namespace ridgeway {
 namespace {

@@ -8,11 +8,10 @@
 #include <functional>
 #include <numbers>
 
+#include "formats/benchmark_map.hpp"
 #include "mapping/random_map.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/formats/benchmark_map.hpp"
 #include "ridgeway/mapping/map_edits.hpp"
-#include "ridgeway/mapping/map_transform.hpp"
 #include "support/map_file_writers.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/formats/mesh_file.hpp"
+#include "formats/mesh_file.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -8,9 +8,9 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "common/number_text.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
-#include "ridgeway/formats/mesh_export.hpp"
+#include "ridgeway/formats/graph_export.hpp"
 #include "sensing/test_meshes.hpp"
 #include "support/temporary_folder.hpp"
 

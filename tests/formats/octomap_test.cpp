@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 
 // Our reader against OctoMap's own, voxel by voxel.
-#include "ridgeway/formats/octomap.hpp"
+#include "formats/octomap.hpp"
 
 #include <gtest/gtest.h>
 #include <octomap/ColorOcTree.h>

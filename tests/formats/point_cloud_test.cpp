@@ -9,10 +9,10 @@
 #include <random>
 #include <vector>
 
+#include "formats/pcd.hpp"
+#include "formats/ply_cloud.hpp"
+#include "formats/xyz.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/formats/pcd.hpp"
-#include "ridgeway/formats/ply_cloud.hpp"
-#include "ridgeway/formats/xyz.hpp"
 #include "support/lattice.hpp"
 #include "support/map_file_writers.hpp"
 

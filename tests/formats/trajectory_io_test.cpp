@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/formats/trajectory_io.hpp"
-
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
@@ -11,6 +9,7 @@
 #include <sstream>
 
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/formats/path_io.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ridgeway {

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "common/random.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/random.hpp"
-#include "ridgeway/sensing/world_generators.hpp"
+#include "sensing/world_generators.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ridgeway {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/mapping/map_transform.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +8,7 @@
 
 #include "mapping/random_map.hpp"
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/mapping/map_edits.hpp"
 
 namespace ridgeway {
 namespace {

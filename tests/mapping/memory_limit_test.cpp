@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/mapping/memory_limit.hpp"
+#include "mapping/memory_limit.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

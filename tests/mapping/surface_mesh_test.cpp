@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/mapping/surface_mesh.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -12,8 +10,9 @@
 #include <numbers>
 #include <set>
 
+#include "common/random.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/common/random.hpp"
+#include "ridgeway/mapping/tsdf_fusion.hpp"
 #include "ridgeway/sensing/world.hpp"
 
 namespace ridgeway {

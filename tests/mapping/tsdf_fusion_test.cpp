@@ -8,11 +8,11 @@
 #include <cmath>
 #include <limits>
 
+#include "common/random.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/common/random.hpp"
 #include "ridgeway/formats/world_file.hpp"
-#include "ridgeway/sensing/poses.hpp"
+#include "sensing/poses.hpp"
 #include "support/lattice.hpp"
 #include "support/map_errors.hpp"
 

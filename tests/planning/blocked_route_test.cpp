@@ -34,7 +34,7 @@ double bottleneck(const EsdfMap& esdf, VoxelId from, VoxelId to) {
     for (int d = 0; d < 27; ++d) {
       const VoxelId next = esdf.layout.neighbour(id, d);
       if (d == kCentre || next == kNoVoxel || esdf.state[next] != VoxelState::kFree) continue;
-      const double width = std::min({-negative, at(next), space.move_clearance(id, next, d)});
+      const double width = std::min({-negative, at(next), space.move_clearance(id, next, d).value});
       if (width > 0.0 && !done.contains(next)) open.insert({-width, next});
     }
   }

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "ridgeway/esdf/esdf.hpp"
-#include "ridgeway/voxel/polyline.hpp"
+#include "ridgeway/voxel/index.hpp"
 #include "support/pillars.hpp"
 #include "support/places.hpp"
 #include "support/random_maps.hpp"

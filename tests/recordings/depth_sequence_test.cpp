@@ -9,13 +9,13 @@
 #include <set>
 #include <tuple>
 
+#include "common/number_text.hpp"
+#include "common/random.hpp"
+#include "recordings/depth_png.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/number_text.hpp"
-#include "ridgeway/common/random.hpp"
 #include "ridgeway/formats/world_file.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
-#include "ridgeway/recordings/depth_png.hpp"
-#include "ridgeway/sensing/poses.hpp"
+#include "sensing/poses.hpp"
 #include "support/map_errors.hpp"
 #include "support/random_image.hpp"
 #include "support/refusal.hpp"

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <unordered_map>
 
-#include "ridgeway/files/read_file.hpp"
-#include "ridgeway/formats/xyz.hpp"
+#include "files/read_file.hpp"
+#include "formats/xyz.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
 #include "ridgeway/recordings/depth_sequence.hpp"
 #include "ridgeway/recordings/scan_sequence.hpp"

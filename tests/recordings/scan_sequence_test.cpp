@@ -6,8 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "ridgeway/common/number_text.hpp"
-#include "ridgeway/common/random.hpp"
+#include "common/number_text.hpp"
+#include "common/random.hpp"
 #include "ridgeway/formats/world_file.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
 #include "support/lattice.hpp"

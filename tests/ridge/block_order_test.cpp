@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <random>
 
+#include "files/read_file.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/files/read_file.hpp"
 #include "ridgeway/formats/load_map.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"

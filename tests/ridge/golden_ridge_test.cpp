@@ -28,7 +28,7 @@ std::string plans_on(const Roadmap& roadmap) {
   text.precision(17);
   const std::vector<Vertex>& vertices = roadmap.graph.vertices;
   text << vertices.size() << " vertices, " << roadmap.graph.edges.size() << " edges, "
-       << roadmap.taut.graph.vertices.size() << " corners\n";
+       << roadmap.tangents.graph.vertices.size() << " corners\n";
   // The vertices farthest apart, in different rooms.
   std::pair<Point, Point> ends(vertices[0].position, vertices[0].position);
   for (const Vertex& a : vertices)

@@ -53,7 +53,7 @@ class LyingSites : public ::testing::TestWithParam<UnknownPolicy> {
     const VoxelIndex o = site - esdf.layout.index_of(id);
     esdf.site[id] = {static_cast<std::int16_t>(o.x), static_cast<std::int16_t>(o.y),
                      static_cast<std::int16_t>(o.z)};
-    esdf.squared[id] = quarter_squared(esdf.site[id]);
+    esdf.squared[id] = squared_halves(esdf.site[id]);
   }
 
   VoxelId any_live(std::mt19937& random) const { return live_[random() % live_.size()]; }
@@ -122,7 +122,7 @@ TEST_P(LyingSites, ARegionThatOverlooksTheNearestObstaclesIsRefused) {
         const VoxelIndex o = chosen - esdf.layout.index_of(id);
         if (std::max({std::abs(o.x), std::abs(o.y), std::abs(o.z)}) > 9) continue;
         changed +=
-            quarter_squared(o.x) + quarter_squared(o.y) + quarter_squared(o.z) > esdf.squared[id];
+            squared_halves(o.x) + squared_halves(o.y) + squared_halves(o.z) > esdf.squared[id];
         point(esdf, id, chosen);
       }
     });
@@ -158,8 +158,8 @@ void hand_on_sites(EsdfMap& esdf) {
         const SiteOffset site = {static_cast<std::int16_t>(o.x - step.x),
                                  static_cast<std::int16_t>(o.y - step.y),
                                  static_cast<std::int16_t>(o.z - step.z)};
-        if (quarter_squared(site) >= esdf.squared[to]) continue;
-        esdf.squared[to] = quarter_squared(site);
+        if (squared_halves(site) >= esdf.squared[to]) continue;
+        esdf.squared[to] = squared_halves(site);
         esdf.site[to] = site;
         next.push_back(to);
       }

@@ -53,10 +53,10 @@ void expect_same(const Roadmap& a, const Roadmap& b) {
   EXPECT_EQ(a.config, b.config);
 
   expect_same(a.graph, b.graph);
-  expect_same(a.taut.graph, b.taut.graph);
-  EXPECT_EQ(a.taut.cell_of_block, b.taut.cell_of_block);
-  EXPECT_EQ(a.taut.first_seen, b.taut.first_seen);
-  EXPECT_EQ(a.taut.seen, b.taut.seen);
+  expect_same(a.tangents.graph, b.tangents.graph);
+  EXPECT_EQ(a.tangents.cell_of_block, b.tangents.cell_of_block);
+  EXPECT_EQ(a.tangents.first_seen, b.tangents.first_seen);
+  EXPECT_EQ(a.tangents.seen, b.tangents.seen);
   EXPECT_EQ(a.tree.parent, b.tree.parent);
   EXPECT_EQ(a.tree.clearance, b.tree.clearance);
   EXPECT_EQ(a.tree.place, b.tree.place);

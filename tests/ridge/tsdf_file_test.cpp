@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/ridge/tsdf_file.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "common/random.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/random.hpp"
 #include "ridgeway/formats/load_map.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
 #include "support/temporary_folder.hpp"

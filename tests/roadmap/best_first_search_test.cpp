@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "ridgeway/common/random.hpp"
+#include "common/random.hpp"
 
 namespace ridgeway {
 namespace {

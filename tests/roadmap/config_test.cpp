@@ -13,7 +13,6 @@
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/roadmap/build_graph.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
-#include "ridgeway/roadmap/simplify_graph.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
 #include "support/random_maps.hpp"
 
@@ -111,9 +110,9 @@ TEST(Configurations, RefuseWhatIsNoNumberOrOutOfRangeWhereAStageBegins) {
 
 TEST(Configurations, RefuseMorePairsOfPlacesThanThereIsTimeFor) {
   const Stages stages;
-  EXPECT_THROW(build_taut_graph(stages.roadmap, {.most_pairs = static_cast<std::size_t>(-1)}),
+  EXPECT_THROW(build_tangent_graph(stages.roadmap, {.most_pairs = static_cast<std::size_t>(-1)}),
                InputError);
-  EXPECT_THROW(build_roadmap(room(), {.taut_pairs = static_cast<std::size_t>(-1)}), InputError);
+  EXPECT_THROW(build_roadmap(room(), {.tangent_pairs = static_cast<std::size_t>(-1)}), InputError);
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/roadmap/hub_labels.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "ridgeway/roadmap/tangent_graph.hpp"
 #include "roadmap/bounded_hub_labels.hpp"
 #include "support/dijkstra.hpp"
 

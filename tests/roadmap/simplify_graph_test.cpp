@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/roadmap/simplify_graph.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -9,11 +7,12 @@
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/roadmap/build_graph.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
-#include "ridgeway/voxel/disjoint_sets.hpp"
 #include "support/pillars.hpp"
 #include "support/random_maps.hpp"
 #include "support/shapes.hpp"
+#include "voxel/disjoint_sets.hpp"
 
 namespace ridgeway {
 namespace {

@@ -11,8 +11,8 @@
 #include "random_worlds.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/sensing/poses.hpp"
-#include "ridgeway/sensing/world_generators.hpp"
+#include "sensing/poses.hpp"
+#include "sensing/world_generators.hpp"
 
 namespace ridgeway {
 namespace {

@@ -10,8 +10,8 @@
 #include <numbers>
 
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/sensing/poses.hpp"
 #include "ridgeway/sensing/world.hpp"
+#include "sensing/poses.hpp"
 #include "test_meshes.hpp"
 
 namespace ridgeway {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "random_worlds.hpp"
-#include "ridgeway/common/triangle.hpp"
+#include "ridgeway/sensing/solid_mesh.hpp"
 
 namespace ridgeway::testing {
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/sensing/triangle_tree.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
+#include "ridgeway/sensing/solid_mesh.hpp"
 #include "test_meshes.hpp"
 
 namespace ridgeway {

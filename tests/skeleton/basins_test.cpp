@@ -12,11 +12,9 @@
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/skeleton/diagram.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
-#include "ridgeway/skeleton/kernel.hpp"
-#include "ridgeway/skeleton/thinning.hpp"
-#include "ridgeway/voxel/disjoint_sets.hpp"
 #include "support/flood.hpp"
 #include "support/random_maps.hpp"
+#include "voxel/disjoint_sets.hpp"
 
 namespace ridgeway {
 namespace {
@@ -42,15 +40,16 @@ TEST(Basins, TellExactlyWhatIsConnectedAtEveryRadius) {
     const EsdfMap esdf = compute_esdf(random_map(seed, 22), {.unknown = policy});
     const double smallest = kRadii[seed % 4];
     const Basins basins = find_basins(esdf, traversable_voxels(esdf, smallest), smallest);
-    ASSERT_TRUE(std::is_sorted(basins.passes.begin(), basins.passes.end(),
-                               [](const Pass& a, const Pass& b) { return a.level > b.level; }));
+    ASSERT_TRUE(
+        std::is_sorted(basins.passes.begin(), basins.passes.end(),
+                       [](const Pass& a, const Pass& b) { return a.clearance > b.clearance; }));
     for (const double radius : kRadii) {
       if (radius < smallest) continue;
       SCOPED_TRACE(std::to_string(seed) + " " + std::to_string(radius));
-      const double threshold = squared_threshold(radius, esdf.voxel_size);
+      const SquaredHalves threshold = least_clearance(radius, esdf.voxel_size);
       DisjointSets sets(basins.peaks.size());
       for (const Pass& pass : basins.passes)
-        if (pass.level >= threshold) sets.join(basins.basin[pass.from], basins.basin[pass.to]);
+        if (pass.clearance >= threshold) sets.join(basins.basin[pass.from], basins.basin[pass.to]);
       const testing::Regions regions = regions_at(esdf, radius);
       std::vector<std::uint32_t> by_basin, by_flood;
       for (const VoxelId id : regions.voxels) {
@@ -108,8 +107,7 @@ TEST(Diagram, ConnectsWhatSpaceConnectsAndAttachesTheRest) {
         const int d = basins.next[id];
         ASSERT_NE(d, kCentre);
         const VoxelId next = esdf.layout.neighbour(id, d);
-        ASSERT_TRUE(
-            free_space.move_is_free(id, next, d, squared_threshold(radius, esdf.voxel_size)));
+        ASSERT_TRUE(free_space.move_is_free(id, next, d, least_clearance(radius, esdf.voxel_size)));
         id = next;
       }
   }

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "random_levels.hpp"
-#include "skeleton/landscape.hpp"
 #include "skeleton/plain_peeling.hpp"
+#include "skeleton/watershed.hpp"
 
 namespace ridgeway {
 namespace {
@@ -20,9 +20,10 @@ TEST(LevelPeeling, LeavesWhatPeelingInOrderLeavesWhateverTheLevels) {
     VoxelMask keep(levels.esdf.layout);
     for (VoxelId id = 0; id < levels.esdf.layout.voxel_count(); ++id)
       if (levels.traversable.test(id) && random() % 200 < seed % 5) keep.set(id);
-    const detail::Landscape land = detail::survey(levels.esdf, levels.traversable);
+    const detail::Watershed watershed = detail::find_watershed(levels.esdf, levels.traversable);
     const VoxelMask plain = detail::peel_in_order(levels.esdf, levels.traversable, keep);
-    ASSERT_EQ(detail::peel_levels(levels.esdf, levels.traversable, land.basins.obstinate, keep),
+    ASSERT_EQ(detail::peel_levels(levels.esdf, levels.traversable,
+                                  watershed.basins.not_simple_at_first_turn, keep),
               plain);
     left += plain.count();
     gone += levels.traversable.count() - plain.count();

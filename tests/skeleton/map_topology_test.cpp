@@ -15,9 +15,7 @@
 #include "ridgeway/formats/load_map.hpp"
 #include "ridgeway/skeleton/diagram.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
-#include "ridgeway/skeleton/kernel.hpp"
-#include "ridgeway/skeleton/simple_point.hpp"
-#include "ridgeway/skeleton/thinning.hpp"
+#include "skeleton/simple_point.hpp"
 #include "support/betti.hpp"
 
 namespace ridgeway {
@@ -47,7 +45,7 @@ std::vector<VoxelId> simple_voxels(const EsdfMap& esdf, const VoxelMask& voxels)
   return simple;
 }
 
-using Widths = std::array<std::array<double, 27>, 27>;
+using Widths = std::array<std::array<SquaredHalves, 27>, 27>;
 
 /// Widest ways between all cells of a cube of voxels over moves between them (Floyd-Warshall).
 Widths widest_ways(const EsdfMap& esdf, VoxelId id, Cube27 cells) {
@@ -71,7 +69,7 @@ Widths widest_ways(const EsdfMap& esdf, VoxelId id, Cube27 cells) {
 
 /// Whether a way for robots of a radius or more would get narrower without a voxel.
 bool widens_a_way(const EsdfMap& esdf, const VoxelMask& voxels, VoxelId id, double radius) {
-  const double threshold = squared_threshold(radius, esdf.voxel_size);
+  const SquaredHalves threshold = least_clearance(radius, esdf.voxel_size);
   const Cube27 cube = cube_around(esdf.layout, voxels, id);
   const Widths with = widest_ways(esdf, id, cube);
   const Widths without = widest_ways(esdf, id, cube & ~kCentreBit);

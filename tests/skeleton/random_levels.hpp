@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "ridgeway/esdf/esdf_map.hpp"
+#include "ridgeway/esdf/esdf.hpp"
 
 namespace ridgeway::testing {
 

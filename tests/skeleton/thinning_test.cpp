@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/skeleton/thinning.hpp"
-
 #include <gtest/gtest.h>
 
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/skeleton/simple_point.hpp"
+#include "ridgeway/skeleton/gvd.hpp"
+#include "skeleton/simple_point.hpp"
 #include "support/betti.hpp"
 #include "support/random_shapes.hpp"
 

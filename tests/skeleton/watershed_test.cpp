@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
+#include "skeleton/watershed.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,12 +11,11 @@
 #include "random_levels.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
-#include "ridgeway/skeleton/simple_point.hpp"
 #include "skeleton/cube_answers.hpp"
 #include "skeleton/kernel_joiner.hpp"
-#include "skeleton/landscape.hpp"
 #include "skeleton/plain_regions.hpp"
 #include "skeleton/plain_watershed.hpp"
+#include "skeleton/simple_point.hpp"
 #include "skeleton/sub_field.hpp"
 #include "support/random_maps.hpp"
 
@@ -34,12 +35,12 @@ VoxelId plain_peak(const EsdfMap& esdf, const VoxelMask& traversable, VoxelId id
 }
 
 void expect_to_be_what_every_voxel_sees(const EsdfMap& esdf, const VoxelMask& traversable) {
-  const detail::Landscape land = detail::survey(esdf, traversable);
+  const detail::Watershed watershed = detail::find_watershed(esdf, traversable);
   std::vector<VoxelId> critical, peaks;
   for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id) {
     if (!traversable.test(id)) {
-      ASSERT_EQ(land.basins.next[id], kNotTraversable);
-      ASSERT_FALSE(land.basins.obstinate.test(id));
+      ASSERT_EQ(watershed.basins.next[id], kNotTraversable);
+      ASSERT_FALSE(watershed.basins.not_simple_at_first_turn.test(id));
       continue;
     }
     const Cube27 higher = detail::plain_neighbours(
@@ -48,14 +49,15 @@ void expect_to_be_what_every_voxel_sees(const EsdfMap& esdf, const VoxelMask& tr
       return std::pair(esdf.squared[n], detail::sub_field(n)) >
              std::pair(esdf.squared[id], detail::sub_field(id));
     });
-    ASSERT_EQ(land.basins.next[id], detail::plain_climb(esdf, traversable, id));
-    ASSERT_EQ(land.basins.peaks[land.basins.basin[id]], plain_peak(esdf, traversable, id));
-    ASSERT_EQ(land.basins.obstinate.test(id), !is_simple(later));
+    ASSERT_EQ(watershed.basins.next[id], detail::plain_climb(esdf, traversable, id));
+    ASSERT_EQ(watershed.basins.peaks[watershed.basins.basin[id]],
+              plain_peak(esdf, traversable, id));
+    ASSERT_EQ(watershed.basins.not_simple_at_first_turn.test(id), !is_simple(later));
     if (!detail::is_regular(higher)) critical.push_back(id);
-    if (land.basins.next[id] == kCentre) peaks.push_back(id);
+    if (watershed.basins.next[id] == kCentre) peaks.push_back(id);
   }
-  ASSERT_EQ(land.critical, critical);
-  ASSERT_EQ(land.basins.peaks, peaks);
+  ASSERT_EQ(watershed.critical, critical);
+  ASSERT_EQ(watershed.basins.peaks, peaks);
 }
 
 TEST(Watershed, OfBlocksIsWhatEveryVoxelSeesOfItsNeighbours) {
@@ -95,7 +97,7 @@ TEST(Watershed, DynamicsAreThoseOfKruskalOverAllMoves) {
     std::erase(dynamics, 0.0);  // equally high parts of one plateau
     std::sort(dynamics.begin(), dynamics.end());
     const std::vector<double> plain =
-        detail::plain_dynamics(esdf, traversable, squared_threshold(radius, esdf.voxel_size));
+        detail::plain_dynamics(esdf, traversable, least_clearance(radius, esdf.voxel_size));
     ASSERT_EQ(dynamics.size(), plain.size());
     for (std::size_t i = 0; i < dynamics.size(); ++i) {
       ASSERT_EQ(std::isinf(dynamics[i]), std::isinf(plain[i]));
@@ -122,7 +124,7 @@ TEST(KernelJoiner, ConnectsAtEveryClearanceWhatSpaceConnectsThere) {
       if (traversable.test(id) && random() % 4096 < kWanted[seed % 4]) wanted.set(id);
     Basins basins = find_basins(esdf, traversable, 0.05);
     const VoxelMask diagram =
-        detail::join_kernel(esdf, wanted, squared_threshold(0.05, esdf.voxel_size), basins);
+        detail::join_kernel(esdf, wanted, least_clearance(0.05, esdf.voxel_size), basins);
     for (double radius = 0.05; radius < 0.6; radius *= 1.12) {
       SCOPED_TRACE(std::to_string(seed) + " " + std::to_string(radius));
       const Regions space = regions_at(esdf, radius);

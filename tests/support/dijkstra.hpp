@@ -16,7 +16,7 @@ namespace ridgeway::testing {
 inline std::map<VoxelId, double> dijkstra_voxels(const EsdfMap& esdf, VoxelId start, double radius,
                                                  const VoxelMask* within = nullptr) {
   const FreeSpace space(esdf);
-  const double threshold = squared_threshold(radius, esdf.voxel_size);
+  const SquaredHalves threshold = least_clearance(radius, esdf.voxel_size);
   std::map<VoxelId, double> cost{{start, 0.0}};
   std::set<std::pair<double, VoxelId>> open{{0.0, start}};
   while (!open.empty()) {

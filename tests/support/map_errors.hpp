@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "ridgeway/mapping/tsdf_map.hpp"
+#include "ridgeway/mapping/tsdf_fusion.hpp"
 #include "ridgeway/sensing/world.hpp"
 #include "support/lattice.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "ridgeway/esdf/esdf_map.hpp"
+#include "ridgeway/esdf/esdf.hpp"
 
 namespace ridgeway::testing {
 
@@ -14,7 +14,7 @@ inline std::vector<VoxelId> traversable_places(const EsdfMap& esdf, double radiu
   std::vector<VoxelId> places;
   for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
     if (esdf.state[id] == VoxelState::kFree &&
-        esdf.squared[id] >= squared_threshold(radius, esdf.voxel_size) &&
+        esdf.squared[id] >= least_clearance(radius, esdf.voxel_size) &&
         (within == nullptr || within->test(id)))
       places.push_back(id);
   return places;

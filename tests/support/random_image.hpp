@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
-#include "ridgeway/common/random.hpp"
+#include "common/random.hpp"
 #include "ridgeway/sensing/depth_camera.hpp"
 
 namespace ridgeway {

@@ -80,7 +80,7 @@ inline Roadmap synthetic_roadmap(const SyntheticConfig& config = {}) {
   std::shuffle(open.begin(), open.end(), random);
   open.resize(std::min(open.size(), config.vertices));
   std::sort(open.begin(), open.end());
-  const double low = squared_threshold(0.3, esdf.voxel_size);
+  const SquaredHalves low = least_clearance(0.3, esdf.voxel_size);
   for (const VoxelId id : open) {
     const VoxelIndex voxel = esdf.layout.index_of(id);
     roadmap.graph.vertices.push_back({voxel, centre_of(voxel, esdf.voxel_size), esdf.distance(id)});
@@ -125,14 +125,15 @@ inline Roadmap synthetic_roadmap(const SyntheticConfig& config = {}) {
   index_links(graph);
 
   if (graph.vertices.empty()) return roadmap;
-  TautGraph& taut = roadmap.taut;
-  taut.graph = graph;
+  TangentGraph& tangents = roadmap.tangents;
+  tangents.graph = graph;
   BlockCells cells = number_cells(esdf.layout);
-  taut.cell_of_block = std::move(cells.cell_of_block);
-  taut.first_seen = {0};
+  tangents.cell_of_block = std::move(cells.cell_of_block);
+  tangents.first_seen = {0};
   for (std::uint32_t cell = 0; cell < cells.count; ++cell) {
-    for (std::uint32_t k = 0; k < cell % 3; ++k) taut.seen.push_back(VertexId{(cell + k) % count});
-    taut.first_seen.push_back(static_cast<std::uint32_t>(taut.seen.size()));
+    for (std::uint32_t k = 0; k < cell % 3; ++k)
+      tangents.seen.push_back(VertexId{(cell + k) % count});
+    tangents.first_seen.push_back(static_cast<std::uint32_t>(tangents.seen.size()));
   }
   return roadmap;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/trajectory/minimum_spline.hpp"
+#include "trajectory/minimum_spline.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,10 +10,9 @@
 #include <random>
 #include <thread>
 
+#include "experiments/flight_judge.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/esdf.hpp"
-#include "ridgeway/experiments/flight_judge.hpp"
-#include "ridgeway/trajectory/verify_trajectory.hpp"
 #include "support/random_maps.hpp"
 #include "support/shapes.hpp"
 

@@ -9,13 +9,13 @@
 #include <filesystem>
 #include <random>
 
+#include "experiments/flight_judge.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/experiments/flight_judge.hpp"
 #include "ridgeway/formats/load_map.hpp"
 #include "ridgeway/mapping/world_map.hpp"
 #include "ridgeway/planning/check.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
-#include "ridgeway/sensing/world_generators.hpp"
+#include "sensing/world_generators.hpp"
 #include "support/random_maps.hpp"
 
 namespace ridgeway {

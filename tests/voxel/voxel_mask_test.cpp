@@ -7,8 +7,8 @@
 #include <random>
 #include <set>
 
-#include "ridgeway/voxel/cube_gather.hpp"
-#include "ridgeway/voxel/disjoint_sets.hpp"
+#include "voxel/cube_gather.hpp"
+#include "voxel/disjoint_sets.hpp"
 
 namespace ridgeway {
 namespace {

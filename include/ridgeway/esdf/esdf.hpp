@@ -2,9 +2,106 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
-#include "ridgeway/esdf/esdf_map.hpp"
+#include <cmath>
+#include <compare>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+
+#include "ridgeway/mapping/occupancy_map.hpp"
+#include "ridgeway/voxel/voxel_mask.hpp"
 
 namespace ridgeway {
+
+/// What unknown space is to the robot.
+enum class UnknownPolicy : std::uint8_t {
+  kObstacle = 0,  ///< as solid as a wall: a sphere of the robot's radius never reaches into it
+  kIgnore = 1,    ///< pushes no distances, but a path stays in known-free voxels
+};
+
+/// Whether voxels of a state are obstacles: what is occupied, and under UnknownPolicy::kObstacle
+/// what is unknown, allocated or not. No branches, so that loops over states become vector code.
+constexpr bool is_obstacle(VoxelState state, UnknownPolicy unknown) {
+  return (state == VoxelState::kOccupied) |
+         ((state == VoxelState::kUnknown) & (unknown == UnknownPolicy::kObstacle));
+}
+
+/// Throws InputError where a policy is no enumerator.
+void validate_policy(UnknownPolicy policy);
+
+/// Offset from a voxel to its nearest site, voxels.
+struct SiteOffset {
+  std::int16_t x = 0;
+  std::int16_t y = 0;
+  std::int16_t z = 0;
+  friend constexpr bool operator==(const SiteOffset&, const SiteOffset&) = default;
+};
+
+/// A squared distance as the field has it, in squared half voxels: 4 d^2 / s^2, which is a whole
+/// number from a voxel's centre to a closed cube. Larger is farther; numbers of other units neither
+/// compare with it nor turn into it unasked.
+struct SquaredHalves {
+  double value = 0.0;
+
+  constexpr SquaredHalves() = default;
+  constexpr explicit SquaredHalves(double squared_halves) : value(squared_halves) {}
+  /// Of a number that the field holds.
+  template <std::same_as<std::uint32_t> OfField>
+  constexpr SquaredHalves(OfField squared_halves) : value(squared_halves) {}
+
+  /// The distance itself, metres.
+  double metres(double voxel_size) const { return 0.5 * voxel_size * std::sqrt(value); }
+
+  friend constexpr auto operator<=>(const SquaredHalves&, const SquaredHalves&) = default;
+};
+
+/// Squared distance from a voxel's centre to the closed cube at an offset, in squared half voxels:
+/// the sum over the axes of max(2 |k| - 1, 0)^2.
+constexpr std::uint32_t squared_halves(int k) {
+  const int twice = 2 * (k < 0 ? -k : k) - (k != 0);  // no branch: zero is hard to foresee
+  return static_cast<std::uint32_t>(twice) * static_cast<std::uint32_t>(twice);
+}
+constexpr std::uint32_t squared_halves(const SiteOffset& o) {
+  return squared_halves(o.x) + squared_halves(o.y) + squared_halves(o.z);
+}
+
+/// Longest distance that is ever stored, voxels; farther voxels have no site.
+inline constexpr int kFarthestSite = 16000;
+/// `squared` of a voxel without a site.
+inline constexpr std::uint32_t kNoSite = 0xffffffffu;
+
+/// Euclidean distance field over the blocks of a map (method: exact distances from voxel centres
+/// to closed obstacle cubes; ties between sites go to the smallest (z, y, x)).
+/// Invariants: obstacle voxels have `squared` 0 and `site` {0,0,0}; a voxel farther than
+/// `max_distance` from every obstacle has `squared` kNoSite.
+struct EsdfMap {
+  double voxel_size = 0.0;  ///< metres
+  VoxelIndex origin = {};   ///< the lattice's voxel that is the map's own (0, 0, 0); to_world()
+  UnknownPolicy unknown = UnknownPolicy::kObstacle;
+  double max_distance = std::numeric_limits<double>::infinity();  ///< metres
+  BlockLayout layout;
+  VoxelField<VoxelState> state;
+  VoxelField<std::uint32_t> squared;  ///< to the site, squared half voxels (SquaredHalves)
+  VoxelField<SiteOffset> site;
+  VoxelMask obstacle;
+
+  bool is_obstacle(VoxelId id) const {
+    return id == kNoVoxel ? ridgeway::is_obstacle(VoxelState::kUnknown, unknown)
+                          : obstacle.test(id);
+  }
+  /// Distance from a voxel's centre to the nearest obstacle cube, metres; infinite without a site.
+  double distance(VoxelId id) const {
+    return squared[id] == kNoSite ? std::numeric_limits<double>::infinity()
+                                  : SquaredHalves(squared[id]).metres(voxel_size);
+  }
+};
+
+/// The least distance at which a voxel counts as free at a radius: inclusive, with a relative slack
+/// of 1e-9 on the radius, so that r / s a whole number is no matter of rounding.
+inline SquaredHalves least_clearance(double radius, double voxel_size) {
+  const double r = radius * (1.0 - 1e-9) / voxel_size;
+  return SquaredHalves(4.0 * r * r);
+}
 
 struct EsdfConfig {
   UnknownPolicy unknown = UnknownPolicy::kObstacle;

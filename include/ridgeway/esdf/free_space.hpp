@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "ridgeway/esdf/esdf_map.hpp"
+#include "ridgeway/esdf/esdf.hpp"
 
 namespace ridgeway {
 
@@ -60,32 +60,34 @@ class FreeSpace {
   bool is_known_free(const Point& a, const Point& b) const;
 
   /// Whether a sphere can move from the centre of a free voxel to a free 26-neighbour of it, in
-  /// a direction (voxel/neighbourhood.hpp). `threshold`: squared_threshold(radius, voxel_size).
-  bool move_is_free(VoxelId from, VoxelId to, int direction, double threshold) const {
-    const double a = esdf_.squared[from], b = esdf_.squared[to];
+  /// a direction (voxel/neighbourhood.hpp). `threshold`: least_clearance(radius, voxel_size).
+  bool move_is_free(VoxelId from, VoxelId to, int direction, SquaredHalves threshold) const {
+    const SquaredHalves a = esdf_.squared[from], b = esdf_.squared[to];
     if (a < threshold || b < threshold) return false;
-    const double bound = move_bound(a, b, squared_length(direction));
+    const SquaredHalves bound = move_bound(a, b, squared_length(direction));
     return bound >= threshold || slow_move_clearance(from, to, direction, threshold) >= threshold;
   }
 
-  /// 4 c^2 / s^2 of that move, c its smallest D. Moves across a face never dip below their ends.
-  double move_clearance(VoxelId from, VoxelId to, int direction) const {
-    const double a = esdf_.squared[from], b = esdf_.squared[to];
-    const double low = a < b ? a : b;
+  /// The smallest D on that move. Moves across a face never dip below their ends.
+  SquaredHalves move_clearance(VoxelId from, VoxelId to, int direction) const {
+    const SquaredHalves a = esdf_.squared[from], b = esdf_.squared[to];
+    const SquaredHalves low = a < b ? a : b;
     if (move_bound(a, b, squared_length(direction)) >= low) return low;
     return slow_move_clearance(from, to, direction, low);
   }
 
-  /// Lower bound of 4 D^2 / s^2 on the segment between two voxel centres with these values of it,
-  /// L2 voxels^2 apart: the minimum over t of (1-t) a + t b - 4 t (1-t) L2; exact for L2 = 1.
-  static double move_bound(double a, double b, int L2) {
-    const double low = a < b ? a : b, rise = a < b ? b - a : a - b;
+  /// Lower bound of D on the segment between two voxel centres with these values of it, L2 voxels^2
+  /// apart: the minimum over t of (1-t) a + t b - 4 t (1-t) L2; exact for L2 = 1.
+  static SquaredHalves move_bound(SquaredHalves a, SquaredHalves b, int L2) {
+    const SquaredHalves low = a < b ? a : b;
+    const double rise = a < b ? b.value - a.value : a.value - b.value;
     if (L2 == 1 || rise >= 4.0 * L2) return low;
-    return 0.5 * (a + b) - L2 - rise * rise / (16.0 * L2);
+    return SquaredHalves(0.5 * (a.value + b.value) - L2 - rise * rise / (16.0 * L2));
   }
 
  private:
-  double slow_move_clearance(VoxelId from, VoxelId to, int direction, double enough) const;
+  SquaredHalves slow_move_clearance(VoxelId from, VoxelId to, int direction,
+                                    SquaredHalves enough) const;
 
   const EsdfMap& esdf_;
 };

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "ridgeway/mapping/tsdf_fusion.hpp"
 #include "ridgeway/roadmap/roadmap.hpp"
 
 namespace ridgeway {
@@ -30,5 +31,9 @@ void write_diagram_ply(const Roadmap& roadmap, const std::filesystem::path& path
 /// Writes the graph in the format that the file's extension names: .json, .graphml or .ply.
 /// Throws InputError for another one.
 void write_graph(const Roadmap& roadmap, const std::filesystem::path& path);
+
+/// Binary PLY: vertices (x, y, z as doubles in metres, nx, ny, nz) and triangles. The file is
+/// replaced whole or not at all; throws InputError where it cannot be written.
+void write_mesh_ply(const SurfaceMesh& mesh, const std::filesystem::path& path);
 
 }  // namespace ridgeway

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ridgeway/planning/plan.hpp"
+#include "ridgeway/trajectory/plan_trajectory.hpp"
 
 namespace ridgeway {
 
@@ -28,5 +29,30 @@ void write_plan(const PlanResult& result, const std::filesystem::path& path);
 /// with or without a header line; columns named x, y and z are found in any order. Throws
 /// InputError, with the line, for anything else.
 std::vector<Point> read_path(const std::filesystem::path& path);
+
+/// Throws InputError where a file's extension is neither .csv nor .json nor .yaml.
+void require_trajectory_format(const std::filesystem::path& path);
+
+/// A path and the trajectory along it as a JSON object: the keys of plan_json, and step, duration,
+/// stop_and_go_duration, max_speed, max_acceleration, max_jerk, max_yaw_rate (certified), stops,
+/// optimisations, converged, evaluations, cost {time, smoothness, collision, limits} of the last,
+/// and samples every `step` seconds: a list of {t, position, velocity, acceleration, yaw}. `status`
+/// and `clearance` are the trajectory's, `path_clearance` the path's; `seconds` has optimise and
+/// verify too, its total is of all. SI units, radians; numbers read back as they were; an infinite
+/// clearance is null.
+std::string trajectory_json(const PlanResult& path, const TrajectoryResult& result, double step);
+
+/// A line every `step` seconds under the header t,x,y,z,vx,vy,vz,ax,ay,az,yaw.
+std::string trajectory_csv(const Trajectory& trajectory, double step);
+
+/// The pieces as mav_trajectory_generation reads them: `segments`, each with N (coefficients), D
+/// (4: x, y, z, yaw), time (nanoseconds) and D lists of N coefficients, of 1, t, t^2, ... in
+/// seconds. Times are rounded to nanoseconds, so joints move by up to half of that times the speed.
+std::string trajectory_yaml(const Trajectory& trajectory);
+
+/// Writes a trajectory to a file, whole or not at all, in the format of its extension. Throws
+/// InputError for another extension, and where the file cannot be written.
+void write_trajectory(const PlanResult& path, const TrajectoryResult& result,
+                      const std::filesystem::path& file, double step);
 
 }  // namespace ridgeway

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "ridgeway/mapping/occupancy_map.hpp"
-#include "ridgeway/mapping/voxel_range.hpp"
 
 namespace ridgeway {
 

@@ -8,11 +8,12 @@
 #include <string>
 #include <unordered_map>
 
-#include "ridgeway/mapping/memory_limit.hpp"
 #include "ridgeway/mapping/occupancy_map.hpp"
-#include "ridgeway/mapping/voxel_range.hpp"
 
 namespace ridgeway {
+
+/// What an allocated voxel costs at the peak, bytes, in the whole pipeline from map to roadmap.
+inline constexpr int kPipelineBytesPerVoxel = 40;
 
 /// Makes an OccupancyMap from voxels and boxes of voxels of the lattice that come in any order.
 /// Where they overlap, occupied wins over free, free over unknown, so the order does not matter.
@@ -22,7 +23,7 @@ class OccupancyBuilder {
  public:
   struct Config {
     VoxelRange clip = kAllVoxels;                  ///< of the lattice; others are ignored
-    int bytes_per_voxel = kPipelineBytesPerVoxel;  ///< to be reckoned with, see memory_limit.hpp
+    int bytes_per_voxel = kPipelineBytesPerVoxel;  ///< to be reckoned with
     std::string name = "map";                      ///< file or value to name in errors
   };
 

@@ -6,11 +6,44 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
-#include "ridgeway/mapping/tsdf_map.hpp"
+#include "ridgeway/mapping/occupancy_map.hpp"
 #include "ridgeway/sensing/depth_camera.hpp"
+#include "ridgeway/sensing/solid_mesh.hpp"
+#include "ridgeway/voxel/voxel_field.hpp"
 
 namespace ridgeway {
+
+/// A truncated signed distance field: at each voxel centre the distance to the measured surface,
+/// negative behind it. Invariant: both fields are on `layout`; |distance| <= truncation.
+struct TsdfMap {
+  double voxel_size = 0.0;  ///< metres
+  VoxelIndex origin = {};   ///< the lattice's voxel that is the map's own (0, 0, 0)
+  double truncation = 0.0;  ///< metres; distances are known no farther than this
+  BlockLayout layout;
+  VoxelField<float> distance;  ///< metres; of no meaning where the weight is 0
+  VoxelField<float> weight;    ///< how well it is known; 0: never seen
+};
+
+/// Voxels whose centre lies behind the surface are occupied, those before it free, those never
+/// seen unknown. Normalised.
+OccupancyMap occupancy_of(const TsdfMap& tsdf);
+
+/// A surface as triangles, their fronts towards free space. `normals` is as long as `vertices`, and
+/// `triangles` hold places in it.
+struct SurfaceMesh {
+  std::vector<Point> vertices;           ///< metres, world frame
+  std::vector<Eigen::Vector3d> normals;  ///< of length one, towards free space
+  std::vector<Triangle> triangles;
+};
+
+/// The zero level of a truncated distance field, where a voxel at distance 0 counts as behind the
+/// surface. It runs between voxel centres and only where all eight around a place are known: it has
+/// borders where the unknown begins and nowhere else. Every edge is that of one triangle at a
+/// border, else of two. The same for any number of threads. Throws InputError for a surface of more
+/// than 2^31 - 1 vertices.
+SurfaceMesh surface_of(const TsdfMap& tsdf);
 
 /// How measurements reach the voxels: each voxel looks up the pixel that sees it, or each point
 /// marks the voxels on its ray. Images can take either way, point clouds the second alone.

@@ -57,7 +57,7 @@ struct PlanConfig {
   /// Metres; the roadmap's min_clearance when not given.
   std::optional<double> radius = std::nullopt;
   bool shorten = true;  ///< pull the path tight; otherwise as the search found it
-  /// Settle for the taut graph's route where it has one, though moving corners would make it a
+  /// Settle for the tangent graph's route where it has one, though moving corners would make it a
   /// little shorter: a percent or two as a rule, but some paths are detours. Nothing else is new
   /// where it has none, at larger radii, or with prefer_clearance.
   bool quick = false;

@@ -2,7 +2,9 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/roadmap/roadmap.hpp"
+#include "ridgeway/roadmap/sparse_graph.hpp"
 #include "ridgeway/skeleton/basins.hpp"
 
 namespace ridgeway {
@@ -38,5 +40,36 @@ ClearanceTree build_clearance_tree(const EsdfMap& esdf, const SparseGraph& graph
 
 /// Largest clearance at which two vertices are connected, metres; 0 where they are not at all.
 double widest_way(const SparseGraph& graph, const ClearanceTree& tree, VertexId a, VertexId b);
+
+/// Lengths in metres.
+struct SimplifyConfig {
+  double significance = 0.35;  ///< dead ends whose ball reaches less far beyond others go
+  double steepness = 0.6;      ///< and those that reach less far than this share of their length
+  double widest_kept = 0.0;    ///< up to this clearance ways stay as wide as they were; 0: twice
+                               ///< the graph's min_clearance; what is less counts as that
+  double width_step = 0.25;    ///< which counts in steps of this share of min_clearance: a way as
+                               ///< wide as 1.45 times min_clearance may become 1.25 times as wide
+  double stretch = 1.5;        ///< but may become longer by this factor
+
+  /// Throws InputError naming the bad field.
+  void validate() const;
+};
+
+/// Leaves out of a graph what noise and voxels put into it, and nothing that matters: whatever is
+/// left out is swept over free space onto what stays, so no two ways that pass an obstacle on
+/// different sides become one. Until nothing changes:
+/// - a dead end goes if the ball at its end hardly reaches beyond the balls around (erosion
+///   thickness): noise makes short ones, and the curves into the corners of a room gain only 0.29
+///   or 0.42 of their length;
+/// - a vertex goes into a wider neighbour whose ball it lies in or, where the way does not fork,
+///   into any neighbour;
+/// - an edge goes if it can be swept onto another way between its ends, as wide and at most
+///   `stretch` times as long (a spanner that keeps homotopy).
+/// What the graph connects at a radius, a whole number of steps up to `widest_kept`, it connects
+/// after, too; for radii between them ways that have become narrower may be missing.
+/// The contract of SparseGraph holds for the result. Components stay. Deterministic. Throws
+/// InputError naming the bad field.
+SparseGraph simplify_graph(const EsdfMap& esdf, const SparseGraph& graph,
+                           const SimplifyConfig& config = {});
 
 }  // namespace ridgeway

@@ -14,12 +14,13 @@ struct BuildConfig {
   double min_clearance = 0.4;  ///< smallest robot radius the roadmap is for
   UnknownPolicy unknown = UnknownPolicy::kObstacle;
   double max_distance = std::numeric_limits<double>::infinity();  ///< distances stop here
-  double theta = 0.785;            ///< GVD: least angle between the directions to two sites
-  double prune_radius = 0.35;      ///< vertices closer than this along the diagram become one
-  double split_deviation = 0.0;    ///< edge's greatest distance from its diagram; 0: two voxels
-  double significance = 0.35;      ///< dead ends of the graph that reach less far go
-  bool simplify = true;            ///< leave out of the graph what noise and voxels put into it
-  std::size_t taut_pairs = 2000;   ///< of places, at most, to learn the taut graph from; 0: none
+  double theta = 0.785;          ///< GVD: least angle between the directions to two sites
+  double prune_radius = 0.35;    ///< vertices closer than this along the diagram become one
+  double split_deviation = 0.0;  ///< edge's greatest distance from its diagram; 0: two voxels
+  double significance = 0.35;    ///< dead ends of the graph that reach less far go
+  bool simplify = true;          ///< leave out of the graph what noise and voxels put into it
+  std::size_t tangent_pairs =
+      2000;                        ///< of places, at most, to learn the tangent graph from; 0: none
   bool basis_point_edges = false;  ///< edges by basis points, not by the 18-of-26 rule
   bool paper_diagram = false;      ///< thinned edges alone, without the kernel, for comparison
 
@@ -29,7 +30,7 @@ struct BuildConfig {
 
 struct BuildSeconds {
   double esdf = 0.0, gvd = 0.0, edges = 0.0, thin = 0.0, kernel = 0.0, graph = 0.0, attach = 0.0,
-         taut = 0.0, total = 0.0;
+         tangents = 0.0, total = 0.0;
 };
 
 /// Counts and times of a build, for reports.
@@ -51,7 +52,7 @@ struct BuildResult {
   BuildReport report;
 };
 
-/// The whole pipeline: ESDF, GVD, edges, thinning, kernel, diagram, graph, attach field, taut
+/// The whole pipeline: ESDF, GVD, edges, thinning, kernel, diagram, graph, attach field, tangents
 /// graph. Consumes the map. Under UnknownPolicy::kIgnore free pockets smaller than the robot are
 /// taken as unknown. Same map and configuration give the same bytes for any number of threads (set
 /// by with_threads, common/parallel.hpp). Throws InputError where nothing is free, or memory would

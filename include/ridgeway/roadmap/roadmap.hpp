@@ -5,10 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "ridgeway/esdf/esdf_map.hpp"
-#include "ridgeway/roadmap/graph_lengths.hpp"
+#include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/roadmap/sparse_graph.hpp"
-#include "ridgeway/roadmap/taut_graph.hpp"
+#include "ridgeway/roadmap/tangent_graph.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
 
 namespace ridgeway {
@@ -46,10 +45,10 @@ struct Roadmap {
   SparseGraph graph;
   AttachField attach;
   ClearanceTree tree;
-  Landmarks landmarks;  ///< of the graph; not in the file, placed when it is loaded
-  TautGraph taut;       ///< ways close around corners; may be empty
-  std::string source;   ///< the map it was built from, for people
-  std::string config;   ///< the configuration it was built with, as JSON text, for people
+  Landmarks landmarks;    ///< of the graph; not in the file, placed when it is loaded
+  TangentGraph tangents;  ///< ways close around corners; may be empty
+  std::string source;     ///< the map it was built from, for people
+  std::string config;     ///< the configuration it was built with, as JSON text, for people
 };
 
 }  // namespace ridgeway

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "ridgeway/esdf/esdf_map.hpp"
+#include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
 
 namespace ridgeway {
@@ -13,10 +13,9 @@ namespace ridgeway {
 /// `next` of a voxel that is not traversable.
 inline constexpr Direction kNotTraversable = 27;
 
-/// A place where two basins meet: the widest move between them. `level`: 4 c^2 / s^2 of that move,
-/// c its clearance.
+/// A place where two basins meet: the widest move between them.
 struct Pass {
-  double level = 0.0;
+  SquaredHalves clearance;  ///< of that move
   VoxelId from = kNoVoxel;
   VoxelId to = kNoVoxel;
 };
@@ -26,7 +25,7 @@ struct NarrowerPass {
   const BlockLayout* layout;
 
   bool operator()(const Pass& a, const Pass& b) const {
-    if (a.level != b.level) return a.level < b.level;
+    if (a.clearance != b.clearance) return a.clearance < b.clearance;
     return a.from != b.from ? layout->order_of(a.from) > layout->order_of(b.from)
                             : layout->order_of(a.to) > layout->order_of(b.to);
   }
@@ -42,12 +41,12 @@ struct BasinNumbers {
   std::uint32_t operator[](VoxelId id) const { return basin[first[id / kBlockVoxels] + drain[id]]; }
 };
 
-/// Traversable space as a landscape whose height is the clearance. Each voxel climbs to a peak by
+/// The watershed of traversable space, its height the clearance. Each voxel climbs to a peak by
 /// moves that are nowhere narrower than the voxel itself; the passes, widest first, are the
 /// maximum spanning forest of all basins over all legal moves. Together they tell exactly at which
 /// radius any two voxels part.
 ///
-/// Heights are ordered by (4 d^2 / s^2, earlier voxel first), so there are no ties.
+/// Heights are ordered by (clearance, earlier voxel first), so there are no ties.
 struct Basins {
   VoxelField<Direction> next;    ///< towards the peak; kCentre at a peak
   BasinNumbers basin;            ///< of the voxel
@@ -55,7 +54,7 @@ struct Basins {
   std::vector<double> dynamics;  ///< by basin: height above its pass to a higher peak, voxels
   std::vector<Pass> passes;      ///< widest first
   /// Voxels that compute_kernel cannot delete at their first turn, even if all it asks before went.
-  VoxelMask obstinate;
+  VoxelMask not_simple_at_first_turn;
   std::size_t components() const { return peaks.size() - passes.size(); }
 };
 

@@ -6,13 +6,22 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
-#include "ridgeway/esdf/esdf_map.hpp"
-#include "ridgeway/trajectory/motion_limits.hpp"
-#include "ridgeway/trajectory/optimise_spline.hpp"
+#include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/trajectory/trajectory.hpp"
 
 namespace ridgeway {
+
+/// The terms of the cost, weighted. All are pure numbers: seconds are measured in v / a and metres
+/// in v^2 / a (v, a the limits of speed and acceleration), so weights do not depend on the robot.
+struct CostTerms {
+  double time = 0.0;        ///< duration
+  double smoothness = 0.0;  ///< integral of squared snap or jerk
+  double collision = 0.0;   ///< CHOMP's potential, integrated over arc length
+  double limits = 0.0;      ///< squared excess of squared speed, acceleration, jerk over time
+  double total() const { return time + smoothness + collision + limits; }
+};
 
 enum class TrajectoryStatus : std::uint8_t {
   kOk,
@@ -105,5 +114,19 @@ TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> pat
 /// rest to rest through knots on the path, as fast as its limits allow. Nothing says that it is
 /// free. Throws InputError for the same paths and configurations.
 Trajectory plain_spline(std::span<const Point> path, const TrajectoryConfig& config);
+
+/// Here trajectories are in the map's local frame.
+
+/// Times, seconds from the start, from which on it cannot be shown that a sphere of the radius
+/// fits: the first in each segment that has one. Empty: the robot fits for certain, all along. Each
+/// curve lies in the hull of its Bezier points, so where it departs from its chord by at most e it
+/// is free if the chord is free at radius + e (D is 1-Lipschitz); curves are halved until that
+/// holds, or one begins where it is not free, or is shorter than a thousandth of a voxel. Under
+/// UnknownPolicy::kIgnore the box around the hull, or the chord where the curve is straight, must
+/// lie in known-free voxels too.
+std::vector<double> find_doubts(const EsdfMap& esdf, const Trajectory& trajectory, double radius);
+
+/// Lower bound of the smallest D along a trajectory, metres, at most a millimetre too small.
+double clearance_of(const EsdfMap& esdf, const Trajectory& trajectory);
 
 }  // namespace ridgeway

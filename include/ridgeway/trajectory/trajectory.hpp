@@ -3,6 +3,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <numbers>
 #include <vector>
 
 #include "ridgeway/voxel/index.hpp"
@@ -13,6 +16,12 @@ namespace ridgeway {
 inline constexpr int kFlatOutputs = 4;
 /// Coefficients of a segment's polynomials: degree 9 at most.
 inline constexpr int kCoefficients = 10;
+
+/// The derivative whose squared integral is smallest.
+enum class Smoothness : std::uint8_t {
+  kJerk = 3,  ///< pieces of degree 7
+  kSnap = 4,  ///< pieces of degree 9
+};
 
 /// One polynomial piece: output d at t seconds from the piece's start is
 /// sum over k of coefficients(d, k) t^k.
@@ -59,5 +68,21 @@ struct MotionPeaks {
 };
 MotionPeaks find_peaks(const TrajectorySegment& segment);
 MotionPeaks find_peaks(const Trajectory& trajectory);
+
+/// What a trajectory may ask of the robot: magnitudes of the vectors, not of single axes.
+struct MotionLimits {
+  double max_speed = 2.0;                                     ///< m/s
+  double max_acceleration = 2.0;                              ///< m/s^2
+  double max_jerk = std::numeric_limits<double>::infinity();  ///< m/s^3
+  double max_yaw_rate = 0.5 * std::numbers::pi;               ///< rad/s
+
+  /// Throws InputError naming the field that is not above 0 (only the last two may be infinite).
+  void validate() const;
+
+  bool hold(const MotionPeaks& peaks) const {
+    return peaks.speed <= max_speed && peaks.acceleration <= max_acceleration &&
+           peaks.jerk <= max_jerk && peaks.yaw_rate <= max_yaw_rate;
+  }
+};
 
 }  // namespace ridgeway

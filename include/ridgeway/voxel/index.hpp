@@ -5,8 +5,10 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 namespace ridgeway {
 
@@ -140,6 +142,13 @@ Point to_local(const Map& map, const Point& point_world) {
       local[axis] = nearest;
   }
   return local;
+}
+
+/// Length of a path from waypoint to waypoint; 0 where it has fewer than two.
+inline double length_of(std::span<const Point> path) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
+  return length;
 }
 
 }  // namespace ridgeway

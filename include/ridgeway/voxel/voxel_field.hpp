@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <new>
 #include <type_traits>
@@ -12,10 +14,13 @@
 
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/voxel/block_layout.hpp"
-#include "ridgeway/voxel/large_pages.hpp"
 
 namespace ridgeway {
 namespace detail {
+
+/// Asks the system to keep an array, not written yet, in pages of 2 MiB where it has them: what is
+/// read here and there waits less for addresses to be looked up. Only advice.
+void ask_for_large_pages(void* memory, std::size_t bytes);
 
 /// Leaves plain values as the system gives their memory, so that the thread that first writes a
 /// page is the one that waits for it.

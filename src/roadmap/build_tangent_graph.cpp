@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <algorithm>
+
+#include "bounded_hub_labels.hpp"
+#include "cell_parts.hpp"
+#include "common/require.hpp"
+#include "corner_links.hpp"
+#include "paths/shorten.hpp"
+#include "ridgeway/common/parallel.hpp"
+#include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/roadmap/roadmap.hpp"
+#include "ridgeway/roadmap/sparse_graph.hpp"
+
+namespace ridgeway {
+namespace {
+
+using detail::Corner;
+using detail::MergedCorners;
+using detail::SampledPath;
+
+constexpr double kMergeDistance = 1.0;    // radii: nearer corners may become one
+constexpr std::size_t kMostTried = 72;    // looks at corners for it
+constexpr std::size_t kFirstPairs = 250;  // of places to learn from
+constexpr std::size_t kAskedPairs = 100;  // between which new paths show how much is known
+constexpr std::size_t kLeastAsked = 20;   // paths
+constexpr double kAboutAsShort = 1.1;     // as the tight path between the places
+constexpr double kKnown = 0.85;           // of the paths: that is enough
+constexpr double kHopeless = 0.75;        // that is too little to go on
+
+/// The widest traversable voxel of every cell, the first of equally wide ones, or kNoVoxel.
+std::vector<VoxelId> widest_of_cells(const Roadmap& roadmap, const BlockCells& cells) {
+  const EsdfMap& esdf = roadmap.esdf;
+  std::vector<VoxelId> widest(cells.count, kNoVoxel);
+  for (std::uint32_t rank = 0; rank < esdf.layout.block_count(); ++rank) {
+    const std::uint32_t slot = esdf.layout.slot_at(rank);
+    VoxelId& best = widest[cells.cell_of_block[slot]];
+    for (VoxelId id = slot * kBlockVoxels; id < (slot + 1) * kBlockVoxels; ++id) {
+      if (roadmap.attach.next[id] == AttachField::kNotTraversable) continue;
+      if (best == kNoVoxel || esdf.squared[id] > esdf.squared[best]) best = id;
+    }
+  }
+  return widest;
+}
+
+/// The corners that can be seen from a place and that a tight path from there may turn at.
+std::vector<VertexId> look_around(const FreeSpace& space, double radius,
+                                  const std::vector<Corner>& corners, const Point& place) {
+  std::vector<VertexId> seen;
+  for (const std::uint32_t i : detail::nearest_corners(
+           corners, place, kMostTried,
+           [&](std::uint32_t j) { return detail::may_turn(corners[j], place); })) {
+    if (!space.is_free(place, corners[i].place, radius)) continue;
+    seen.push_back(VertexId{i});
+    if (seen.size() == TangentGraph::kMostSeen) break;
+  }
+  return seen;
+}
+
+/// Learns corners, each time from as many paths as before, until it knows the way of most new ones.
+class Learning {
+ public:
+  explicit Learning(const Roadmap& roadmap)
+      : roadmap_(roadmap),
+        space_(roadmap.esdf),
+        merging_(roadmap, kMergeDistance * roadmap.min_clearance) {
+    BlockCells cells = number_cells(roadmap.esdf.layout);
+    widest_ = widest_of_cells(roadmap, cells);
+    tangent_.cell_of_block = std::move(cells.cell_of_block);
+  }
+
+  TangentGraph run(std::size_t most_pairs) {
+    std::size_t more = kFirstPairs;
+    while (pairs_ + more + kAskedPairs <= most_pairs) {
+      learn(sample(more));
+      if (!link()) break;
+      const std::vector<SampledPath> unseen = sample(kAskedPairs);
+      const double known = share_known(unseen);
+      if (known < kHopeless) break;
+      learn(unseen);
+      more = pairs_;
+      if (known < kKnown) continue;
+      if (!link()) break;
+      auto hubs = detail::label_hubs_within(tangent_.graph);
+      if (!hubs) break;
+      tangent_.hubs = *std::move(hubs);
+      list_seen();
+      return std::move(tangent_);
+    }
+    return {};  // too much to learn: queries had better not rely on it
+  }
+
+ private:
+  std::vector<SampledPath> sample(std::size_t pairs) {
+    pairs_ += pairs;
+    return detail::sample_paths(roadmap_, pairs_ - pairs, pairs);
+  }
+
+  void learn(const std::vector<SampledPath>& paths) {
+    for (const SampledPath& path : paths) merging_.add(path);
+  }
+
+  /// False where there are too many.
+  bool link() {
+    const MergedCorners merged = merging_.merged();
+    corners_ = detail::corners_of(roadmap_, merged);
+    if (corners_.size() > TangentGraph::kMostCorners) return false;
+    tangent_.graph = detail::link_corners(roadmap_, merged, corners_);
+    return true;
+  }
+
+  /// Of the shorter paths between two places, the share for which there is a route about as short.
+  /// Nothing is known where there are next to none.
+  double share_known(const std::vector<SampledPath>& paths) const {
+    std::vector<const SampledPath*> asked;
+    for (const SampledPath& path : paths)
+      if (asked.empty() || asked.back()->from != path.from) asked.push_back(&path);
+    if (asked.size() < kLeastAsked) return 0.0;
+    std::vector<char> is_known(asked.size());
+    parallel_for_each_index(asked.size(), [&](std::size_t i) { is_known[i] = knows(*asked[i]); });
+    return static_cast<double>(std::count(is_known.begin(), is_known.end(), 1)) /
+           static_cast<double>(asked.size());
+  }
+
+  /// Whether there is a route about as short as a path.
+  bool knows(const SampledPath& path) const {
+    const double enough = kAboutAsShort * length_of(path.waypoints);
+    const Point &start = path.waypoints.front(), &goal = path.waypoints.back();
+    const double radius = roadmap_.min_clearance;
+    Sources first;
+    for (const VertexId v : seen_from_cell(path.from))
+      if (const Point& corner = corners_[number(v)].place; space_.is_free(start, corner, radius))
+        first.emplace_back(v, (corner - start).norm());
+    const std::vector<double> lengths = lengths_from(tangent_.graph, first, radius);
+    const std::vector<VertexId> last = seen_from_cell(path.to);
+    return std::any_of(last.begin(), last.end(), [&](VertexId v) {
+      const Point& corner = corners_[number(v)].place;
+      return lengths[number(v)] + (goal - corner).norm() <= enough &&
+             space_.is_free(corner, goal, radius);
+    });
+  }
+
+  std::vector<VertexId> seen_from_cell(VoxelId voxel) const {
+    const VoxelId widest = widest_[tangent_.cell_of_block[voxel / kBlockVoxels]];
+    return look_around(space_, roadmap_.min_clearance, corners_, place_of(widest));
+  }
+
+  /// Only corners of the cell's own part: a segment may slip through where moves from voxel to
+  /// voxel cannot, and what there is a path to shall not depend on who is asked. Cells with more
+  /// than one part list none.
+  void list_seen() {
+    const std::vector<detail::Part> parts =
+        detail::parts_of_cells(roadmap_, tangent_.cell_of_block, widest_.size());
+    std::vector<std::vector<VertexId>> seen(widest_.size());
+    parallel_for_each_index(seen.size(), [&](std::size_t cell) {
+      if (widest_[cell] == kNoVoxel || parts[cell] >= detail::kNoPart) return;
+      seen[cell] = look_around(space_, roadmap_.min_clearance, corners_, place_of(widest_[cell]));
+      std::erase_if(seen[cell],
+                    [&](VertexId v) { return corners_[number(v)].part != parts[cell]; });
+    });
+    tangent_.first_seen.push_back(0);
+    for (const std::vector<VertexId>& own : seen) {
+      tangent_.seen.insert(tangent_.seen.end(), own.begin(), own.end());
+      tangent_.first_seen.push_back(static_cast<std::uint32_t>(tangent_.seen.size()));
+    }
+  }
+
+  Point place_of(VoxelId id) const {
+    return centre_of(roadmap_.esdf.layout.index_of(id), roadmap_.esdf.voxel_size);
+  }
+
+  const Roadmap& roadmap_;
+  const FreeSpace space_;
+  detail::CornerMerging merging_;
+  std::size_t pairs_ = 0;        // of places that paths were sampled between
+  std::vector<VoxelId> widest_;  // by cell
+  std::vector<Corner> corners_;
+  TangentGraph tangent_;
+};
+
+}  // namespace
+
+void TangentConfig::validate() const {
+  constexpr std::size_t kMostPairs = 1000000;
+  detail::require(most_pairs <= kMostPairs, "most_pairs", most_pairs,
+                  "give at most a million, or 0 for no tangent graph");
+}
+
+TangentGraph build_tangent_graph(const Roadmap& roadmap, const TangentConfig& config) {
+  config.validate();
+  return Learning(roadmap).run(config.most_pairs);
+}
+
+}  // namespace ridgeway

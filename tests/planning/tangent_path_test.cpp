@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/planning/plan.hpp"
+#include "ridgeway/roadmap/build_roadmap.hpp"
+#include "support/pillars.hpp"
+#include "support/places.hpp"
+
+namespace ridgeway {
+namespace {
+
+constexpr double kClearance = testing::kPillarClearance;
+
+/// Among the same pillars with and without a tangent graph.
+struct Hall {
+  Roadmap with, without;
+  std::vector<VoxelId> places;
+
+  explicit Hall(unsigned seed) {
+    std::vector<Eigen::Vector2d> axes;
+    const OccupancyMap map = testing::pillars(seed, axes);
+    BuildConfig config;
+    config.min_clearance = kClearance;
+    with = build_roadmap(map, config).roadmap;
+    config.tangent_pairs = 0;
+    without = build_roadmap(map, config).roadmap;
+    places = testing::traversable_places(with.esdf, kClearance);
+  }
+
+  Point place(std::mt19937& random) const {
+    const VoxelId id = places[random() % places.size()];
+    return centre_of(with.esdf.layout.index_of(id), with.esdf.voxel_size);
+  }
+};
+
+TEST(TangentPath, IsVerifiedAndAboutAsShortAsAFullSearch) {
+  int bent = 0, by_corners = 0;
+  double sum = 0.0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    const Hall hall(seed);
+    const FreeSpace space(hall.with.esdf);
+    std::mt19937 random(seed);
+    for (int i = 0; i < 30; ++i) {
+      const Point start = hall.place(random), goal = hall.place(random);
+      const PlanResult full = plan(hall.without, start, goal);
+      const PlanResult path = plan(hall.with, start, goal);
+      ASSERT_EQ(path.status, full.status);
+      if (!path.ok() || path.waypoints.size() == 2) continue;
+      ++bent;
+      by_corners += path.seconds.attach == 0.0 ? 1 : 0;  // the sparse graph was not asked
+      EXPECT_EQ(path.waypoints.front(), start);
+      EXPECT_EQ(path.waypoints.back(), goal);
+      EXPECT_NEAR(path.clearance, space.clearance(path.waypoints), 1e-12);
+      EXPECT_GE(path.clearance, kClearance * (1.0 - 1e-9));
+      EXPECT_LE(path.length, 1.1 * full.length);
+      sum += path.length / full.length;
+    }
+  }
+  EXPECT_GT(bent, 360);
+  EXPECT_GT(by_corners, bent / 2);
+  EXPECT_LE(sum / bent, 1.005);
+}
+
+TEST(TangentPath, QuickPathsHoldAndAreAsUsualWhereNoCornersAreKnown) {
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    SCOPED_TRACE(seed);
+    const Hall hall(seed);
+    const FreeSpace space(hall.with.esdf);
+    std::mt19937 random(seed);
+    for (int i = 0; i < 20; ++i) {
+      const Point start = hall.place(random), goal = hall.place(random);
+      const PlanResult usual = plan(hall.without, start, goal);
+      EXPECT_EQ(plan(hall.without, start, goal, {.quick = true}).waypoints, usual.waypoints);
+      const PlanResult quick = plan(hall.with, start, goal, {.quick = true});
+      ASSERT_EQ(quick.status, usual.status);
+      if (!quick.ok()) continue;
+      EXPECT_NEAR(quick.clearance, space.clearance(quick.waypoints), 1e-12);
+      EXPECT_GE(quick.clearance, kClearance * (1.0 - 1e-9));
+      EXPECT_GE(quick.length, (goal - start).norm() * (1.0 - 1e-12));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ridgeway

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/roadmap/tangent_graph.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+#include "ridgeway/common/parallel.hpp"
+#include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/roadmap/build_roadmap.hpp"
+#include "roadmap/tangent_search.hpp"
+#include "support/dijkstra.hpp"
+#include "support/pillars.hpp"
+#include "support/places.hpp"
+
+namespace ridgeway {
+namespace {
+
+constexpr double kClearance = testing::kPillarClearance;
+constexpr unsigned kSeeds = 10;
+
+Roadmap pillar_roadmap(unsigned seed, std::size_t tangent_pairs = 2000) {
+  std::vector<Eigen::Vector2d> axes;
+  BuildConfig config;
+  config.min_clearance = kClearance;
+  config.tangent_pairs = tangent_pairs;
+  return build_roadmap(testing::pillars(seed, axes), config).roadmap;
+}
+
+TEST(TangentGraph, KeepsItsContract) {
+  std::size_t corners = 0;
+  for (unsigned seed = 0; seed < kSeeds; ++seed) {
+    SCOPED_TRACE(seed);
+    const Roadmap roadmap = pillar_roadmap(seed);
+    const EsdfMap& esdf = roadmap.esdf;
+    const FreeSpace space(esdf);
+    const SparseGraph& graph = roadmap.tangents.graph;
+    corners += graph.vertices.size();
+    for (std::size_t i = 0; i < graph.vertices.size(); ++i) {
+      const Vertex& corner = graph.vertices[i];
+      const VoxelId id = esdf.layout.find(corner.voxel);
+      ASSERT_NE(id, kNoVoxel);
+      EXPECT_EQ(corner.position, centre_of(corner.voxel, esdf.voxel_size));
+      EXPECT_EQ(corner.clearance, esdf.distance(id));
+      EXPECT_GE(corner.clearance, kClearance * (1.0 - 1e-9));
+      if (i > 0) {
+        EXPECT_LT(esdf.layout.find(graph.vertices[i - 1].voxel), id);
+      }
+    }
+    for (const Edge& edge : graph.edges) {
+      const Point& from = graph.vertices[number(edge.from)].position;
+      const Point& to = graph.vertices[number(edge.to)].position;
+      EXPECT_DOUBLE_EQ(edge.length, (to - from).norm());
+      EXPECT_EQ(edge.clearance, space.clearance(from, to));
+      EXPECT_GE(edge.clearance, kClearance * (1.0 - 1e-9));
+    }
+  }
+  EXPECT_GT(corners, 20 * kSeeds);
+}
+
+TEST(TangentGraph, IsTheSameForAnyNumberOfThreads) {
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    const auto run = [&] { return pillar_roadmap(seed).tangents; };
+    const TangentGraph one = with_threads(1, run), two = with_threads(2, run);
+    EXPECT_EQ(one.first_seen, two.first_seen);
+    EXPECT_EQ(one.seen, two.seen);
+    EXPECT_EQ(one.hubs.labels, two.hubs.labels);
+    ASSERT_EQ(one.graph.vertices.size(), two.graph.vertices.size());
+    ASSERT_EQ(one.graph.edges.size(), two.graph.edges.size());
+    for (std::size_t i = 0; i < one.graph.vertices.size(); ++i)
+      EXPECT_EQ(one.graph.vertices[i].voxel, two.graph.vertices[i].voxel);
+    for (std::size_t i = 0; i < one.graph.edges.size(); ++i) {
+      EXPECT_EQ(one.graph.edges[i].from, two.graph.edges[i].from);
+      EXPECT_EQ(one.graph.edges[i].to, two.graph.edges[i].to);
+      EXPECT_EQ(one.graph.edges[i].clearance, two.graph.edges[i].clearance);
+    }
+  }
+}
+
+TEST(TangentGraph, IsEmptyWhereItIsNotWantedOrCannotBeLearnt) {
+  for (const std::size_t pairs : {std::size_t{0}, std::size_t{300}}) {
+    const TangentGraph tangents = pillar_roadmap(1, pairs).tangents;
+    EXPECT_TRUE(tangents.graph.vertices.empty());
+    EXPECT_TRUE(tangents.seen_from(0).empty());
+  }
+}
+
+/// Length of the shortest route over corners by Bellman and Ford from every corner that the start
+/// sees; infinite where there is none.
+double shortest_by_force(const TangentGraph& tangents, const FreeSpace& space,
+                         const detail::TangentQuery& q) {
+  double best = std::numeric_limits<double>::infinity();
+  for (const VertexId first : q.seen_from_start) {
+    const Point& near_start = tangents.graph.vertices[number(first)].position;
+    if (!space.is_free(q.start, near_start, q.radius)) continue;
+    const auto lengths = testing::dijkstra_graph(tangents.graph, first, q.radius);
+    for (const VertexId last : q.seen_from_goal) {
+      const Point& near_goal = tangents.graph.vertices[number(last)].position;
+      if (!lengths.contains(last) || !space.is_free(near_goal, q.goal, q.radius)) continue;
+      best = std::min(
+          best, (near_start - q.start).norm() + lengths.at(last) + (q.goal - near_goal).norm());
+    }
+  }
+  return best;
+}
+
+TEST(TangentGraph, SearchFindsTheShortestRoute) {
+  int found = 0;
+  for (unsigned seed = 0; seed < kSeeds; ++seed) {
+    SCOPED_TRACE(seed);
+    const Roadmap roadmap = pillar_roadmap(seed);
+    const FreeSpace space(roadmap.esdf);
+    const std::vector<VoxelId> places = testing::traversable_places(roadmap.esdf, kClearance);
+    std::mt19937 random(seed);
+    for (int i = 0; i < 20; ++i) {
+      const VoxelId from = places[random() % places.size()], to = places[random() % places.size()];
+      const auto place = [&](VoxelId id) {
+        return centre_of(roadmap.esdf.layout.index_of(id), roadmap.esdf.voxel_size);
+      };
+      const detail::TangentQuery query{place(from), place(to), kClearance,
+                                       roadmap.tangents.seen_from(from),
+                                       roadmap.tangents.seen_from(to)};
+      const std::vector<VertexId> route =
+          detail::search_tangents(roadmap.tangents.graph, roadmap.tangents.hubs, space, query);
+      const double shortest = shortest_by_force(roadmap.tangents, space, query);
+      ASSERT_EQ(route.empty(), std::isinf(shortest));
+      if (route.empty()) continue;
+      ++found;
+      std::vector<Point> path{query.start};
+      for (const VertexId v : route)
+        path.push_back(roadmap.tangents.graph.vertices[number(v)].position);
+      path.push_back(query.goal);
+      double length = 0.0;
+      for (std::size_t k = 1; k < path.size(); ++k) {
+        EXPECT_TRUE(space.is_free(path[k - 1], path[k], kClearance));
+        length += (path[k] - path[k - 1]).norm();
+      }
+      EXPECT_NEAR(length, shortest, 1e-6 * shortest);  // its lengths are floats
+    }
+  }
+  EXPECT_GT(found, 100);
+}
+
+}  // namespace
+}  // namespace ridgeway
