@@ -68,7 +68,7 @@ TEST(Ompl, JudgesStatesAndMotionsAsTheFreeSpacePredicate) {
       ASSERT_NEAR(info->getStateValidityChecker()->clearance(from.get()), free.distance(a), 1e-7);
       if (!info->isValid(from.get())) continue;
       ++valid;
-      const auto last = state_at(info->getStateSpace(), Point::Zero());
+      auto last = state_at(info->getStateSpace(), Point::Zero());
       std::pair<ob::State*, double> last_valid{last.get(), 2.0};
       const bool is_free = info->checkMotion(from.get(), to.get(), last_valid);
       ASSERT_EQ(is_free, free.is_free(a, b, kRadius));
