@@ -14,8 +14,8 @@
 
 namespace ridgeway {
 
-/// The exact free-space predicate for OMPL's planners, for people who run those themselves. Needs a
-/// compiler's include path and link line for OMPL; nothing else of Ridgeway includes this.
+/// The exact free-space predicate for OMPL's planners, for people who run those themselves. The one
+/// header of Ridgeway that includes those of OMPL, which come with ridgeway::sampling.
 
 /// From a state of a planner to its place in a map's local frame, metres.
 using PlaceOf = std::function<Point(const ompl::base::State*)>;
