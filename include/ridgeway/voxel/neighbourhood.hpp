@@ -52,14 +52,21 @@ constexpr int squared_length(int direction) {
 }
 
 namespace detail {
-/// By direction: a bit for each place in a block whose neighbour there lies in the block too.
+/// Of the eight places along an axis, those whose neighbour a step away is one of them too: a bit
+/// each.
+constexpr std::uint64_t places_along(int step) { return step == 0 ? 0xff : step > 0 ? 0x7f : 0xfe; }
+/// By direction: a bit for each place in a block whose neighbour there lies in the block too. Put
+/// together of whole rows: every source that includes this file pays for it.
 inline constexpr auto kInBlock = [] {
   std::array<std::array<std::uint64_t, kBlockSide>, 27> inside{};
-  for (int d = 0; d < 27; ++d)
-    for (int place = 0; place < kBlockVoxels; ++place)
-      if (block_of(voxel_of({}, place) + offset_of(d)) == BlockIndex{})
-        inside[static_cast<std::size_t>(d)][static_cast<std::size_t>(place / 64)] |= 1ull
-                                                                                     << place % 64;
+  for (std::size_t d = 0; d < 27; ++d) {
+    const VoxelIndex& o = kOffsets[d];
+    std::uint64_t slice = 0;
+    for (int y = 0; y < kBlockSide; ++y)
+      if (places_along(o.y) >> y & 1) slice |= places_along(o.x) << kBlockSide * y;
+    for (std::size_t z = 0; z < kBlockSide; ++z)
+      if (places_along(o.z) >> z & 1) inside[d][z] = slice;
+  }
   return inside;
 }();
 inline constexpr std::array<int, 27> kStepsInBlock = [] {
