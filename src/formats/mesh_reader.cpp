@@ -123,16 +123,23 @@ void limit(decltype(RLIMIT_CPU) what, std::uint64_t most) {
   ::setrlimit(what, &bounds);
 }
 
+/// Sanitizers map terabytes. GCC tells of them by a macro, Clang by a feature.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kMapsTerabytes = true;
+#elif defined(__has_feature)
+constexpr bool kMapsTerabytes = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
+#else
+constexpr bool kMapsTerabytes = false;
+#endif
+
 /// No more processor time and memory than that; an end with the thread that waits for the reply; no
 /// core files, and no files that the host left open.
-void confine(std::uint64_t seconds, [[maybe_unused]] std::uint64_t bytes) {
+void confine(std::uint64_t seconds, std::uint64_t bytes) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   ::close_range(STDERR_FILENO + 1, std::numeric_limits<unsigned>::max(), 0);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, seconds);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which map terabytes
-  limit(RLIMIT_AS, bytes);
-#endif
+  if (!kMapsTerabytes) limit(RLIMIT_AS, bytes);
 }
 
 bool write_all(std::span<const std::byte> bytes) {
