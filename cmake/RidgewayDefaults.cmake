@@ -9,6 +9,13 @@ if(PROJECT_IS_TOP_LEVEL)
   endif()
   set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
   set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+  # Sources of a folder are compiled a few at a time, so that what they include and instantiate is
+  # compiled once for all of them: half of the work otherwise. So no two sources of a folder may
+  # give the same name to different things, in unnamed namespaces either. OFF compiles each by itself.
+  if(NOT DEFINED CMAKE_UNITY_BUILD)
+    set(CMAKE_UNITY_BUILD ON)
+    set(CMAKE_UNITY_BUILD_BATCH_SIZE 7)
+  endif()
   find_program(RIDGEWAY_CCACHE ccache)
   if(RIDGEWAY_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
     set(CMAKE_CXX_COMPILER_LAUNCHER "${RIDGEWAY_CCACHE}")

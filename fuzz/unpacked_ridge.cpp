@@ -14,7 +14,6 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-constexpr std::size_t kNameBytes = 16;
 constexpr std::uint32_t kMostChunks = 64;
 
 void append(std::string& text, std::uint32_t number) {
@@ -46,7 +45,7 @@ std::string unpack_ridge(const std::filesystem::path& file) {
   text += reader.header();
   for (const RidgeSectionEntry& section : reader.sections()) {
     std::string name = section.name;
-    name.resize(kNameBytes);
+    name.resize(kSectionNameBytes);
     text += name;
     append(text, section.type);
     append(text, static_cast<std::uint32_t>(section.chunks.size()));
@@ -64,7 +63,7 @@ void pack_ridge(std::string_view bytes, const std::filesystem::path& file) {
   const std::string_view header = take(bytes, take_number(bytes));
   std::vector<RidgeSectionSource> sections;
   while (!bytes.empty()) {
-    const std::string_view padded = take(bytes, kNameBytes);
+    const std::string_view padded = take(bytes, kSectionNameBytes);
     const std::string_view name = padded.substr(0, padded.find('\0'));
     const std::uint32_t type = take_number(bytes);
     std::vector<Bytes> chunks(std::min(take_number(bytes), kMostChunks));

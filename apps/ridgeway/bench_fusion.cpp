@@ -13,13 +13,13 @@
 namespace ridgeway::cli {
 namespace {
 
-struct Options {
+struct BenchFusionOptions {
   ScanOptions scan;
   std::string output;
   FusionSpeedConfig config;
 };
 
-int run(const Options& options, const Globals& globals) {
+int run(const BenchFusionOptions& options, const Globals& globals) {
   FusionSpeedConfig config = options.config;
   config.poses = options.scan.poses(config.seed);
   const World world = options.scan.load();
@@ -56,7 +56,7 @@ int run(const Options& options, const Globals& globals) {
 }  // namespace
 
 void add_bench_fusion(Command& bench) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BenchFusionOptions>();
   Command command = bench.add(
       "fusion", "Time and error of fusing depth images, against plain loops on one thread");
   add_scan_options(command, options->scan);

@@ -31,7 +31,7 @@ constexpr std::size_t kSeriesPerChart = 8;
 constexpr int kPointsPerDecade = 12;  // of a chart's curve
 constexpr double kMostExcess = 50.0;  // per cent; the few beyond would squeeze all others
 
-struct Options {
+struct BenchGridOptions {
   std::vector<std::string> maps;
   std::string output;
   GridExperimentConfig config;
@@ -71,10 +71,6 @@ Source read_source(const fs::path& map, const Globals& globals) {
   return source;
 }
 
-Json json_of(const Spread& spread) {
-  return {{"median", spread.median}, {"p95", spread.p95}, {"p99", spread.p99}, {"max", spread.max}};
-}
-
 /// Place in the benchmark of the longest path over its optimum.
 Json longest_scenario(const GridRow& row) {
   const std::vector<double>& ratios = row.shortened.ratios;
@@ -92,13 +88,13 @@ Json json_of(const GridRow& row) {
           {"solved", graph.solved},
           {"success", static_cast<double>(graph.solved) / count},
           {"fallbacks", graph.fallbacks},
-          {"length_over_optimum", json_of(graph.length_over_optimum)},
+          {"length_over_optimum", cli::json_of(graph.length_over_optimum)},
           {"longest_scenario", longest_scenario(row)},
-          {"microseconds", json_of(graph.microseconds)},
+          {"microseconds", cli::json_of(graph.microseconds)},
           {"raw",
            {{"solved", row.raw.solved},
-            {"length_over_optimum", json_of(row.raw.length_over_optimum)},
-            {"microseconds", json_of(row.raw.microseconds)}}},
+            {"length_over_optimum", cli::json_of(row.raw.length_over_optimum)},
+            {"microseconds", cli::json_of(row.raw.microseconds)}}},
           {"optimum_checked", row.optimum_checked},
           {"optimum_reproduced", row.optimum_reproduced},
           {"build_seconds", row.build_seconds},
@@ -160,7 +156,7 @@ std::string scenarios_csv(const std::vector<GridRow>& rows, const std::vector<So
   return csv;
 }
 
-int run(const Options& options, const Globals& globals) {
+int run(const BenchGridOptions& options, const Globals& globals) {
   options.config.validate();
   std::vector<Source> sources;  // all of them before the long work
   for (const std::string& map : options.maps) sources.push_back(read_source(map, globals));
@@ -191,7 +187,7 @@ int run(const Options& options, const Globals& globals) {
 }  // namespace
 
 void add_bench_grid(Command& bench) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BenchGridOptions>();
   GridExperimentConfig& config = options->config;
   Command command = bench.add(
       "grid", "The MovingAI 3D benchmarks: success, time, and length over the stored optimum");

@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kHall = "hall";  // as run_hall names it
 
-struct Options {
+struct BenchHallOptions {
   std::vector<std::string> maps;
   std::string output;
   HallExperimentConfig config;
@@ -146,7 +146,7 @@ void draw_times(const std::vector<HallRow>& rows, const fs::path& out) {
   draw_scatter(chart, out);
 }
 
-int run(const Options& options, const Globals& globals) {
+int run(const BenchHallOptions& options, const Globals& globals) {
   HallExperimentConfig config = options.config;
   config.hall.seed = config.seed;
   if (!options.output.empty()) require_folder(options.output);
@@ -182,7 +182,7 @@ int run(const Options& options, const Globals& globals) {
 }  // namespace
 
 void add_bench_hall(Command& bench) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BenchHallOptions>();
   HallExperimentConfig& config = options->config;
   Command command = bench.add(
       "hall", "How long does a map take? Each stage, memory and first answer, by voxel size");

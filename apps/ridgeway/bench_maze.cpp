@@ -16,7 +16,7 @@ namespace {
 
 using Json = BenchTable::Json;
 
-struct Options {
+struct BenchMazeOptions {
   std::string output;
   MazeExperimentConfig config;
 };
@@ -52,7 +52,7 @@ void draw_paths(const MazeResult& result, const std::filesystem::path& folder) {
     draw_floor_plan(result.roadmap, {}, folder / (std::string("maze") + extension), picture);
 }
 
-int run(const Options& options, const Globals& globals) {
+int run(const BenchMazeOptions& options, const Globals& globals) {
   if (!options.output.empty()) require_folder(options.output);
   MazeExperimentConfig config = options.config;
   config.maze.seed = config.seed;
@@ -74,7 +74,7 @@ int run(const Options& options, const Globals& globals) {
 }  // namespace
 
 void add_bench_maze(Command& bench) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BenchMazeOptions>();
   MazeExperimentConfig& config = options->config;
   Command command = bench.add("maze", "Every planner on one maze: success, time and length");
   command.number("--voxel-size", config.voxel_size, kLengths, "Metres");

@@ -17,7 +17,7 @@ namespace {
 
 using Json = BenchTable::Json;
 
-struct Options {
+struct BenchNoiseOptions {
   ScanOptions scan;
   std::string output;
   NoiseConfig config;
@@ -91,7 +91,7 @@ void draw_maps(const NoiseResult& result, int columns, const std::filesystem::pa
   draw_map_sheet(maps, columns, "One house, " + count_text(maps.size()) + " maps", out, picture);
 }
 
-int run(const Options& options, const Globals& globals) {
+int run(const BenchNoiseOptions& options, const Globals& globals) {
   NoiseConfig config = options.config;
   config.poses = options.scan.poses(config.seed);
   const World world = options.scan.load();
@@ -126,7 +126,7 @@ int run(const Options& options, const Globals& globals) {
 }  // namespace
 
 void add_bench_noise(Command& bench) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BenchNoiseOptions>();
   NoiseConfig& config = options->config;
   Command command =
       bench.add("noise", "Does the graph depend on voxel size and noise? One world, twelve maps");

@@ -26,7 +26,7 @@ namespace {
 using Json = BenchTable::Json;
 namespace fs = std::filesystem;
 
-struct Options {
+struct BenchTrajectoryOptions {
   std::vector<std::string> files, worlds = {"maze", "hall"};
   double voxel_size = 0.1;
   std::string output;
@@ -38,7 +38,7 @@ struct NamedMap {
   OccupancyMap map;
 };
 
-OccupancyMap map_of(const std::string& world_name, const Options& options) {
+OccupancyMap map_of(const std::string& world_name, const BenchTrajectoryOptions& options) {
   const std::uint64_t seed = options.config.seed;
   const World world = world_name == "maze" ? make_maze({.seed = seed}) : make_hall({.seed = seed});
   const PoseSampling inside = sampling_inside(world);
@@ -47,7 +47,7 @@ OccupancyMap map_of(const std::string& world_name, const Options& options) {
 
 /// The worlds, then the files, as they are named. Throws InputError for no map at all, or two of
 /// one name.
-std::vector<NamedMap> load_maps(const Options& options) {
+std::vector<NamedMap> load_maps(const BenchTrajectoryOptions& options) {
   std::vector<NamedMap> maps;
   for (const std::string& world : options.worlds)
     if (world != "none") maps.push_back({world, map_of(world, options)});
@@ -60,7 +60,9 @@ std::vector<NamedMap> load_maps(const Options& options) {
   return maps;
 }
 
-Json json_of(const Spread& spread) { return {{"median", spread.median}, {"p95", spread.p95}}; }
+Json median_and_p95(const Spread& spread) {
+  return {{"median", spread.median}, {"p95", spread.p95}};
+}
 
 Json row_of(const std::string& name, const FlightsResult& result) {
   Json steps;
@@ -74,12 +76,12 @@ Json row_of(const std::string& name, const FlightsResult& result) {
           {"queries", result.flights.size()},
           {"solved", result.solved},
           {"violations", result.violations},
-          {"path_length", json_of(result.path_length)},
-          {"length_over_path", json_of(result.length_over_path)},
-          {"duration", json_of(result.duration)},
-          {"duration_over_bound", json_of(result.over_bound)},
-          {"duration_over_stop_and_go", json_of(result.over_stop_and_go)},
-          {"duration_over_trapezoid", json_of(result.over_trapezoid)},
+          {"path_length", median_and_p95(result.path_length)},
+          {"length_over_path", median_and_p95(result.length_over_path)},
+          {"duration", median_and_p95(result.duration)},
+          {"duration_over_bound", median_and_p95(result.over_bound)},
+          {"duration_over_stop_and_go", median_and_p95(result.over_stop_and_go)},
+          {"duration_over_trapezoid", median_and_p95(result.over_trapezoid)},
           {"longer_than_stop_and_go", result.longer_than_stop_and_go},
           {"straight", result.straight},
           {"longer_than_trapezoid", result.longer_than_trapezoid},
@@ -88,7 +90,7 @@ Json row_of(const std::string& name, const FlightsResult& result) {
             {"p95", result.seconds.p95},
             {"optimise", result.optimise_seconds.median},
             {"verify", result.verify_seconds.median}}},
-          {"seconds_to_30_m", json_of(result.near_seconds)},
+          {"seconds_to_30_m", median_and_p95(result.near_seconds)},
           {"fallbacks", result.fallbacks()},
           {"steps", steps},
           {"plain_spline",
@@ -106,7 +108,7 @@ const Flight& flight_to_draw(const std::vector<Flight>& flights) {
   });
 }
 
-void draw(const NamedMap& map, const FlightsResult& result, const Options& options) {
+void draw(const NamedMap& map, const FlightsResult& result, const BenchTrajectoryOptions& options) {
   if (result.solved == 0) return;
   const Flight& flight = flight_to_draw(result.flights);
   TrajectoryConfig config;
@@ -143,7 +145,7 @@ void draw_durations(std::vector<ScatterSeries> series, const fs::path& folder) {
     draw_scatter(chart, folder / name);
 }
 
-int run(const Options& options, const Globals& globals) {
+int run(const BenchTrajectoryOptions& options, const Globals& globals) {
   options.config.validate();
   if (!options.output.empty()) require_folder(options.output);
   BenchTable table;
@@ -170,7 +172,7 @@ int run(const Options& options, const Globals& globals) {
 }  // namespace
 
 void add_bench_trajectory(Command& bench) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BenchTrajectoryOptions>();
   FlightsConfig& config = options->config;
   Command command = bench.add(
       "trajectory", "Flights along planned paths: success, duration, time, before a judge");

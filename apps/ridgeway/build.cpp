@@ -25,7 +25,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct BuildOptions {
   std::string map, output;
   std::optional<double> voxel_size;
   std::string unknown = "obstacle", edges = "neighbours", diagram = "full", graph = "simple";
@@ -37,7 +37,7 @@ struct Options {
   BuildConfig build;
 };
 
-LoadConfig load_config(const Options& options) {
+LoadConfig load_config(const BuildOptions& options) {
   LoadConfig config;
   config.voxel_size = options.voxel_size;
   config.bounds = options.bounds;
@@ -48,7 +48,7 @@ LoadConfig load_config(const Options& options) {
   return config;
 }
 
-BuildConfig build_config(const Options& options) {
+BuildConfig build_config(const BuildOptions& options) {
   BuildConfig config = options.build;
   if (options.unknown == "ignore") config.unknown = UnknownPolicy::kIgnore;
   config.basis_point_edges = options.edges == "basis-points";
@@ -59,7 +59,7 @@ BuildConfig build_config(const Options& options) {
 }
 
 /// Everything that shapes the roadmap, as it is kept in the file.
-std::string config_text(const Options& options, double voxel_size) {
+std::string config_text(const BuildOptions& options, double voxel_size) {
   const BuildConfig& build = options.build;
   Json json = {{"voxel_size", voxel_size},
                {"min_clearance", build.min_clearance},
@@ -116,7 +116,7 @@ struct Outcome {
   double total_seconds() const { return load_seconds + built.report.seconds.total + save_seconds; }
 };
 
-Json json_of(const Options& options, const Outcome& outcome) {
+Json json_of(const BuildOptions& options, const Outcome& outcome) {
   const Roadmap& roadmap = outcome.built.roadmap;
   const BuildReport& report = outcome.built.report;
   Json seconds = {{"load", outcome.load_seconds}};
@@ -150,7 +150,7 @@ Json json_of(const Options& options, const Outcome& outcome) {
           {"peak_memory_bytes", peak_memory_bytes()}};
 }
 
-void print_summary(const Options& options, const Outcome& outcome) {
+void print_summary(const BuildOptions& options, const Outcome& outcome) {
   const Roadmap& roadmap = outcome.built.roadmap;
   const BuildReport& report = outcome.built.report;
   print_row("voxel size", text_of(roadmap.esdf.voxel_size, 6) + " m");
@@ -174,7 +174,7 @@ void print_summary(const Options& options, const Outcome& outcome) {
   print_row("file", options.output + ", " + bytes_text(outcome.file_bytes));
 }
 
-int run(const Options& options, const Globals& globals) {
+int run(const BuildOptions& options, const Globals& globals) {
   const LoadConfig loading = load_config(options);
   const BuildConfig building = build_config(options);
   if (is_roadmap_file(options.map))
@@ -220,7 +220,7 @@ int run(const Options& options, const Globals& globals) {
 }  // namespace
 
 void add_build_command(Command& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BuildOptions>();
   BuildConfig& build = options->build;
   Command command = program.add("build", "Build a roadmap from a map");
   command.path("map", options->map, "Map: OctoMap .bt, .ot; point cloud .pcd, .ply, .xyz; .3dmap")

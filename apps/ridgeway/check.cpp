@@ -20,14 +20,10 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kMostQueries = 1000000;  // their paths are all kept
 
-struct Options {
+struct CheckOptions {
   std::string file, paths;
   CheckConfig check{.queries = 200};
 };
-
-Json json_of(const Spread& spread) {
-  return {{"median", spread.median}, {"p95", spread.p95}, {"p99", spread.p99}, {"max", spread.max}};
-}
 
 Json json_of(const CheckReport& report, bool complete) {
   return {{"complete", complete},
@@ -39,10 +35,10 @@ Json json_of(const CheckReport& report, bool complete) {
           {"esdf_ok", report.esdf_ok},
           {"disagreements", report.disagreements},
           {"paths_below_clearance", report.paths_below_clearance},
-          {"length_ratio", json_of(report.length_ratio)},
-          {"microseconds", json_of(report.microseconds)},
-          {"raw_microseconds", json_of(report.raw_microseconds)},
-          {"esdf_milliseconds", json_of(report.esdf_milliseconds)},
+          {"length_ratio", cli::json_of(report.length_ratio)},
+          {"microseconds", cli::json_of(report.microseconds)},
+          {"raw_microseconds", cli::json_of(report.raw_microseconds)},
+          {"esdf_milliseconds", cli::json_of(report.esdf_milliseconds)},
           {"fallbacks", report.fallbacks},
           {"clean", complete && report.is_clean()}};
 }
@@ -84,7 +80,7 @@ void print_summary(const CheckReport& report, bool complete) {
                                           : "NOT clean: the roadmap breaks its contract");
 }
 
-int run(const Options& options, const Globals& globals) {
+int run(const CheckOptions& options, const Globals& globals) {
   if (!options.paths.empty()) require_writable({options.paths}, {options.file});
   if (!options.paths.empty()) require_extension(options.paths, "paths", {".json"});
   const Roadmap roadmap = load_roadmap(options.file);
@@ -105,7 +101,7 @@ int run(const Options& options, const Globals& globals) {
 }  // namespace
 
 void add_check_command(Command& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CheckOptions>();
   Command command = program.add("check", "Verify the contract of a roadmap against the map itself");
   command.path("roadmap", options->file, "Roadmap, .ridge").required();
   command.whole("--queries", options->check.queries, {0, kMostQueries},

@@ -116,6 +116,10 @@ nlohmann::ordered_json json_of(const Point& p) {
   return nlohmann::ordered_json::array({p.x(), p.y(), p.z()});
 }
 
+nlohmann::ordered_json json_of(const Spread& spread) {
+  return {{"median", spread.median}, {"p95", spread.p95}, {"p99", spread.p99}, {"max", spread.max}};
+}
+
 nlohmann::ordered_json json_of(const Box& box) {
   return {{"min", json_of(box.min)}, {"max", json_of(box.max)}};
 }

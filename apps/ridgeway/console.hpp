@@ -10,6 +10,7 @@
 
 #include "command.hpp"
 #include "ridgeway/common/progress.hpp"
+#include "ridgeway/common/spread.hpp"
 #include "ridgeway/mapping/occupancy_map.hpp"
 
 namespace ridgeway::cli {
@@ -35,6 +36,7 @@ std::string point_text(const Point& p);               ///< 1,-2.5,0.7
 
 nlohmann::ordered_json json_of(const Point& p);
 nlohmann::ordered_json json_of(const Box& box);
+nlohmann::ordered_json json_of(const Spread& spread);
 
 /// One line of progress on stderr, if that is a terminal and nobody asked for quiet.
 class ProgressBar {

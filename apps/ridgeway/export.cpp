@@ -19,7 +19,7 @@
 namespace ridgeway::cli {
 namespace {
 
-struct Options {
+struct ExportOptions {
   std::string file, json_graph, picture, path, mesh, what = "graph";
   std::vector<std::string> outputs;
 };
@@ -40,7 +40,7 @@ void require_format(const std::filesystem::path& file, const std::string& what) 
 }
 
 /// All that is to be written; problems are found before anything is.
-std::vector<std::filesystem::path> list_outputs(const Options& options) {
+std::vector<std::filesystem::path> list_outputs(const ExportOptions& options) {
   std::vector<std::filesystem::path> files(options.outputs.begin(), options.outputs.end());
   for (const auto& file : files) require_format(file, options.what);
   if (!options.picture.empty()) {
@@ -60,7 +60,7 @@ std::vector<std::filesystem::path> list_outputs(const Options& options) {
   return files;
 }
 
-void write(const Roadmap& roadmap, const std::vector<Point>& path, const Options& options,
+void write(const Roadmap& roadmap, const std::vector<Point>& path, const ExportOptions& options,
            const std::filesystem::path& file) {
   if (file == options.json_graph)
     write_graph_json(roadmap, file);
@@ -84,7 +84,7 @@ int report(const std::vector<std::filesystem::path>& files, const Globals& globa
 }
 
 /// The surface of a fused map.
-int run_mesh(const Options& options, const Globals& globals) {
+int run_mesh(const ExportOptions& options, const Globals& globals) {
   if (!options.outputs.empty() || !options.json_graph.empty() || !options.picture.empty())
     throw InputError("--mesh", "shows a fused map, the other outputs show a roadmap",
                      "export the two one after the other");
@@ -100,7 +100,7 @@ int run_mesh(const Options& options, const Globals& globals) {
   return report({file}, globals);
 }
 
-int run(const Options& options, const Globals& globals) {
+int run(const ExportOptions& options, const Globals& globals) {
   if (!options.mesh.empty()) return run_mesh(options, globals);
   const std::vector<std::filesystem::path> files = list_outputs(options);
   const std::vector<Point> path =
@@ -116,7 +116,7 @@ int run(const Options& options, const Globals& globals) {
 }  // namespace
 
 void add_export_command(Command& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ExportOptions>();
   Command command =
       program.add("export", "Write a roadmap, or the surface of a fused map, in other formats");
   command.path("roadmap", options->file, "Roadmap or, for --mesh, fused map, .ridge").required();

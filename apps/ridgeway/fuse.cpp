@@ -21,7 +21,7 @@
 namespace ridgeway::cli {
 namespace {
 
-struct Options {
+struct FuseOptions {
   std::string folder, output, integrator;
   std::vector<double> intrinsics;
   std::optional<double> truncation;
@@ -40,7 +40,7 @@ struct Fused {
   double seconds = 0.0;               // of fusing alone
 };
 
-SequenceConfig sequence_config(const Options& options) {
+SequenceConfig sequence_config(const FuseOptions& options) {
   SequenceConfig config;
   if (options.intrinsics.empty()) return config;
   const std::vector<double>& v = options.intrinsics;
@@ -62,7 +62,7 @@ void fuse_frame(const std::filesystem::path& frame, Fused& fused, const Integrat
 }
 
 /// Images that are missing or damaged are passed over, as real recordings have them; not all.
-Fused fuse_images(const Options& options, const FusionConfig& config, const Globals& globals) {
+Fused fuse_images(const FuseOptions& options, const FusionConfig& config, const Globals& globals) {
   const DepthSequence sequence = open_sequence(options.folder, sequence_config(options));
   TsdfFusion fusion(config);
   Fused fused;
@@ -92,7 +92,7 @@ Fused fuse_images(const Options& options, const FusionConfig& config, const Glob
 }
 
 /// Scans are few and large: one that cannot be read is a mistake.
-Fused fuse_scans(const Options& options, const FusionConfig& config, const Globals& globals) {
+Fused fuse_scans(const FuseOptions& options, const FusionConfig& config, const Globals& globals) {
   const ScanSequence sequence = open_scans(options.folder);
   TsdfFusion fusion(config);
   Fused fused;
@@ -131,7 +131,7 @@ Kind kind_of(const std::string& folder) {
                    "3DMatch), or scans and their poses in poses.txt");
 }
 
-FusionConfig fusion_config(const Options& options, Kind kind) {
+FusionConfig fusion_config(const FuseOptions& options, Kind kind) {
   FusionConfig config = options.fusion;
   if (options.truncation) config.truncation = *options.truncation;
   if (kind == Kind::kScans) {
@@ -146,7 +146,7 @@ FusionConfig fusion_config(const Options& options, Kind kind) {
   return config;
 }
 
-void print(const Options& options, const Fused& fused, const VoxelCounts& voxels,
+void print(const FuseOptions& options, const Fused& fused, const VoxelCounts& voxels,
            const Globals& globals) {
   const double milliseconds = 1e3 * fused.seconds / static_cast<double>(fused.frames);
   if (globals.json) {
@@ -186,7 +186,7 @@ void require_outside(const std::filesystem::path& output, const std::filesystem:
     throw InputError(output.string(), "is part of the recording", "give another file to write to");
 }
 
-int run(const Options& options, const Globals& globals) {
+int run(const FuseOptions& options, const Globals& globals) {
   const Kind kind = kind_of(options.folder);
   const FusionConfig config = fusion_config(options, kind);
   require_outside(options.output, options.folder);
@@ -208,7 +208,7 @@ int run(const Options& options, const Globals& globals) {
 }  // namespace
 
 void add_fuse_command(Command& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<FuseOptions>();
   FusionConfig& fusion = options->fusion;
   Command command = program.add("fuse", "Fuse depth images or scans with poses to a map");
   command

@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kShownComponents = 10;
 
-struct Options {
+struct InfoOptions {
   std::string file;
 };
 
@@ -68,7 +68,7 @@ Json json_of(const ComponentReport& report) {
   return {{"components", std::move(components)}, {"joins", std::move(joins)}};
 }
 
-Json roadmap_json(const Options& options, const Roadmap& roadmap, const RidgeInfo& file) {
+Json roadmap_json(const InfoOptions& options, const Roadmap& roadmap, const RidgeInfo& file) {
   const OccupancyMap occupancy = occupancy_of(roadmap.esdf);
   const VoxelCounts counts = count_voxels(occupancy);
   Json json = {{"file", options.file},
@@ -152,7 +152,7 @@ void print_roadmap(const Json& json) {
   print_row("config", json["config"].dump());
 }
 
-int run_roadmap(const Options& options, const Globals& globals) {
+int run_roadmap(const InfoOptions& options, const Globals& globals) {
   const Roadmap roadmap = load_roadmap(options.file);
   Json json = roadmap_json(options, roadmap, read_ridge_info(options.file));
   const ComponentReport report = report_components(roadmap);
@@ -166,7 +166,7 @@ int run_roadmap(const Options& options, const Globals& globals) {
   return kExitDone;
 }
 
-int run(const Options& options, const Globals& globals) {
+int run(const InfoOptions& options, const Globals& globals) {
   if (is_roadmap_file(options.file)) return run_roadmap(options, globals);
   const Json json = describe_source(options.file, globals);
   if (globals.json)
@@ -179,7 +179,7 @@ int run(const Options& options, const Globals& globals) {
 }  // namespace
 
 void add_info_command(Command& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<InfoOptions>();
   Command command = program.add("info", "Tell what a roadmap or a map holds");
   command.path("file", options->file, "Roadmap .ridge, or a map that build reads").required();
   command.footer(

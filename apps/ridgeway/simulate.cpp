@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kMostFrames = 1000000;
 
-struct Options {
+struct SimulateOptions {
   std::string world, output, camera = "pinhole";
   std::optional<Box> volume;
   int frames = 200, width = 320;
@@ -26,7 +26,7 @@ struct Options {
   std::uint64_t seed = 1;
 };
 
-DepthSensor sensor_of(const Options& options) {
+DepthSensor sensor_of(const SimulateOptions& options) {
   DepthSensor sensor = options.camera == "stereo" ? stereo_sensor() : DepthSensor{};
   PinholeCamera& camera = sensor.camera;
   camera.width = options.width;
@@ -40,7 +40,7 @@ DepthSensor sensor_of(const Options& options) {
   return sensor;
 }
 
-PoseSampling sampling_of(const Options& options, const World& world) {
+PoseSampling sampling_of(const SimulateOptions& options, const World& world) {
   PoseSampling sampling;
   if (options.volume) {
     sampling.low = options.volume->min;
@@ -54,7 +54,7 @@ PoseSampling sampling_of(const Options& options, const World& world) {
   return sampling;
 }
 
-int run(const Options& options, const Globals& globals) {
+int run(const SimulateOptions& options, const Globals& globals) {
   const DepthSensor sensor = sensor_of(options);
   const World world = load_world(options.world);
   const auto poses = sample_poses(world, sampling_of(options, world));
@@ -87,7 +87,7 @@ int run(const Options& options, const Globals& globals) {
 }  // namespace
 
 void add_simulate_command(Command& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SimulateOptions>();
   Command command =
       program.add("simulate", "Record depth images in a simulated world, TUM RGB-D layout");
   command.path("world", options->world, "World, .yaml").required();

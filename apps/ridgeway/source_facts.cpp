@@ -41,14 +41,14 @@ void add_cloud(Json& json, const Cloud& cloud) {
   json["points"] = cloud.points.points.size();
   json["skipped_points"] = cloud.points.skipped;
   if (!cloud.points.points.empty())
-    json["bounds"] = json_of(extent(cloud.points, Eigen::Isometry3d::Identity()));
+    json["bounds"] = cli::json_of(extent(cloud.points, Eigen::Isometry3d::Identity()));
 }
 
 void add_voxels(Json& json, const char* format, const OccupancyMap& map) {
   const VoxelCounts counts = count_voxels(map);
   json["format"] = format;
   json["voxel_size"] = map.voxel_size;
-  if (const auto bounds = known_bounds(map)) json["bounds"] = json_of(*bounds);
+  if (const auto bounds = known_bounds(map)) json["bounds"] = cli::json_of(*bounds);
   json["voxels"] = {
       {"free", counts.free}, {"occupied", counts.occupied}, {"unknown", counts.unknown}};
   json["allocated_voxels"] = map.layout.voxel_count();

@@ -27,7 +27,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-struct Options {
+struct TrajectoryOptions {
   std::string file, derivative = "snap", output, picture;
   std::optional<Point> from, to, from_velocity;
   std::optional<double> radius, max_jerk, yaw;
@@ -35,7 +35,7 @@ struct Options {
   bool stop_and_go = false;
 };
 
-TrajectoryConfig trajectory_config(const Options& options, double radius) {
+TrajectoryConfig trajectory_config(const TrajectoryOptions& options, double radius) {
   TrajectoryConfig config;
   config.radius = radius;
   config.limits.max_speed = options.max_speed;
@@ -87,7 +87,7 @@ int report_none(const std::string& status, const std::string& reason, Json json,
   return kExitNoPlan;
 }
 
-int run(const Options& options, const Globals& globals) {
+int run(const TrajectoryOptions& options, const Globals& globals) {
   const Point start = *options.from, goal = *options.to;
   trajectory_config(options, options.radius.value_or(1.0));  // bad limits, before the file is read
   std::vector<std::filesystem::path> written;
@@ -133,7 +133,7 @@ int run(const Options& options, const Globals& globals) {
 }  // namespace
 
 void add_trajectory_command(Command& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<TrajectoryOptions>();
   Command command =
       program.add("trajectory", "Plan a path, and a verified trajectory to fly along it");
   command.path("roadmap", options->file, "Roadmap, .ridge").required();

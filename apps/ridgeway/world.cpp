@@ -14,12 +14,12 @@
 namespace ridgeway::cli {
 namespace {
 
-struct Options {
+struct WorldOptions {
   std::string kind, output;
   std::uint64_t seed = 1;
 };
 
-int run(const Options& options, const Globals& globals) {
+int run(const WorldOptions& options, const Globals& globals) {
   require_extension(options.output, "a world", {".yaml", ".yml"});
   require_writable({options.output}, {});
   const World world = options.kind == "maze"   ? make_maze({.seed = options.seed})
@@ -40,7 +40,7 @@ int run(const Options& options, const Globals& globals) {
 }  // namespace
 
 void add_world_command(Command& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<WorldOptions>();
   Command command = program.add("world", "Make a simulated world from a seed");
   command
       .choice("kind", options->kind, {"maze", "hall", "house"},

@@ -24,7 +24,7 @@ TrajectoryConfig trajectory_config(const FlightsConfig& config) {
   return result;
 }
 
-std::vector<VoxelId> traversable_voxels(const EsdfMap& esdf, double radius) {
+std::vector<VoxelId> places_to_fly(const EsdfMap& esdf, double radius) {
   std::vector<VoxelId> voxels;
   const auto least = least_clearance(radius, esdf.voxel_size);
   for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
@@ -34,7 +34,7 @@ std::vector<VoxelId> traversable_voxels(const EsdfMap& esdf, double radius) {
 
 /// Paths between the centres of two voxels drawn at random, where there is one.
 std::vector<Flight> draw_queries(const Roadmap& roadmap, const FlightsConfig& config) {
-  const std::vector<VoxelId> places = traversable_voxels(roadmap.esdf, config.min_clearance);
+  const std::vector<VoxelId> places = places_to_fly(roadmap.esdf, config.min_clearance);
   if (places.empty())
     throw InputError("the map", "has no place for a robot of " + number_text(config.min_clearance),
                      "give a smaller clearance");

@@ -25,7 +25,7 @@ namespace {
 
 using detail::seconds_now;
 
-struct Pair {
+struct Ends {
   Point start, goal;
 };
 
@@ -89,7 +89,7 @@ NoiseMap make_map(const World& world, const std::vector<Eigen::Isometry3d>& pose
 }
 
 /// Random starts and goals that every map can be asked for.
-std::vector<Pair> common_pairs(const World& world, const NoiseConfig& config,
+std::vector<Ends> common_pairs(const World& world, const NoiseConfig& config,
                                const std::vector<NoiseMap>& maps) {
   std::vector<VoxelMask> main;
   main.reserve(maps.size());
@@ -116,14 +116,14 @@ std::vector<Pair> common_pairs(const World& world, const NoiseConfig& config,
       p[axis] = random.uniform(inside.low[axis], inside.high[axis]);
     if (is_common(p)) places.push_back(p);
   }
-  std::vector<Pair> pairs;
+  std::vector<Ends> pairs;
   for (std::size_t i = 0; i + 1 < places.size(); i += 2)
     pairs.push_back({places[i], places[i + 1]});
   return pairs;
 }
 
 /// Lengths of the routes; infinite where there is none.
-std::vector<double> route_lengths(const Roadmap& roadmap, const std::vector<Pair>& pairs,
+std::vector<double> route_lengths(const Roadmap& roadmap, const std::vector<Ends>& pairs,
                                   Planner planner) {
   std::vector<double> lengths(pairs.size(), std::numeric_limits<double>::infinity());
   parallel_for_each_index(pairs.size(), [&](std::size_t i) {
@@ -134,7 +134,7 @@ std::vector<double> route_lengths(const Roadmap& roadmap, const std::vector<Pair
 }
 
 /// How the maps' routes compare with the best of the first map.
-void compare_routes(const std::vector<Pair>& pairs, NoiseResult& result, const Progress& progress) {
+void compare_routes(const std::vector<Ends>& pairs, NoiseResult& result, const Progress& progress) {
   const Roadmap& reference = result.maps.front().built.roadmap;
   std::vector<double> best = route_lengths(reference, pairs, Planner::kEsdf);
   const std::vector<double> own = route_lengths(reference, pairs, Planner::kGraph);
@@ -191,7 +191,7 @@ void run_noise(const World& world, const NoiseConfig& config, const Progress& pr
     add(voxel_size, std::nullopt);
     for (const double sigma : config.sigmas) add(voxel_size, sigma);
   }
-  const std::vector<Pair> pairs = common_pairs(world, config, result.maps);
+  const std::vector<Ends> pairs = common_pairs(world, config, result.maps);
   result.pairs = pairs.size();
   compare_routes(pairs, result, progress);
   result.size_ratio = size_ratio_of(result.maps);

@@ -15,7 +15,7 @@ namespace ridgeway {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* kProblem = "cannot be written";
+constexpr const char* kCannotWrite = "cannot be written";
 
 /// The file that a chain of links ends at; the path itself where there is none.
 fs::path follow_link(const fs::path& path) {
@@ -31,7 +31,7 @@ fs::path AtomicFile::checked(const fs::path& target) {
   fs::path file = follow_link(target);
   std::error_code ignored;
   const fs::file_status status = fs::status(file, ignored);
-  if (fs::is_directory(status)) detail::fail_file(file, kProblem, EISDIR);
+  if (fs::is_directory(status)) detail::fail_file(file, kCannotWrite, EISDIR);
   if (fs::exists(status) && !fs::is_regular_file(status))
     throw InputError(file.string(), "is no regular file", "give the name of a file");
   return file;
@@ -64,7 +64,7 @@ void AtomicFile::commit() {
   }
 }
 
-void AtomicFile::fail(int error) const { detail::fail_file(target_, kProblem, error); }
+void AtomicFile::fail(int error) const { detail::fail_file(target_, kCannotWrite, error); }
 
 void write_text_file(const fs::path& target, std::string_view text) {
   AtomicFile file(target);

@@ -12,7 +12,7 @@ namespace ridgeway {
 namespace {
 
 /// The next three words of a line, whole numbers from 0 up.
-std::optional<VoxelIndex> take_cell(std::string_view& line) {
+std::optional<VoxelIndex> take_waypoint(std::string_view& line) {
   const auto x = to_number<int>(take_word(line)), y = to_number<int>(take_word(line)),
              z = to_number<int>(take_word(line));
   if (!x || !y || !z || *x < 0 || *y < 0 || *z < 0) return std::nullopt;
@@ -20,7 +20,7 @@ std::optional<VoxelIndex> take_cell(std::string_view& line) {
 }
 
 std::optional<BenchmarkScenario> scenario_of(std::string_view line) {
-  const auto start = take_cell(line), goal = take_cell(line);
+  const auto start = take_waypoint(line), goal = take_waypoint(line);
   const auto length = to_number<double>(take_word(line)),
              ratio = to_number<double>(take_word(line));
   if (!start || !goal || !length || !ratio || !take_word(line).empty() ||

@@ -17,7 +17,7 @@
 namespace ridgeway {
 namespace {
 
-constexpr const char* kCheckHeader = "correct the header, or write the file again";
+constexpr const char* kCheckPcdHeader = "correct the header, or write the file again";
 constexpr std::size_t kMaxRecord = 1 << 20;  // bytes a point; bounds all sums below
 
 struct Field {
@@ -34,7 +34,7 @@ struct Coordinate {
   ScalarType type = ScalarType::kFloat32;
 };
 
-struct Header {
+struct PcdHeader {
   std::vector<Field> fields;
   std::uint64_t points = 0;
   std::string_view data;
@@ -62,7 +62,7 @@ ScalarType scalar_type(const ByteReader& reader, const Field& field) {
   }
   reader.fail("gives field " + std::string(field.name) + " the type " + field.type +
                   std::to_string(field.size),
-              kCheckHeader);
+              kCheckPcdHeader);
 }
 
 /// One number a field, as in SIZE and COUNT.
@@ -72,12 +72,12 @@ void take_sizes(const ByteReader& reader, const std::vector<std::string_view>& w
     const auto value = to_number<std::size_t>(words[i + 1]);
     if (!value || *value == 0 || *value > kMaxRecord)
       reader.fail("has '" + std::string(words[i + 1]) + "' for a " + std::string(words[0]),
-                  kCheckHeader);
+                  kCheckPcdHeader);
     fields[i].*member = *value;
   }
 }
 
-void place_coordinates(const ByteReader& reader, Header& header) {
+void place_coordinates(const ByteReader& reader, PcdHeader& header) {
   std::array<bool, 3> found{};
   for (std::size_t i = 0; i < header.fields.size(); ++i) {
     const Field& field = header.fields[i];
@@ -89,19 +89,19 @@ void place_coordinates(const ByteReader& reader, Header& header) {
     }
     header.columns += field.count;
     header.record += field.size * field.count;
-    if (header.record > kMaxRecord) reader.fail("has more than 1 MB a point", kCheckHeader);
+    if (header.record > kMaxRecord) reader.fail("has more than 1 MB a point", kCheckPcdHeader);
   }
   if (!found[0] || !found[1] || !found[2])
     reader.fail("has no fields x, y and z", "write the cloud with all three");
 }
 
-Header read_header(ByteReader& reader) {
-  Header header;
+PcdHeader read_pcd_header(ByteReader& reader) {
+  PcdHeader header;
   std::optional<std::uint64_t> width, height, points;
   const auto number = [&reader](std::string_view word, std::uint64_t most) {
     const auto value = to_number<std::uint64_t>(word);
     if (!value || *value > most)
-      reader.fail("has '" + std::string(word) + "' for a number of points", kCheckHeader);
+      reader.fail("has '" + std::string(word) + "' for a number of points", kCheckPcdHeader);
     return *value;
   };
   while (header.data.empty()) {
@@ -110,7 +110,7 @@ Header read_header(ByteReader& reader) {
     const std::string_view key = words[0];
     const bool per_field = key == "SIZE" || key == "TYPE" || key == "COUNT";
     if (words.size() < 2 || (per_field && words.size() != header.fields.size() + 1))
-      reader.fail("has the wrong number of words after " + std::string(key), kCheckHeader);
+      reader.fail("has the wrong number of words after " + std::string(key), kCheckPcdHeader);
     if (key == "FIELDS" || key == "COLUMNS") {
       header.fields.clear();
       for (std::size_t i = 1; i < words.size(); ++i) header.fields.push_back({.name = words[i]});
@@ -131,13 +131,14 @@ Header read_header(ByteReader& reader) {
       header.data = words[1];
     } else if (key != "VERSION" && key != "VIEWPOINT") {
       reader.fail("has an unknown word in its header: " + std::string(key.substr(0, 40)),
-                  kCheckHeader);
+                  kCheckPcdHeader);
     }
   }
-  if (!points && !width) reader.fail("says neither POINTS nor WIDTH", kCheckHeader);
+  if (!points && !width) reader.fail("says neither POINTS nor WIDTH", kCheckPcdHeader);
   const std::uint64_t area = width ? *width * height.value_or(1) : *points;
   header.points = points.value_or(area);
-  if (header.points != area) reader.fail("has POINTS other than WIDTH times HEIGHT", kCheckHeader);
+  if (header.points != area)
+    reader.fail("has POINTS other than WIDTH times HEIGHT", kCheckPcdHeader);
   place_coordinates(reader, header);
   return header;
 }
@@ -148,7 +149,7 @@ void require_end(const ByteReader& reader) {
   if (std::any_of(rest.begin(), rest.end(),
                   [](char c) { return c != '\0' && c != '\n' && !is_blank(c); }))
     reader.fail("goes on for " + std::to_string(rest.size()) + " bytes after its last point",
-                kCheckHeader);
+                kCheckPcdHeader);
 }
 
 /// Throws where the bytes cannot hold the points that the header tells of.
@@ -160,7 +161,7 @@ void require_points(const ByteReader& reader, std::uint64_t points, std::size_t 
   }
 }
 
-PointCloud read_ascii(ByteReader& reader, const Header& header) {
+PointCloud read_ascii(ByteReader& reader, const PcdHeader& header) {
   PointCloud cloud;
   // The last line may lack its end.
   require_points(reader, header.points == 0 ? 0 : header.points - 1, 2 * header.columns);
@@ -190,7 +191,7 @@ PointCloud read_ascii(ByteReader& reader, const Header& header) {
   return cloud;
 }
 
-PointCloud read_binary(ByteReader& reader, const Header& header) {
+PointCloud read_binary(ByteReader& reader, const PcdHeader& header) {
   require_points(reader, header.points, header.record);
   PointCloud cloud;
   cloud.points.reserve(header.points);
@@ -209,7 +210,7 @@ PointCloud read_binary(ByteReader& reader, const Header& header) {
 }
 
 /// Two sizes, then LZF of all values of the first field, all of the second, and so on.
-PointCloud read_compressed(ByteReader& reader, const Header& header) {
+PointCloud read_compressed(ByteReader& reader, const PcdHeader& header) {
   constexpr std::size_t most_gain = 100;  // LZF makes at most 264 bytes of 3
   if (header.points == 0) return {};
   const std::size_t packed = reader.take<std::uint32_t>();
@@ -217,8 +218,8 @@ PointCloud read_compressed(ByteReader& reader, const Header& header) {
   reader.require(packed);
   if (header.points > unpacked / header.record || unpacked != header.points * header.record)
     reader.fail("unpacks to " + std::to_string(unpacked) + " bytes, not to its points",
-                kCheckHeader);
-  if (unpacked / most_gain > packed) reader.fail("is too short for its points", kCheckHeader);
+                kCheckPcdHeader);
+  if (unpacked / most_gain > packed) reader.fail("is too short for its points", kCheckPcdHeader);
   std::string values(unpacked, '\0');
   if (lzf_decompress(reader.rest().data(), static_cast<unsigned>(packed), values.data(),
                      static_cast<unsigned>(unpacked)) != unpacked)
@@ -249,7 +250,7 @@ bool is_pcd(std::string_view bytes) {
 
 PointCloud read_pcd(std::string_view bytes, const std::string& name) {
   ByteReader reader(bytes, name);
-  const Header header = read_header(reader);
+  const PcdHeader header = read_pcd_header(reader);
   if (header.data == "ascii") return read_ascii(reader, header);
   if (header.data == "binary") return read_binary(reader, header);
   if (header.data == "binary_compressed") return read_compressed(reader, header);

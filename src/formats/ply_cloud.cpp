@@ -16,7 +16,7 @@
 namespace ridgeway {
 namespace {
 
-constexpr const char* kCheckHeader = "correct the header, or write the file again";
+constexpr const char* kCheckPlyHeader = "correct the header, or write the file again";
 
 struct Property {
   std::string_view name;
@@ -43,7 +43,7 @@ struct Element {
 
 enum class Encoding { kAscii, kLittleEndian, kBigEndian };
 
-struct Header {
+struct PlyHeader {
   Encoding encoding = Encoding::kAscii;
   std::vector<Element> elements;
 };
@@ -69,7 +69,7 @@ ScalarType scalar_type(const ByteReader& reader, std::string_view word) {
        {"float64", kFloat64}}};
   for (const auto& [name, type] : names)
     if (word == name) return type;
-  reader.fail("has a property of type '" + std::string(word.substr(0, 40)) + "'", kCheckHeader);
+  reader.fail("has a property of type '" + std::string(word.substr(0, 40)) + "'", kCheckPlyHeader);
 }
 
 Property read_property(const ByteReader& reader, std::string_view line) {
@@ -88,11 +88,11 @@ Encoding read_encoding(const ByteReader& reader, std::string_view word) {
   if (word == "ascii") return Encoding::kAscii;
   if (word == "binary_little_endian") return Encoding::kLittleEndian;
   if (word == "binary_big_endian") return Encoding::kBigEndian;
-  reader.fail("has the format '" + std::string(word.substr(0, 40)) + "'", kCheckHeader);
+  reader.fail("has the format '" + std::string(word.substr(0, 40)) + "'", kCheckPlyHeader);
 }
 
-Header read_header(ByteReader& reader) {
-  Header header;
+PlyHeader read_ply_header(ByteReader& reader) {
+  PlyHeader header;
   bool has_format = false;
   reader.take_line();  // "ply"
   while (true) {
@@ -105,17 +105,18 @@ Header read_header(ByteReader& reader) {
     } else if (key == "element") {
       const std::string_view name = take_word(line);
       const auto count = to_number<std::uint64_t>(take_word(line));
-      if (!count) reader.fail("does not say how many of an element it holds", kCheckHeader);
+      if (!count) reader.fail("does not say how many of an element it holds", kCheckPlyHeader);
       header.elements.push_back({name, *count, {}});
     } else if (key == "property") {
-      if (header.elements.empty()) reader.fail("has a property before any element", kCheckHeader);
+      if (header.elements.empty())
+        reader.fail("has a property before any element", kCheckPlyHeader);
       header.elements.back().properties.push_back(read_property(reader, line));
     } else if (!key.empty() && key != "comment" && key != "obj_info") {
       reader.fail("has an unknown word in its header: " + std::string(key.substr(0, 40)),
-                  kCheckHeader);
+                  kCheckPlyHeader);
     }
   }
-  if (!has_format) reader.fail("says no format in its header", kCheckHeader);
+  if (!has_format) reader.fail("says no format in its header", kCheckPlyHeader);
   return header;
 }
 
@@ -142,7 +143,7 @@ class BodyReader {
     const double count = take(count_type);
     if (!(count >= 0.0) || count > static_cast<double>(reader_.remaining()))
       reader_.fail("has a list of " + std::to_string(count) + " entries, more than fit",
-                   kCheckHeader);
+                   kCheckPlyHeader);
     const auto entries = static_cast<std::size_t>(count);
     if (encoding_ != Encoding::kAscii) return reader_.skip(entries * size_of(type));
     for (std::size_t i = 0; i < entries; ++i) take(type);
@@ -152,7 +153,8 @@ class BodyReader {
   void require(const Element& element) {
     if (element.count == 0) return;
     if (element.properties.empty())
-      reader_.fail("has an element without properties: " + std::string(element.name), kCheckHeader);
+      reader_.fail("has an element without properties: " + std::string(element.name),
+                   kCheckPlyHeader);
     const bool ascii = encoding_ == Encoding::kAscii;
     const std::size_t each = ascii ? 2 * element.properties.size() : element.least_bytes();
     if (element.count > (reader_.remaining() + (ascii ? 1 : 0)) / each) {
@@ -176,7 +178,7 @@ class BodyReader {
     if (reader_.remaining() > 0)
       reader_.fail(
           "goes on for " + std::to_string(reader_.remaining()) + " bytes after its last element",
-          kCheckHeader);
+          kCheckPlyHeader);
   }
 
  private:
@@ -224,11 +226,11 @@ bool has_faces(const Element& element) {
          });
 }
 
-void require_coordinates(const ByteReader& reader, const Header& header) {
+void require_coordinates(const ByteReader& reader, const PlyHeader& header) {
   std::array<bool, 4> found{};
   if (std::count_if(header.elements.begin(), header.elements.end(),
                     [](const Element& element) { return element.name == "vertex"; }) > 1)
-    reader.fail("has more than one element vertex", kCheckHeader);
+    reader.fail("has more than one element vertex", kCheckPlyHeader);
   for (const Element& element : header.elements)
     if (element.name == "vertex")
       for (const Property& property : element.properties) found[axis_of(property)] = true;
@@ -245,7 +247,7 @@ bool is_ply(std::string_view bytes) {
 
 PointCloud read_ply(std::string_view bytes, const std::string& name) {
   ByteReader reader(bytes, name);
-  const Header header = read_header(reader);
+  const PlyHeader header = read_ply_header(reader);
   require_coordinates(reader, header);
   PointCloud cloud;
   BodyReader body(reader, header.encoding);

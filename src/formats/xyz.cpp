@@ -78,7 +78,7 @@ std::string plain(std::string_view name) {
 }
 
 /// What the columns of a text are.
-struct Columns {
+struct XyzColumns {
   std::size_t count = 3;
   std::array<std::size_t, 3> xyz = {0, 1, 2};
   bool are_named = false;
@@ -86,12 +86,12 @@ struct Columns {
 
 /// Names of columns, or the first one that is none.
 struct Names {
-  std::optional<Columns> columns;
+  std::optional<XyzColumns> columns;
   std::string_view unknown;
 };
 
 Names read_names(std::string_view line) {
-  Columns columns{.count = 0, .are_named = true};
+  XyzColumns columns{.count = 0, .are_named = true};
   std::array<int, 3> found{};
   for (auto entry = take_entry(line); !entry.empty(); entry = take_entry(line), ++columns.count) {
     const std::string name = plain(entry);
@@ -179,7 +179,7 @@ class XyzReader {
 
   const std::string& name_;
   std::size_t line_number_ = 0;
-  Columns columns_;
+  XyzColumns columns_;
   std::array<double, 3> point_{};
   PointCloud cloud_;
 };

@@ -11,7 +11,8 @@
 namespace ridgeway {
 namespace {
 
-constexpr double kTitle = 30.0, kPlot = 130.0, kGap = 14.0, kAxis = 44.0;  // heights, units
+constexpr double kChartTitle = 30.0, kPlot = 130.0, kGap = 14.0,
+                 kChartAxis = 44.0;  // heights, units
 
 /// Where a chart's values lie on the page.
 struct Plot {
@@ -111,7 +112,9 @@ void validate_charts(std::span<const Chart> charts) {
 }
 
 double charts_height(std::size_t count, double unit) {
-  return count == 0 ? 0.0 : (static_cast<double>(count) * (kTitle + kPlot + kGap) + kAxis) * unit;
+  return count == 0
+             ? 0.0
+             : (static_cast<double>(count) * (kChartTitle + kPlot + kGap) + kChartAxis) * unit;
 }
 
 void draw_charts(Canvas& canvas, std::span<const Chart> charts, double left, double top,
@@ -119,12 +122,13 @@ void draw_charts(Canvas& canvas, std::span<const Chart> charts, double left, dou
   for (std::size_t i = 0; i < charts.size(); ++i) {
     const Chart& chart = charts[i];
     const double longest = chart.times.empty() ? 0.0 : chart.times.back();
-    const Plot plot{left,
-                    top + (static_cast<double>(i) * (kTitle + kPlot + kGap) + kTitle) * unit,
-                    width,
-                    kPlot * unit,
-                    longest > 0.0 ? longest : 1.0,
-                    highest_of(chart)};
+    const Plot plot{
+        left,
+        top + (static_cast<double>(i) * (kChartTitle + kPlot + kGap) + kChartTitle) * unit,
+        width,
+        kPlot * unit,
+        longest > 0.0 ? longest : 1.0,
+        highest_of(chart)};
     draw_chart(canvas, chart, plot, i + 1 == charts.size(), unit);
   }
 }

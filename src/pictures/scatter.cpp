@@ -72,7 +72,7 @@ std::vector<double> ticks_of(const Axis& axis) {
   return ticks;
 }
 
-struct Plot {
+struct ScatterPlot {
   double left, top, width, height, unit;
   Axis across, up;
   double x(double value) const { return left + width * across.share(value); }
@@ -85,7 +85,7 @@ void stroke(Canvas& canvas, double x0, double y0, double x1, double y1) {
   cairo_stroke(canvas.cairo());
 }
 
-void draw_axes(Canvas& canvas, const ScatterChart& chart, const Plot& plot) {
+void draw_axes(Canvas& canvas, const ScatterChart& chart, const ScatterPlot& plot) {
   const double u = plot.unit, bottom = plot.top + plot.height;
   canvas.set_font(15.0 * u);
   canvas.set_line(u);
@@ -117,7 +117,7 @@ void draw_point(Canvas& canvas, double x, double y, double unit) {
   cairo_fill(canvas.cairo());
 }
 
-void draw_values(Canvas& canvas, const ScatterSeries& series, const Plot& plot) {
+void draw_values(Canvas& canvas, const ScatterSeries& series, const ScatterPlot& plot) {
   if (series.style != SeriesStyle::kPoints) {
     for (const auto& [x, y] : series.points) cairo_line_to(canvas.cairo(), plot.x(x), plot.y(y));
     cairo_stroke(canvas.cairo());
@@ -127,7 +127,8 @@ void draw_values(Canvas& canvas, const ScatterSeries& series, const Plot& plot) 
 }
 
 /// A line of the legend, to the right of the plot.
-void draw_legend(Canvas& canvas, const ScatterSeries& series, const Plot& plot, std::size_t index) {
+void draw_legend(Canvas& canvas, const ScatterSeries& series, const ScatterPlot& plot,
+                 std::size_t index) {
   const double u = plot.unit, x = plot.left + plot.width + 24.0 * u;
   const double y = plot.top + (12.0 + 28.0 * static_cast<double>(index)) * u;
   if (series.style != SeriesStyle::kPoints) stroke(canvas, x - 10.0 * u, y, x + 10.0 * u, y);
@@ -137,7 +138,8 @@ void draw_legend(Canvas& canvas, const ScatterSeries& series, const Plot& plot, 
   canvas.draw_text(x + 14.0 * u, y + 5.0 * u, series.name);
 }
 
-void draw_series(Canvas& canvas, const ScatterChart& chart, const Plot& plot, std::size_t index) {
+void draw_series(Canvas& canvas, const ScatterChart& chart, const ScatterPlot& plot,
+                 std::size_t index) {
   const ScatterSeries& series = chart.series[index];
   const double u = plot.unit;
   canvas.set_colour(kSeriesColours[index], 0.85);
@@ -159,13 +161,13 @@ void draw_scatter(const ScatterChart& chart, const std::filesystem::path& out) {
   canvas.set_font(15.0 * u);
   for (const ScatterSeries& series : chart.series)
     legend = std::max(legend, canvas.text_width(series.name) + 50.0 * u);
-  const Plot plot{80.0 * u,
-                  92.0 * u,
-                  chart.width - 100.0 * u - legend,
-                  chart.width * 2.0 / 3.0 - 164.0 * u,
-                  u,
-                  axis_of(chart, chart.log_x, [](const auto& p) { return p.first; }),
-                  axis_of(chart, chart.log_y, [](const auto& p) { return p.second; })};
+  const ScatterPlot plot{80.0 * u,
+                         92.0 * u,
+                         chart.width - 100.0 * u - legend,
+                         chart.width * 2.0 / 3.0 - 164.0 * u,
+                         u,
+                         axis_of(chart, chart.log_x, [](const auto& p) { return p.first; }),
+                         axis_of(chart, chart.log_y, [](const auto& p) { return p.second; })};
   canvas.set_colour(ink::kText);
   canvas.set_font(22.0 * u, true);
   canvas.draw_text(plot.left, 40.0 * u, canvas.fitted(chart.title, chart.width - plot.left));

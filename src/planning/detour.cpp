@@ -16,10 +16,10 @@ namespace {
 constexpr int kRays = 6;
 constexpr int kTriesPerRay = 3;
 constexpr double kWiden = 1.35;         // from one try on a ray to the next
-constexpr double kWorthwhile = 1e-3;    // relative gain that makes a detour worth it
+constexpr double kWorthADetour = 1e-3;  // relative gain that makes a detour worth it
 constexpr double kExcess = 0.02;        // of a stretch's length: worth a detour search
 constexpr double kExcessOfAll = 0.015;  // of the path's length
-constexpr int kDetourCorners = 2;
+constexpr int kStretchCorners = 2;
 constexpr std::size_t kLongestStretch = 3;  // segments that a detour may replace
 
 /// Distance at the centre of the point's voxel, metres; 0 where nothing is known.
@@ -116,7 +116,7 @@ std::vector<Point> redirect(const EsdfMap& esdf, const FreeSpace& space, std::ve
       if (length - (*last - *first).norm() < std::max(kExcess * length, kExcessOfAll * total))
         continue;
       const Detour detour = find_detour(esdf, space, *first, *last, radius,
-                                        length * (1.0 - kWorthwhile), kDetourCorners);
+                                        length * (1.0 - kWorthADetour), kStretchCorners);
       if (!detour.found()) continue;
       const auto place = path.erase(first + 1, last);
       path.insert(place, detour.corners.begin(), detour.corners.end());

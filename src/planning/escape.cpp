@@ -14,10 +14,10 @@
 namespace ridgeway::detail {
 namespace {
 
-constexpr double kFarthest = 2.0;     // radii
-constexpr double kStep = 1.0 / 32.0;  // voxels between looks at the distance
-constexpr double kEnd = 1e-3;         // voxels before the end, for a last look
-constexpr double kSlack = 1e-9;       // metres; rounding
+constexpr double kFarthest = 2.0;           // radii
+constexpr double kEscapeStep = 1.0 / 32.0;  // voxels between looks at the distance
+constexpr double kEnd = 1e-3;               // voxels before the end, for a last look
+constexpr double kEscapeSlack = 1e-9;       // metres; rounding
 constexpr int kBetweenLooksAtTheClock = 256;
 
 /// Traversable voxel centres around a point, nearest first, found best first in a tree of cubes
@@ -94,7 +94,7 @@ class PlacesAround {
   bool reaches(SquaredHalves squared, int half) const {
     if (half == 0) return squared >= threshold_;
     const double most = 0.5 * std::sqrt(squared.value) + std::numbers::sqrt3 * half;
-    return most * (1.0 + kSlack) >= 0.5 * std::sqrt(threshold_.value);
+    return most * (1.0 + kEscapeSlack) >= 0.5 * std::sqrt(threshold_.value);
   }
 
   const EsdfMap& esdf_;
@@ -114,18 +114,18 @@ bool rises(const FreeSpace& space, const Point& a, const Point& b, double voxel_
            const Deadline& deadline) {
   const double length = (b - a).norm();
   const auto distance_at = [&](double share) { return space.distance(a + (b - a) * share); };
-  const double steps = 1.0 + std::floor(length / (kStep * voxel_size));
+  const double steps = 1.0 + std::floor(length / (kEscapeStep * voxel_size));
   double last = distance_at(0.0);
   int looks = 0;
   for (double k = 1.0; k <= steps; ++k) {
     const double here = distance_at(k / steps);
-    if (here < last - kSlack) return false;
+    if (here < last - kEscapeSlack) return false;
     if (++looks % kBetweenLooksAtTheClock == 0 && deadline.has_passed()) return false;
     last = here;
   }
   const double end = std::min(kEnd * voxel_size / length, 0.5);
-  return last >= distance_at(1.0 - end) - kSlack &&
-         space.clearance(a, b) >= space.distance(a) - kSlack;
+  return last >= distance_at(1.0 - end) - kEscapeSlack &&
+         space.clearance(a, b) >= space.distance(a) - kEscapeSlack;
 }
 
 }  // namespace

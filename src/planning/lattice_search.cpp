@@ -17,7 +17,7 @@ namespace {
 constexpr double kRoot2 = 1.41421356237309504880, kRoot3 = 1.73205080756887729352;
 constexpr std::array<double, 4> kLengths{0.0, 1.0, kRoot2, kRoot3};
 constexpr double kNoGain = 1e-9;  // voxels
-constexpr int kExpansionsBetweenLooksAtTheClock = 1024;
+constexpr int kExpansionsBetweenLooks = 1024;
 
 /// Length of the shortest 26-path between two voxels of empty space.
 double lattice_distance(const VoxelIndex& a, const VoxelIndex& b) {
@@ -87,7 +87,7 @@ LatticePath search_lattice(const EsdfMap& esdf, VoxelId start, VoxelId goal, dou
   while (const std::optional<OpenBuckets::Entry> best = open.pop(goal_cost)) {
     if (best->cost > memory.block_of(best->voxel).cost[best->voxel % kBlockVoxels]) continue;
     if (++expansions > options.most_expansions) break;
-    if (expansions % kExpansionsBetweenLooksAtTheClock == 0 && deadline.has_passed())
+    if (expansions % kExpansionsBetweenLooks == 0 && deadline.has_passed())
       return {SearchStatus::kTimeout, {}};
     const VoxelIndex here = esdf.layout.index_of(best->voxel);
     const double to_goal = lattice_distance(here, target);

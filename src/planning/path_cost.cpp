@@ -7,8 +7,8 @@
 namespace ridgeway::detail {
 namespace {
 
-constexpr double kStep = 0.5;    // radii between looks at the clearance
-constexpr double kSlack = 1e-3;  // relative; what the sum over steps may be off by
+constexpr double kCostStep = 0.5;    // radii between looks at the clearance
+constexpr double kCostSlack = 1e-3;  // relative; what the sum over steps may be off by
 
 }  // namespace
 
@@ -26,7 +26,7 @@ double PathCost::of(std::span<const Point> path) const {
       cost += length;
       continue;
     }
-    const int pieces = 1 + static_cast<int>(length / (kStep * radius_));
+    const int pieces = 1 + static_cast<int>(length / (kCostStep * radius_));
     double factors = 0.0;
     for (int k = 0; k < pieces; ++k)
       factors += factor(space_.distance(path[i - 1] + along * ((k + 0.5) / pieces)));
@@ -36,7 +36,7 @@ double PathCost::of(std::span<const Point> path) const {
 }
 
 bool PathCost::is_kept(std::span<const Point> before, std::span<const Point> after) const {
-  return of(after) <= of(before) * (1.0 + kSlack);
+  return of(after) <= of(before) * (1.0 + kCostSlack);
 }
 
 }  // namespace ridgeway::detail

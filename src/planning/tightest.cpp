@@ -17,16 +17,16 @@
 namespace ridgeway::detail {
 namespace {
 
-constexpr double kNearlyStraight = 1.03;  // over the straight line: not worth another way
-constexpr double kMostlyDrawnInTo = 0.9;  // of its length when waypoints are skipped
-constexpr double kSuspicious = 1.15;      // over the straight line: worth a second opinion,
-constexpr double kUnexpected = 1.1;       // and where that is cheap, as corners are known
-constexpr std::array kStrides{2, 1};      // the coarse is quick, the fine fits narrow places
-constexpr double kQuickWeight = 1.2;      // of those searches' heuristic
-constexpr int kQuickExpansions = 3000;    // less than two milliseconds
-constexpr double kLeastInVain = 60.0;     // they give up after so many in a pocket, at least,
-constexpr double kInVain = 400.0;         // and so many for each length that shortening saved
-constexpr double kLatticeExcess = 1.05;   // by which a lattice path shrinks when it is shortened
+constexpr double kTightlyStraight = 1.03;  // over the straight line: not worth another way
+constexpr double kMostlyDrawnInTo = 0.9;   // of its length when waypoints are skipped
+constexpr double kSuspicious = 1.15;       // over the straight line: worth a second opinion,
+constexpr double kUnexpected = 1.1;        // and where that is cheap, as corners are known
+constexpr std::array kStrides{2, 1};       // the coarse is quick, the fine fits narrow places
+constexpr double kQuickWeight = 1.2;       // of those searches' heuristic
+constexpr int kQuickExpansions = 3000;     // less than two milliseconds
+constexpr double kLeastInVain = 60.0;      // they give up after so many in a pocket, at least,
+constexpr double kInVain = 400.0;          // and so many for each length that shortening saved
+constexpr double kLatticeExcess = 1.05;    // by which a lattice path shrinks when it is shortened
 
 /// The nearest voxel with even coordinates that a point can move to.
 VoxelId even_voxel(const EsdfMap& esdf, const FreeSpace& space, const Point& p, double radius) {
@@ -152,7 +152,7 @@ Route tightest(const Roadmap& roadmap, const FreeSpace& space, RouteResult& foun
   if (query.prefer_clearance > 0.0)
     return cheapest(roadmap, space, found, query, std::move(known), deadline);
   const double as_found = length_of(found.route);
-  const double enough = kNearlyStraight * (query.goal - query.start).norm();
+  const double enough = kTightlyStraight * (query.goal - query.start).norm();
   Route best = best_of_alternatives(space, found, query.radius, enough, deadline);
   if (!known.empty() && length_of(known) < length_of(best)) best = std::move(known);
   if (length_of(best) > enough)

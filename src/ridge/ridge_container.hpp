@@ -25,6 +25,7 @@ namespace ridgeway {
 /// Checksums are CRC-32C, those of the chunks over the compressed bytes.
 inline constexpr std::uint32_t kRidgeVersion = 2;
 inline constexpr std::size_t kLargestChunk = std::size_t{1} << 22;
+inline constexpr std::size_t kSectionNameBytes = 16;
 
 struct RidgeChunk {
   std::uint32_t raw_bytes = 0;

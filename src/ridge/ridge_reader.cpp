@@ -20,7 +20,6 @@ namespace {
 constexpr std::size_t kPreambleBytes = 48;
 constexpr std::size_t kEntryBytes = 40;
 constexpr std::size_t kChunkBytes = 12;
-constexpr std::size_t kNameBytes = 16;
 
 constexpr const char* kCopyAgain = "copy the file again, or build the map again";
 
@@ -104,7 +103,7 @@ void RidgeReader::read_directory(std::span<const std::byte> directory, std::uint
     if (directory.size() < kEntryBytes) damaged("directory", "is cut off");
     RidgeSectionEntry entry;
     const char* name = reinterpret_cast<const char*>(directory.data());
-    entry.name.assign(name, ::strnlen(name, kNameBytes));
+    entry.name.assign(name, ::strnlen(name, kSectionNameBytes));
     entry.type = number_at<std::uint32_t>(directory, 16);
     const auto chunk_count = number_at<std::uint32_t>(directory, 20);
     entry.raw_bytes = number_at<std::uint64_t>(directory, 24);

@@ -16,7 +16,6 @@ namespace ridgeway {
 namespace {
 
 constexpr int kCompressionLevel = 1;  // level 3 saves 6% of the file and takes twice as long
-constexpr std::size_t kNameBytes = 16;
 constexpr std::size_t kPlainChunk = std::size_t{1} << 18;
 
 struct PackedChunk {
@@ -54,8 +53,9 @@ std::vector<PackedChunk> pack_section(const RidgeSectionSource& source) {
 
 void append_directory_entry(std::vector<std::byte>& directory, const RidgeSectionSource& source,
                             const std::vector<PackedChunk>& chunks) {
-  if (source.name.size() > kNameBytes) throw std::logic_error("name of a section is too long");
-  for (std::size_t i = 0; i < kNameBytes; ++i)
+  if (source.name.size() > kSectionNameBytes)
+    throw std::logic_error("name of a section is too long");
+  for (std::size_t i = 0; i < kSectionNameBytes; ++i)
     directory.push_back(static_cast<std::byte>(i < source.name.size() ? source.name[i] : '\0'));
   std::uint64_t raw_bytes = 0, compressed_bytes = 0;
   for (const PackedChunk& chunk : chunks) {

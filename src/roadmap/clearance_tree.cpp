@@ -10,7 +10,7 @@
 namespace ridgeway {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr std::uint32_t kNoNode = 0xffffffffu;
 
 /// Kruskal from the top down over two kinds of events: a vertex appears in its basin at its own
 /// clearance; two basins meet at their pass. Roots are linked by size, so ways to the root stay
@@ -22,7 +22,7 @@ class TreeBuilder {
       : esdf_(esdf),
         basins_(basins),
         regions_(basins.peaks.size()),
-        root_(basins.peaks.size(), kNone),
+        root_(basins.peaks.size(), kNoNode),
         size_(graph.vertices.size(), 1) {
     tree_.parent.resize(graph.vertices.size());
     for (std::uint32_t v = 0; v < graph.vertices.size(); ++v) {
@@ -48,7 +48,7 @@ class TreeBuilder {
       const SquaredHalves level = esdf_.squared[voxels_[v]];
       sink_to(level);
       std::uint32_t& root = root_[regions_.find(basins_.basin[voxels_[v]])];
-      root = root == kNone ? v : link(root, v, level, voxels_[v]);
+      root = root == kNoNode ? v : link(root, v, level, voxels_[v]);
     }
     sink_to(SquaredHalves());
     return std::move(tree_);
@@ -61,9 +61,9 @@ class TreeBuilder {
     if (a == b) return;
     const std::uint32_t ra = root_[a], rb = root_[b];
     const VoxelId narrow = esdf_.squared[pass.from] <= esdf_.squared[pass.to] ? pass.from : pass.to;
-    const std::uint32_t root = ra == kNone   ? rb
-                               : rb == kNone ? ra
-                                             : link(ra, rb, pass.clearance, narrow);
+    const std::uint32_t root = ra == kNoNode   ? rb
+                               : rb == kNoNode ? ra
+                                               : link(ra, rb, pass.clearance, narrow);
     root_[regions_.join(a, b)] = root;
   }
 

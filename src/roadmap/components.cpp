@@ -13,7 +13,7 @@
 namespace ridgeway {
 namespace {
 
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+constexpr std::size_t kNoComponent = static_cast<std::size_t>(-1);
 constexpr double kSmallest = 0.25;  // radius, voxels, at which any free voxel is traversable
 
 /// Sets of basins as the level sinks through the passes, widest first.
@@ -82,7 +82,7 @@ SpaceParts::SpaceParts(const EsdfMap& esdf)
 ComponentReport SpaceParts::report(double radius, const std::vector<VoxelId>& asked) const {
   SinkingLevel level(basins_);
   level.sink_to(least_clearance(radius, esdf_.voxel_size));
-  std::vector<std::size_t> component_of(basins_.peaks.size(), kNone);  // by set
+  std::vector<std::size_t> component_of(basins_.peaks.size(), kNoComponent);  // by set
   ComponentReport report;
   report.components =
       count_components(esdf_, traversable_voxels(esdf_, radius), level, component_of);
@@ -92,11 +92,11 @@ ComponentReport SpaceParts::report(double radius, const std::vector<VoxelId>& as
     const std::size_t b = component_of[level.set_of(pass->to)];
     const VoxelId narrow =
         esdf_.squared[pass->from] <= esdf_.squared[pass->to] ? pass->from : pass->to;
-    if (a != kNone && b != kNone && a != b)
+    if (a != kNoComponent && b != kNoComponent && a != b)
       report.joins.push_back({std::min(a, b), std::max(a, b),
                               pass->clearance.metres(esdf_.voxel_size),
                               centre_in_world(esdf_, narrow)});
-    component_of[level.join_next()] = std::min(a, b);  // kNone is the largest
+    component_of[level.join_next()] = std::min(a, b);  // kNoComponent is the largest
   }
   return report;
 }

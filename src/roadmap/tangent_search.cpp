@@ -24,7 +24,7 @@ struct WayOn {
 };
 
 /// A route by the hub where its halves meet.
-struct Meeting {
+struct HubMeeting {
   float length = kFar;
   std::size_t first = 0, last = 0;  ///< places among the candidates
   std::uint32_t hub = 0;
@@ -45,7 +45,7 @@ class TangentSearch {
   std::vector<VertexId> run() {
     find_ways_on();
     for (;;) {
-      const Meeting best = shortest();
+      const HubMeeting best = shortest();
       if (best.length == kFar) return {};
       if (!sees(first_[best.first], query_.start)) {
         first_[best.first] = first_.back();
@@ -90,8 +90,8 @@ class TangentSearch {
       for (const HubLabel& label : hubs_.of(candidate.corner)) on_[label.hub] = {};
   }
 
-  Meeting shortest() const {
-    Meeting best;
+  HubMeeting shortest() const {
+    HubMeeting best;
     for (std::size_t i = 0; i < first_.size(); ++i)
       for (const HubLabel& label : hubs_.of(first_[i].corner)) {
         const float length = first_[i].length + label.length + on_[label.hub].length;
@@ -100,7 +100,7 @@ class TangentSearch {
     return best;
   }
 
-  std::vector<VertexId> route_over(const Meeting& meeting) const {
+  std::vector<VertexId> route_over(const HubMeeting& meeting) const {
     std::vector<VertexId> route = way_to_hub(hubs_, first_[meeting.first].corner, meeting.hub);
     const std::vector<VertexId> back = way_to_hub(hubs_, last_[meeting.last].corner, meeting.hub);
     route.insert(route.end(), back.rbegin() + 1, back.rend());

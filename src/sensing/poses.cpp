@@ -22,8 +22,8 @@ void PoseSampling::validate() const {
 }
 
 PoseSampling sampling_inside(const World& world) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Point low = Point::Constant(kInfinity), high = Point::Constant(-kInfinity);
+  constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+  Point low = Point::Constant(kUnbounded), high = Point::Constant(-kUnbounded);
   const auto reach = [&](const Point& centre, const Eigen::Vector3d& half) {
     low = low.cwiseMin(centre - half);
     high = high.cwiseMax(centre + half);
@@ -38,7 +38,7 @@ PoseSampling sampling_inside(const World& world) {
     reach(placed.T_world_mesh * centre, placed.T_world_mesh.linear().cwiseAbs() * half);
   }
   for (int axis = 0; axis < 3; ++axis) {
-    double floor = -kInfinity, ceiling = kInfinity;
+    double floor = -kUnbounded, ceiling = kUnbounded;
     for (const SolidPlane& plane : world.planes) {
       if (plane.normal[axis] == 1.0) floor = std::max(floor, plane.offset);
       if (plane.normal[axis] == -1.0) ceiling = std::min(ceiling, -plane.offset);

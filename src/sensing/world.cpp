@@ -13,7 +13,7 @@ namespace ridgeway {
 namespace {
 
 using Vector = Eigen::Vector3d;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 // --- distances
 // ------------------------------------------------------------------------------------
@@ -68,7 +68,7 @@ SurfaceDistance distance_to(const PlacedMesh& placed, const Point& p) {
 
 /// The stretch of a ray inside a convex solid: empty if first > last.
 struct Stretch {
-  double first = -kInfinity, last = kInfinity;
+  double first = -kEndless, last = kEndless;
 };
 
 Stretch common(const Stretch& a, const Stretch& b) {
@@ -77,16 +77,16 @@ Stretch common(const Stretch& a, const Stretch& b) {
 
 /// Where |start + t * step| <= half.
 Stretch inside_slab(double start, double step, double half) {
-  if (step == 0.0) return std::abs(start) <= half ? Stretch{} : Stretch{kInfinity, -kInfinity};
+  if (step == 0.0) return std::abs(start) <= half ? Stretch{} : Stretch{kEndless, -kEndless};
   const double a = (-half - start) / step, b = (half - start) / step;
   return {std::min(a, b), std::max(a, b)};
 }
 
 /// Where a t^2 + 2 b t + c <= 0, a >= 0.
 Stretch inside_quadric(double a, double b, double c) {
-  if (a == 0.0) return c <= 0.0 ? Stretch{} : Stretch{kInfinity, -kInfinity};
+  if (a == 0.0) return c <= 0.0 ? Stretch{} : Stretch{kEndless, -kEndless};
   const double discriminant = b * b - a * c;
-  if (discriminant < 0.0) return {kInfinity, -kInfinity};
+  if (discriminant < 0.0) return {kEndless, -kEndless};
   const double q = -(b + std::copysign(std::sqrt(discriminant), b));  // no cancellation
   const double one = q / a, other = q != 0.0 ? c / q : 0.0;
   return {std::min(one, other), std::max(one, other)};
@@ -95,9 +95,9 @@ Stretch inside_quadric(double a, double b, double c) {
 Stretch inside(const SolidPlane& plane, const Point& origin, const Vector& direction) {
   const double height = plane.normal.dot(origin) - plane.offset;
   const double slope = plane.normal.dot(direction);
-  if (slope == 0.0) return height <= 0.0 ? Stretch{} : Stretch{kInfinity, -kInfinity};
+  if (slope == 0.0) return height <= 0.0 ? Stretch{} : Stretch{kEndless, -kEndless};
   const double meets = -height / slope;
-  return slope < 0.0 ? Stretch{meets, kInfinity} : Stretch{-kInfinity, meets};
+  return slope < 0.0 ? Stretch{meets, kEndless} : Stretch{-kEndless, meets};
 }
 
 Stretch inside(const SolidBox& box, const Point& origin, const Vector& direction) {
@@ -127,7 +127,7 @@ template <typename Convex>
 double range_to(const Convex& solid, const Point& origin, const Vector& direction) {
   const Stretch stretch = inside(solid, origin, direction);
   const bool is_met = stretch.first <= stretch.last && stretch.last >= 0.0;
-  return is_met ? std::max(stretch.first, 0.0) : kInfinity;
+  return is_met ? std::max(stretch.first, 0.0) : kEndless;
 }
 
 double range_to(const PlacedMesh& placed, const Point& origin, const Vector& direction) {
@@ -196,7 +196,7 @@ void validate_world(const World& world) {
 }
 
 SurfaceDistance surface_distance(const World& world, const Point& point) {
-  SurfaceDistance nearest{kInfinity, Vector::UnitZ()};
+  SurfaceDistance nearest{kEndless, Vector::UnitZ()};
   for_each_solid(world, [&](const auto& solid) {
     const SurfaceDistance here = distance_to(solid, point);
     if (here.distance < nearest.distance) nearest = here;
@@ -205,7 +205,7 @@ SurfaceDistance surface_distance(const World& world, const Point& point) {
 }
 
 double cast_ray(const World& world, const Point& origin, const Vector& direction) {
-  double nearest = kInfinity;
+  double nearest = kEndless;
   for_each_solid(world, [&](const auto& solid) {
     nearest = std::min(nearest, range_to(solid, origin, direction));
   });
