@@ -16,7 +16,7 @@ function(ridgeway_test name)
   endif()
   add_executable(${name}_tests ${arg_SOURCES})
   ridgeway_target_defaults(${name}_tests)
-  set_target_properties(${name}_tests PROPERTIES POSITION_INDEPENDENT_CODE OFF UNITY_BUILD OFF)
+  set_target_properties(${name}_tests PROPERTIES POSITION_INDEPENDENT_CODE OFF)
   # Behind a precompiled header g++ 12 warns of sums of constant texts and of macros' branches, which
   # it passes over in headers of the system.
   target_compile_options(

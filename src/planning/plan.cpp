@@ -2,13 +2,10 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "ridgeway/planning/plan.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
 
-#include "common/name_table.hpp"
 #include "common/number_text.hpp"
 #include "endpoint.hpp"
 #include "escape.hpp"
@@ -26,44 +23,6 @@ namespace ridgeway {
 using detail::Deadline;
 using detail::KnownStretch;
 using detail::seconds_now;
-
-std::string_view name_of(PlanStatus status) {
-  constexpr std::array<std::string_view, 10> kNames{"ok",
-                                                    "start_outside_map",
-                                                    "start_unknown",
-                                                    "start_in_collision",
-                                                    "goal_outside_map",
-                                                    "goal_unknown",
-                                                    "goal_in_collision",
-                                                    "no_route",
-                                                    "radius_too_small",
-                                                    "timeout"};
-  return name_in(kNames, status);
-}
-
-namespace {
-constexpr std::array<std::string_view, 9> kPlannerNames{"graph",   "diagram", "esdf",
-                                                        "theta",   "rrtstar", "rrtconnect",
-                                                        "bitstar", "prmstar", "informedrrtstar"};
-}  // namespace
-
-std::string_view name_of(Planner planner) { return name_in(kPlannerNames, planner); }
-
-std::string_view name_of(UnknownPolicy policy) {
-  constexpr std::array<std::string_view, 2> kNames{"obstacle", "ignore"};
-  return name_in(kNames, policy);
-}
-
-std::optional<Planner> planner_named(std::string_view name) {
-  const auto found = std::find(kPlannerNames.begin(), kPlannerNames.end(), name);
-  if (found == kPlannerNames.end()) return std::nullopt;
-  return static_cast<Planner>(found - kPlannerNames.begin());
-}
-
-void validate_planner(Planner planner) {
-  if (!is_in(kPlannerNames, planner))
-    throw InputError("planner", "is no enumerator of Planner", "give one of those, or none");
-}
 
 double largest_radius(const EsdfMap& esdf) { return esdf.max_distance - 2.0 * esdf.voxel_size; }
 
