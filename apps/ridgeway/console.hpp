@@ -10,8 +10,8 @@
 
 #include "command.hpp"
 #include "ridgeway/common/progress.hpp"
-#include "ridgeway/common/spread.hpp"
 #include "ridgeway/mapping/occupancy_map.hpp"
+#include "ridgeway/planning/check.hpp"
 
 namespace ridgeway::cli {
 
