@@ -25,7 +25,7 @@ function(ridgeway_module name)
     ridgeway_target_defaults(${target})
     ridgeway_precompile(${target} library HEADERS ${ridgeway_common_headers} DEPENDS Eigen3::Eigen TBB::tbb)
     target_link_libraries(${target} PRIVATE ${arg_PRIVATE_DEPENDS})
-    # Headers of other rooms that are not installed: "room/header.hpp".
+    # Headers of other modules that are not installed: "module/header.hpp".
     target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src")
   else()
     set(visibility INTERFACE)

@@ -3,7 +3,7 @@
 #pragma once
 
 /// Every public header, but for that which needs those of OMPL (ridgeway/sampling/ompl.hpp).
-/// Programs link ridgeway::ridgeway for the rooms that follow, and for each of the others the
+/// Programs link ridgeway::ridgeway for the modules that follow, and for each of the others the
 /// component of its name; headers of components that are not installed are passed over.
 
 #include "ridgeway/common/error.hpp"
