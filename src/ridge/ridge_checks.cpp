@@ -227,7 +227,7 @@ Defect find_graph_defect(const Roadmap& roadmap) {
   return find_tree_defect(roadmap);
 }
 
-Defect find_taut_defect(const Roadmap& roadmap) {
+Defect find_tangent_defect(const Roadmap& roadmap) {
   const TangentGraph& tangents = roadmap.tangents;
   if (Defect defect = find_defect(roadmap, tangents.graph, {"corners", "taut_edges"}))
     return defect;

@@ -23,7 +23,7 @@ std::optional<RoadmapDefect> find_size_defect(const Roadmap& roadmap);
 /// attach field that leaves traversable space or never ends. The links need not be there yet.
 std::optional<RoadmapDefect> find_graph_defect(const Roadmap& roadmap);
 /// The same of the tangent graph.
-std::optional<RoadmapDefect> find_taut_defect(const Roadmap& roadmap);
+std::optional<RoadmapDefect> find_tangent_defect(const Roadmap& roadmap);
 std::optional<RoadmapDefect> find_attach_defect(const Roadmap& roadmap);
 
 /// Looks for sites that are no obstacles, and for voxels that are nearer to the site of one of

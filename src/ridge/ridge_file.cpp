@@ -14,7 +14,7 @@ namespace ridgeway {
 void save_roadmap(const Roadmap& roadmap, const std::filesystem::path& path) {
   auto defect = find_size_defect(roadmap);
   if (!defect) defect = find_graph_defect(roadmap);
-  if (!defect) defect = find_taut_defect(roadmap);
+  if (!defect) defect = find_tangent_defect(roadmap);
   if (!defect) defect = find_attach_defect(roadmap);
   if (defect) {
     throw InputError("roadmap", "part '" + defect->part + "' " + defect->what,
@@ -48,7 +48,7 @@ Roadmap load_roadmap(const std::filesystem::path& path) {
   auto defect = find_size_defect(roadmap);
   if (!defect) defect = find_site_defect(roadmap);
   if (!defect) defect = find_graph_defect(roadmap);
-  if (!defect) defect = find_taut_defect(roadmap);
+  if (!defect) defect = find_tangent_defect(roadmap);
   if (!defect) defect = find_attach_defect(roadmap);
   if (defect) reader.damaged(defect->part, defect->what);
   index_links(roadmap.graph);

@@ -47,7 +47,7 @@ void check_counts(const RidgeHeader& header) {
   if (header.corners > std::min<double>(voxels, TangentGraph::kMostCorners))
     throw std::out_of_range("there are more corners than are learnt");
   if (header.edges > kMostEdgesPerVertex * header.vertices ||
-      header.taut_edges > kMostEdgesPerVertex * header.corners)
+      header.tangent_edges > kMostEdgesPerVertex * header.corners)
     throw std::out_of_range("there are more edges than the vertices can have");
 }
 
@@ -68,7 +68,7 @@ RidgeHeader header_from(const Json& json) {
   header.edges = get_count(counts, "edges");
   if (counts.contains("corners")) {  // added after the first files
     header.corners = get_count(counts, "corners");
-    header.taut_edges = get_count(counts, "taut_edges");
+    header.tangent_edges = get_count(counts, "taut_edges");
   }
   if (!(header.voxel_size > 0.0)) throw std::out_of_range("'voxel_size' is not positive");
   if (!(header.max_distance >= 0.0) || !(header.min_clearance >= 0.0) ||
@@ -114,7 +114,7 @@ std::string header_text(const RidgeHeader& header) {
                     {"vertices", header.vertices},
                     {"edges", header.edges},
                     {"corners", header.corners},
-                    {"taut_edges", header.taut_edges}};
+                    {"taut_edges", header.tangent_edges}};
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -27,8 +27,8 @@ struct RidgeHeader {
   std::uint32_t blocks = 0;
   std::uint32_t vertices = 0;
   std::uint32_t edges = 0;
-  std::uint32_t corners = 0;  ///< of the tangent graph, and its edges
-  std::uint32_t taut_edges = 0;
+  std::uint32_t corners = 0;        ///< of the tangent graph, and its edges
+  std::uint32_t tangent_edges = 0;  ///< `taut_edges` in the file
 };
 
 RidgeHeader header_of(const Roadmap& roadmap);

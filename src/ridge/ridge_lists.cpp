@@ -131,7 +131,7 @@ void load_tangents(const RidgeReader& reader, const RidgeHeader& header, const B
   if (header.corners == 0) return;
   tangents.graph.min_clearance = header.min_clearance;
   load_vertices(reader, "corners", header, header.corners, tangents.graph);
-  load_edges(reader, "taut_edges", header.taut_edges, tangents.graph);
+  load_edges(reader, "taut_edges", header.tangent_edges, tangents.graph);
   BlockCells cells = number_cells(layout);
   tangents.cell_of_block = std::move(cells.cell_of_block);
   tangents.first_seen.push_back(0);
