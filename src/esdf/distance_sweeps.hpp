@@ -6,7 +6,7 @@
 
 namespace ridgeway::detail {
 
-/// Of each voxel of a layout: 4 d^2 / s^2 to the nearest obstacle cube, and the way to it.
+/// Of each voxel of a layout: 4 d^2 / s^2 to the nearest obstacle cube, and the offset to it.
 /// Obstacles have 0 and {0,0,0}; a voxel without an obstacle in reach has kNoSite and an offset of
 /// no meaning.
 struct NearestSites {

@@ -16,9 +16,8 @@
 namespace ridgeway {
 namespace {
 
-using detail::require;
-
 using detail::EditableGraph;
+using detail::require;
 using Number = EditableGraph::Number;
 
 constexpr double kLeastWidthStep = 1e-6;  // below it steps are lost in rounding

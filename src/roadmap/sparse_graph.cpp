@@ -9,6 +9,7 @@
 #include "voxel/disjoint_sets.hpp"
 
 namespace ridgeway {
+
 void index_links(SparseGraph& graph) {
   std::sort(graph.edges.begin(), graph.edges.end(), [](const Edge& a, const Edge& b) {
     return std::tie(a.from, a.to) < std::tie(b.from, b.to);

@@ -63,7 +63,7 @@ std::vector<CriticalVoxel> order_critical(const EsdfMap& esdf, const VoxelMask& 
         });
       },
       64);
-  std::erase_if(voxels, [](const CriticalVoxel& j) { return j.higher == 0; });
+  std::erase_if(voxels, [](const CriticalVoxel& v) { return v.higher == 0; });
   std::sort(voxels.begin(), voxels.end(),
             [](const CriticalVoxel& a, const CriticalVoxel& b) { return a.height > b.height; });
   return voxels;

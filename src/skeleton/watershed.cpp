@@ -21,14 +21,14 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 /// By place in a block: the directions in which a neighbour comes earlier in the order of voxels,
 /// that of their blocks and then of places in the block.
 constexpr std::array<Cube27, kBlockVoxels> kEarlier = [] {
-  std::array<Cube27, kBlockVoxels> smaller{};
+  std::array<Cube27, kBlockVoxels> earlier{};
   for (int local = 0; local < kBlockVoxels; ++local)
     for (int d = 0; d < 27; ++d) {
       const VoxelIndex v = voxel_of({}, local), n = v + offset_of(d);
       if (block_of(n) != block_of(v) ? block_of(n) < block_of(v) : n < v)
-        smaller[static_cast<std::size_t>(local)] |= 1u << d;
+        earlier[static_cast<std::size_t>(local)] |= 1u << d;
     }
-  return smaller;
+  return earlier;
 }();
 
 /// Levels as floats, above a common base where they would be rounded otherwise (beyond 2,048 voxels

@@ -112,8 +112,8 @@ struct EsdfConfig {
 };
 
 /// Exact Euclidean distances and nearest sites for all allocated voxels, batch: three separable
-/// sweeps, linear in voxels, parallel, the same bytes for any number of threads. Consumes the map,
-/// whose origin it keeps.
+/// sweeps, linear in voxels, parallel, the same bytes for any number of threads. The field
+/// keeps the map's origin.
 ///
 /// Under UnknownPolicy::kIgnore the result also allocates the blocks around the map's blocks, so
 /// that every known voxel has its 26 neighbours. Throws InputError where memory would not do.

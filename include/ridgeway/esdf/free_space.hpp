@@ -52,8 +52,9 @@ class FreeSpace {
   /// else up to a voxel short; where unknown space comes first up to half as far and a voxel.
   double free_length(const Point& a, const Point& b, double radius) const;
 
-  /// A point of the obstacle nearest to the centre of a point's voxel: its nearest one to the
-  /// point. Nothing where all are farther than max_distance, or the point is outside the map.
+  /// Of the site of the voxel that holds p, the point nearest to p: near, but not always on the
+  /// obstacle that is nearest to p. Nothing where all obstacles are farther than max_distance from
+  /// that voxel, or p is outside the map.
   std::optional<Point> near_obstacle(const Point& p) const;
 
   /// Whether all of a segment lies in known-free voxels.
@@ -68,7 +69,8 @@ class FreeSpace {
     return bound >= threshold || slow_move_clearance(from, to, direction, threshold) >= threshold;
   }
 
-  /// The smallest D on that move. Moves across a face never dip below their ends.
+  /// 4 D^2 / s^2 at the narrowest place of that move. Moves across a face never dip below their
+  /// ends.
   SquaredHalves move_clearance(VoxelId from, VoxelId to, int direction) const {
     const SquaredHalves a = esdf_.squared[from], b = esdf_.squared[to];
     const SquaredHalves low = a < b ? a : b;
@@ -76,8 +78,8 @@ class FreeSpace {
     return slow_move_clearance(from, to, direction, low);
   }
 
-  /// Lower bound of D on the segment between two voxel centres with these values of it, L2 voxels^2
-  /// apart: the minimum over t of (1-t) a + t b - 4 t (1-t) L2; exact for L2 = 1.
+  /// Lower bound of 4 D^2 / s^2 between two voxel centres where it is a and b, L2 voxels^2 apart:
+  /// the minimum over t of (1-t) a + t b - 4 t (1-t) L2; exact for L2 = 1.
   static SquaredHalves move_bound(SquaredHalves a, SquaredHalves b, int L2) {
     const SquaredHalves low = a < b ? a : b;
     const double rise = a < b ? b.value - a.value : a.value - b.value;

@@ -36,10 +36,11 @@ struct LoadNotes {
   std::vector<std::string> notes;
 };
 
-/// Reads OctoMap .bt and .ot, point clouds .pcd, .ply and .xyz, and MovingAI .3dmap, by what the
-/// file's bytes say and not by its name. In this order: read, transform, resample, isolated filter,
-/// crop, no-fly boxes. Throws InputError naming the file (or the bad option) and the remedy; a map
-/// that does not fit into memory is refused before it is taken.
+/// Reads OctoMap .bt and .ot, point clouds .pcd, .ply and .xyz, MovingAI .3dmap, and fused maps
+/// (`.ridge` files of save_tsdf), by what the file's bytes say and not by its name. In this order:
+/// read, transform, resample, isolated filter, crop, no-fly boxes. Throws InputError naming the
+/// file (or the bad option) and the remedy; a map that does not fit into memory is refused before
+/// it is taken.
 OccupancyMap load_map(const std::filesystem::path& file, const LoadConfig& config = {},
                       LoadNotes* notes = nullptr);
 

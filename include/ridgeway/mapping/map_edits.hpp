@@ -18,8 +18,8 @@ namespace ridgeway {
 /// Throws InputError where `voxel_size` is finer than the map's own.
 OccupancyMap resample(OccupancyMap map, double voxel_size);
 
-/// What lies inside a box (the flight volume): voxels that are not wholly inside, with a relative
-/// slack of 1e-9, become unknown. Infinite coordinates mean no limit.
+/// What lies inside a box (the flight volume): voxels that are not wholly inside, with a slack of
+/// 1e-6 voxels, become unknown. Infinite coordinates mean no limit.
 OccupancyMap crop(OccupancyMap map, const Box& box);
 
 /// Makes every voxel that shares volume with one of the boxes occupied, unknown ones too. Boxes

@@ -27,7 +27,7 @@ class OccupancyBuilder {
     std::string name = "map";                      ///< file or value to name in errors
   };
 
-  /// Throws InputError unless 0 < voxel_size < infinity.
+  /// Throws InputError unless validate_voxel_size(voxel_size) passes.
   explicit OccupancyBuilder(double voxel_size) : OccupancyBuilder(voxel_size, Config{}) {}
   OccupancyBuilder(double voxel_size, Config config);
 
@@ -70,13 +70,14 @@ class OccupancyBuilder {
   Block* last_ = nullptr;
 };
 
-/// Throws InputError naming the value unless 0 < voxel_size < infinity.
+/// Throws InputError naming the value unless it is from 1e-6 to 1e6 metres.
 void validate_voxel_size(double voxel_size, const std::string& name);
 
 /// The same voxels with the origin at the lowest known one of each axis, on the blocks that hold a
 /// known voxel, and no others: maps that differ by whole voxels, or in how they came about, become
 /// the same but for the origin. A map without known voxels gets no blocks, and keeps its origin.
-/// Throws InputError where a known voxel lies outside kAllVoxels of the lattice.
+/// Throws InputError where a known voxel lies outside kAllVoxels of the lattice, or the known
+/// voxels span more than 5e8 along an axis.
 OccupancyMap normalised(OccupancyMap map);
 
 }  // namespace ridgeway

@@ -66,7 +66,7 @@ struct VoxelRange {
   double block_count() const;
 };
 
-/// All voxels that a map can hold, of the lattice and counted from its origin.
+/// All voxels that a map can hold, counted from the lattice's zero or from the map's origin.
 inline constexpr VoxelRange kAllVoxels = {{-kMaxVoxelIndex, -kMaxVoxelIndex, -kMaxVoxelIndex},
                                           {kMaxVoxelIndex, kMaxVoxelIndex, kMaxVoxelIndex}};
 

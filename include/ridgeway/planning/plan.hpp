@@ -72,9 +72,8 @@ struct PlanConfig {
   /// with a leg straight to the nearest place where the robot fits. See Escape.
   bool escape = false;
 
-  /// Throws InputError naming the bad field (radius, time limit or prefer_clearance negative, NaN,
-  /// prefer_clearance above 1e6;
-  /// a planner that samples).
+  /// Throws InputError naming the bad field (a radius or time limit not above 0, prefer_clearance
+  /// negative or above 1e6, NaN anywhere, a planner that samples).
   void validate() const;
 };
 

@@ -52,11 +52,11 @@ struct BuildResult {
   BuildReport report;
 };
 
-/// The whole pipeline: ESDF, GVD, edges, thinning, kernel, diagram, graph, attach field, tangents
-/// graph. Consumes the map. Under UnknownPolicy::kIgnore free pockets smaller than the robot are
-/// taken as unknown. Same map and configuration give the same bytes for any number of threads (set
-/// by with_threads, common/parallel.hpp). Throws InputError where nothing is free, or memory would
-/// not do.
+/// The whole pipeline: ESDF, GVD, edges, thinning, kernel, diagram, graph, clearance tree, attach
+/// field, tangent graph. Consumes the map. Under UnknownPolicy::kIgnore free pockets smaller than
+/// the robot are taken as unknown. Same map and configuration give the same bytes for any number of
+/// threads (set by with_threads, common/parallel.hpp). Throws InputError where nothing is free, or
+/// memory would not do.
 BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config = {},
                           const Progress& progress = {});
 
