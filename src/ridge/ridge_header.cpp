@@ -66,7 +66,7 @@ RidgeHeader header_from(const Json& json) {
   header.blocks = get_count(counts, "blocks");
   header.vertices = get_count(counts, "vertices");
   header.edges = get_count(counts, "edges");
-  if (counts.contains("corners")) {  // added after the first files
+  if (counts.contains("corners")) {  // files without a tangent graph may leave both out
     header.corners = get_count(counts, "corners");
     header.tangent_edges = get_count(counts, "taut_edges");
   }

@@ -125,7 +125,7 @@ void load_edges(const RidgeReader& reader, const char* name, std::uint32_t count
   edges.take<double>([&](std::size_t i, double c) { graph.edges[i].clearance = c; });
 }
 
-/// Files of before there was a tangent graph have none.
+/// None where the file counts no corners.
 void load_tangents(const RidgeReader& reader, const RidgeHeader& header, const BlockLayout& layout,
                    TangentGraph& tangents) {
   if (header.corners == 0) return;
