@@ -143,7 +143,8 @@ SquaredHalves FreeSpace::slow_move_clearance(VoxelId from, VoxelId to, int direc
     if (enough < low)
       return SquaredHalves(4.0 * best);  // the caller only asks whether it is enough
   }
-  best = detail::ObstacleScan(esdf_, a, b).run(best);
+  best =
+      detail::ObstacleScan(esdf_, a, b).run_across(best);  // how near they are at the ends is known
   // Rounding must not make a level place look like a dip.
   return 4.0 * best > low.value - 1e-7 ? low : SquaredHalves(4.0 * best);
 }

@@ -40,6 +40,14 @@ class ObstacleScan {
 
   double run(double best) { return run_over(box_within(std::sqrt(best)), best); }
 
+  /// As run(), but of an obstacle whose distance is least at an end of the segment nothing needs to
+  /// be known: what is between the two planes across the ends is looked at, a ring around the
+  /// segment.
+  double run_across(double best) {
+    along_ = b_ - a_;
+    return run(best);
+  }
+
   /// Blocks from `first` to `last`, both inclusive.
   struct BlockBox {
     BlockIndex first, last;
@@ -55,14 +63,67 @@ class ObstacleScan {
     best_ = best;
     for (int z = box.first.z; z <= box.last.z; ++z)
       for (int y = box.first.y; y <= box.last.y; ++y) {
+        const BlockRow row = row_in_reach(y, z, box.first.x, box.last.x);
         std::uint32_t before = BlockLayout::kNoBlock;  // slot of the block scanned last in this row
-        for (int x = box.first.x; x <= box.last.x; ++x) before = scan_block({x, y, z}, before);
+        for (int x = row.first; x <= row.last; ++x) {
+          if (x == row.free_first && x <= row.free_last) {
+            before = BlockLayout::kNoBlock;
+            x = row.free_last;
+            continue;
+          }
+          before = scan_block({x, y, z}, before);
+        }
       }
     return best_;
   }
 
  private:
   static BlockIndex block_at(const Eigen::Vector3d& p) { return block_of(voxel_at(p, 1.0)); }
+
+  /// Blocks of a row along x, both inclusive, and those of them that lie in the free ball.
+  struct BlockRow {
+    int first, last, free_first, free_last;
+  };
+
+  /// What of a row is in reach of the segment's bounding box, and between the planes across its
+  /// ends if nothing else is asked for.
+  BlockRow row_in_reach(int y, int z, int first, int last) const {
+    constexpr BlockRow kNothing{0, -1, 0, -1};
+    constexpr double kSide = kBlockSide, kSlack = 1e-6;
+    const double y0 = y * kSide, y1 = y0 + kSide, z0 = z * kSide, z1 = z0 + kSide;
+    const double dy = std::max({y0 - high_.y(), low_.y() - y1, 0.0});
+    const double dz = std::max({z0 - high_.z(), low_.z() - z1, 0.0});
+    const double left = best_ - dy * dy - dz * dz;
+    if (left < 0.0) return kNothing;
+    const double reach = std::sqrt(left) + kSlack;
+    double x0 = std::max(low_.x() - reach, first * kSide);
+    double x1 = std::min(high_.x() + reach, last * kSide + kSide - kSlack);
+    if (along_ != Eigen::Vector3d::Zero()) {
+      // Of a point of the row, along . p less its part along x lies between these.
+      const double most =
+          std::max(along_.y() * y0, along_.y() * y1) + std::max(along_.z() * z0, along_.z() * z1);
+      const double least =
+          std::min(along_.y() * y0, along_.y() * y1) + std::min(along_.z() * z0, along_.z() * z1);
+      const double begin = along_.dot(a_) - most - kSlack, end = along_.dot(b_) - least + kSlack;
+      if (along_.x() == 0.0) {
+        if (begin > 0.0 || end < 0.0) return kNothing;
+      } else {
+        const double p = begin / along_.x(), q = end / along_.x();
+        x0 = std::max(x0, std::min(p, q));
+        x1 = std::min(x1, std::max(p, q));
+      }
+    }
+    if (x0 > x1) return kNothing;
+    BlockRow row{floor_to_int(x0 / kSide), floor_to_int(x1 / kSide), 0, -1};
+    const double fy = std::max(ball_centre_.y() - y0, y1 - ball_centre_.y());
+    const double fz = std::max(ball_centre_.z() - z0, z1 - ball_centre_.z());
+    if (const double rest = ball_squared_ - fy * fy - fz * fz; rest > 0.0) {
+      const double half = std::sqrt(rest) - kSlack;
+      row.free_first = std::max(floor_to_int((ball_centre_.x() - half) / kSide) + 1, row.first);
+      row.free_last = std::min(floor_to_int((ball_centre_.x() + half) / kSide) - 1, row.last);
+    }
+    return row;
+  }
 
   /// Squared distance between the segment's bounding box and a box: never too large.
   double bound(const VoxelBox& box) const {
@@ -138,6 +199,7 @@ class ObstacleScan {
 
   const SolidVoxels solid_;
   const Eigen::Vector3d a_, b_, low_, high_;
+  Eigen::Vector3d along_ = Eigen::Vector3d::Zero();  // of the planes across its ends; 0: no such
   Eigen::Vector3d ball_centre_ = Eigen::Vector3d::Zero();
   double ball_squared_ = 0.0;  // its inside, without the border, is free
   double best_ = 0.0;

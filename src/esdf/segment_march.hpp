@@ -189,10 +189,18 @@ class SegmentMarch {
 
   /// min D^2 along the segment, if below `best` (finite), else `best`.
   double minimum(double best) {
+    // What is nearest at an end of the whole segment is known where that is a voxel's centre; what
+    // is nearest at an end of a stretch alone is nearer to the next one.
+    const bool is_start_known = is_known_centre(at(0.0)),
+               is_end_known = is_known_centre(at(length_));
+    if (is_start_known) best = std::min(best, at_site(at(0.0)));
+    if (is_end_known) best = std::min(best, at_site(at(length_)));
     march(
         best, [](double) { return true; },
         [&](double t, double end) {
-          best = ObstacleScan(esdf_, at(t), at(end)).run(best);
+          const bool is_between = (t > 0.0 || is_start_known) && (end < length_ || is_end_known);
+          ObstacleScan scan(esdf_, at(t), at(end));
+          best = is_between ? scan.run_across(best) : scan.run(best);
           return best > 0.0;
         });
     return best;
@@ -203,6 +211,16 @@ class SegmentMarch {
 
   Vector at(double t) const { return a_ + t * along_; }
   double bound_at(double t) { return lower_bound(esdf_, finder_, at(t), far_); }
+
+  /// Whether a point is the centre of a voxel that knows its nearest site.
+  bool is_known_centre(const Vector& p) {
+    constexpr double kSlack = 1e-9;
+    const VoxelIndex voxel = voxel_holding(p);
+    const Vector off = p - Vector(voxel.x + 0.5, voxel.y + 0.5, voxel.z + 0.5);
+    if (off.cwiseAbs().maxCoeff() > kSlack) return false;
+    const VoxelId id = finder_.find(voxel);
+    return id != kNoVoxel && esdf_.squared[id] != kNoSite;
+  }
 
   /// Goes along the segment as far as bounds show D^2 >= limit, which may fall meanwhile. Where
   /// they do not, it calls `on_low(place)` with a place ahead whose bound is below the limit, and

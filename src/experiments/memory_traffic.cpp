@@ -10,7 +10,6 @@
 #include "common/clock.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/planning/check.hpp"
-#include "ridgeway/skeleton/basins.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -19,7 +18,6 @@ namespace {
 constexpr double kState = sizeof(std::declval<EsdfMap&>().state[0]);
 constexpr double kSite = sizeof(std::declval<EsdfMap&>().site[0]);
 constexpr double kSquared = sizeof(std::declval<EsdfMap&>().squared[0]);
-constexpr double kDrain = sizeof(std::declval<BasinNumbers&>().drain[0]);
 constexpr double kNext = sizeof(std::declval<AttachField&>().next[0]);
 constexpr double kMask = static_cast<double>(sizeof(VoxelMask::Block)) / kBlockVoxels;
 
@@ -39,9 +37,9 @@ StageNumbers least_traffic(const BuildReport& counts) {
   bytes.gvd = 2.0 * allocated * kMask + traversable * kSite;
   bytes.edges = 2.0 * allocated * kMask;
   bytes.thin = 2.0 * allocated * kMask;
-  // Basins: heights to ways and drains. Kernel: heights once more, to order the deletions.
+  // Basins: heights to ways. Kernel: heights once more, to order the deletions.
   bytes.kernel =
-      2.0 * allocated * kMask + traversable * (kSquared + kNext + kDrain) + traversable * kSquared;
+      2.0 * allocated * kMask + traversable * (kSquared + kNext) + traversable * kSquared;
   // The diagram is found in its mask; then it is a list.
   bytes.graph = allocated * kMask + diagram * kSquared;
   bytes.attach = allocated * kMask + diagram * (kSquared + kNext);

@@ -60,7 +60,7 @@ struct Crossings {
 
   std::uint32_t vertex(VoxelId low, Corner step) const {
     const unsigned before = steps[low] & ((1u << step) - 1);
-    return first[low] + static_cast<std::uint32_t>(std::popcount(before));
+    return first[low] + static_cast<std::uint32_t>(bit_count(before));
   }
 };
 
@@ -89,7 +89,7 @@ Crossings find_crossings(const TsdfMap& tsdf, const VoxelMask& cells) {
   for (std::uint32_t order = 0; order < tsdf.layout.voxel_count(); ++order) {
     const VoxelId id = tsdf.layout.voxel_at_order(order);
     crossings.first[id] = static_cast<std::uint32_t>(crossings.count);
-    crossings.count += static_cast<std::size_t>(std::popcount(crossings.steps[id]));
+    crossings.count += static_cast<std::size_t>(bit_count(crossings.steps[id]));
     if (crossings.count > kMostVertices)
       throw InputError("surface", "has more than 2^31 vertices", "fuse with a larger voxel size");
   }

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "common/require.hpp"
-#include "diagram_curves.hpp"
+#include "graph_of_curves.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "segment_fitting.hpp"
@@ -93,8 +93,13 @@ void GraphConfig::validate() const {
 
 SparseGraph build_graph(const EsdfMap& esdf, const VoxelMask& diagram, const GraphConfig& config) {
   config.validate();
+  return detail::build_graph(esdf, detail::index_diagram(esdf, diagram, config.min_clearance),
+                             config);
+}
+
+SparseGraph detail::build_graph(const EsdfMap& esdf, const DiagramCurves& curves,
+                                const GraphConfig& config) {
   const double s = esdf.voxel_size;
-  const DiagramCurves curves = detail::index_diagram(esdf, diagram, config.min_clearance);
   // On a coarse lattice a junction is a clump of a few voxels, however small the radius.
   const double prune_radius = std::max(config.prune_radius / s, 2.0);
   const std::vector<DiagramNumber> vertices = detail::select_vertices(curves, prune_radius);
@@ -108,7 +113,12 @@ SparseGraph build_graph(const EsdfMap& esdf, const VoxelMask& diagram, const Gra
 
 AttachField build_attach_field(const EsdfMap& esdf, const VoxelMask& diagram,
                                const SparseGraph& graph, Basins basins) {
-  const DiagramCurves curves = detail::index_diagram(esdf, diagram, graph.min_clearance);
+  return detail::build_attach_field(esdf, detail::index_diagram(esdf, diagram, graph.min_clearance),
+                                    graph, std::move(basins));
+}
+
+AttachField detail::build_attach_field(const EsdfMap& esdf, const DiagramCurves& curves,
+                                       const SparseGraph& graph, Basins basins) {
   std::vector<DiagramNumber> vertices;
   for (const Vertex& vertex : graph.vertices)
     vertices.push_back(curves.find(esdf.layout.find(vertex.voxel)));

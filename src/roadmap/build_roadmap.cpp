@@ -9,11 +9,11 @@
 #include "common/clock.hpp"
 #include "common/number_text.hpp"
 #include "common/require.hpp"
+#include "graph_of_curves.hpp"
 #include "mapping/memory_limit.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/mapping/map_edits.hpp"
-#include "ridgeway/roadmap/build_graph.hpp"
 #include "ridgeway/skeleton/diagram.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
 
@@ -46,7 +46,12 @@ double ball_volume(double radius) {
 
 // What each stage takes of the whole configuration.
 
-GvdConfig ridges_of(const BuildConfig& config) { return {.theta = config.theta}; }
+/// Ridges between what no robot passes between are left out with the rest that is not significant.
+GvdConfig ridges_of(const BuildConfig& config) {
+  return {
+      .theta = config.theta,
+      .least_apart = config.simplify && !config.paper_diagram ? 2.0 * config.min_clearance : 0.0};
+}
 
 GraphConfig graph_of(const BuildConfig& config) {
   return {.min_clearance = config.min_clearance,
@@ -101,7 +106,7 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
   const EsdfMap& esdf = roadmap.esdf;
   require_memory_for_blocks(esdf.layout.block_count(), kPipelineBytesPerVoxel - kEsdfBytesPerVoxel,
                             "map");  // it may have grown
-  const VoxelMask traversable = traversable_voxels(esdf, config.min_clearance);
+  VoxelMask traversable = traversable_voxels(esdf, config.min_clearance);
   clock.end(report.seconds.esdf);
   report.allocated_voxels = esdf.layout.voxel_count();
   report.traversable_voxels = traversable.count();
@@ -112,13 +117,14 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
 
   clock.begin("gvd");
   const GvdConfig ridges = ridges_of(config);
-  const VoxelMask gvd = compute_gvd(esdf, traversable, ridges);
+  VoxelMask gvd = compute_gvd(esdf, traversable, ridges);
   report.gvd_voxels = gvd.count();
   clock.end(report.seconds.gvd);
 
   clock.begin("edges");
   VoxelMask edges = config.basis_point_edges ? extract_basis_point_edges(esdf, gvd, ridges)
                                              : extract_edges(esdf, gvd);
+  gvd = {};  // what is not needed any more makes room
   report.edge_voxels = edges.count();
   clock.end(report.seconds.edges);
 
@@ -129,14 +135,19 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
   clock.begin("kernel");
   Basins basins = find_basins(esdf, traversable, config.min_clearance);
   report.traversable_components = basins.components();
+  join_background(esdf, traversable,
+                  basins.not_simple_at_first_turn);  // fewer voxels of it from here on
   VoxelMask kernel = compute_kernel(esdf, traversable, basins);
+  traversable = {};
   report.kernel_voxels = kernel.count();
   open_shells(esdf, kernel, significant_peaks(esdf, basins));
   VoxelMask diagram = join_diagram(esdf, edges, kernel, config.min_clearance, basins);
   clock.end(report.seconds.kernel);
 
   clock.begin("graph");
-  roadmap.graph = build_graph(esdf, config.paper_diagram ? edges : diagram, graph_of(config));
+  if (config.paper_diagram) diagram = std::move(edges);
+  const detail::DiagramCurves curves = detail::index_diagram(esdf, diagram, config.min_clearance);
+  roadmap.graph = detail::build_graph(esdf, curves, graph_of(config));
   if (config.simplify)
     roadmap.graph = simplify_graph(esdf, roadmap.graph, simplification_of(config));
   roadmap.tree = build_clearance_tree(esdf, roadmap.graph, basins);
@@ -145,8 +156,7 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
   clock.end(report.seconds.graph);
 
   clock.begin("attach");
-  if (config.paper_diagram) diagram = edges;
-  roadmap.attach = build_attach_field(esdf, diagram, roadmap.graph, std::move(basins));
+  roadmap.attach = detail::build_attach_field(esdf, curves, roadmap.graph, std::move(basins));
   roadmap.diagram.voxels = std::move(diagram);
   roadmap.diagram.complete = !config.paper_diagram;
   report.diagram_voxels = roadmap.diagram.voxels.count();

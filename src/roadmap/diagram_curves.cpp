@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <tuple>
 
 #include "best_first_search.hpp"
@@ -12,21 +13,54 @@
 
 namespace ridgeway::detail {
 
+namespace {
+
+constexpr SquaredHalves kMeasuredByTheOther(-1.0);  // clearance that the move back has
+
+/// A move to each neighbour in a diagram, its clearance known to the first of the two.
+std::vector<DiagramMove> moves_to_neighbours(const FreeSpace& space, const DiagramCurves& curves,
+                                             DiagramNumber from, Cube27 neighbours) {
+  constexpr std::array<float, 4> kLengths{0.0f, 1.0f, 1.41421356f, 1.73205081f};
+  std::vector<DiagramMove> moves;
+  const VoxelId id = curves.voxels[from];
+  for (; neighbours != 0; neighbours &= neighbours - 1) {
+    const int d = std::countr_zero(neighbours);
+    const VoxelId other = curves.layout->neighbour(id, d);
+    const DiagramNumber to = curves.find(other);
+    moves.push_back({to, kLengths[static_cast<std::size_t>(squared_length(d))],
+                     from < to ? space.move_clearance(id, other, d) : kMeasuredByTheOther});
+  }
+  return moves;
+}
+
+SquaredHalves clearance_of_move(const std::vector<DiagramMove>& moves, DiagramNumber to) {
+  return std::find_if(moves.begin(), moves.end(),
+                      [&](const DiagramMove& move) { return move.to == to; })
+      ->clearance;
+}
+
+}  // namespace
+
 DiagramNumber DiagramCurves::find(VoxelId id) const {
-  const auto it = std::lower_bound(
-      voxels.begin(), voxels.end(), layout->order_of(id),
-      [&](VoxelId voxel, std::uint32_t order) { return layout->order_of(voxel) < order; });
-  return it != voxels.end() && *it == id ? static_cast<DiagramNumber>(it - voxels.begin())
-                                         : kNowhere;
+  if (id == kNoVoxel) return kNowhere;
+  const std::uint32_t rank = layout->rank(id / kBlockVoxels);
+  const auto first = voxels.begin() + first_of_block[rank];
+  const auto last = voxels.begin() + first_of_block[rank + 1];
+  const auto it = std::lower_bound(first, last, id);  // a block's are in the order of handles
+  return it != last && *it == id ? static_cast<DiagramNumber>(it - voxels.begin()) : kNowhere;
 }
 
 DiagramCurves index_diagram(const EsdfMap& esdf, const VoxelMask& diagram, double min_clearance) {
-  constexpr std::array<float, 4> kLengths{0.0f, 1.0f, 1.41421356f, 1.73205081f};
   const SquaredHalves threshold = least_clearance(min_clearance, esdf.voxel_size);
   const FreeSpace space(esdf);
   DiagramCurves curves;
   curves.layout = &esdf.layout;
   curves.voxels = diagram.members(esdf.layout);
+  curves.first_of_block.assign(esdf.layout.block_count() + 1, 0);
+  for (const VoxelId id : curves.voxels)
+    ++curves.first_of_block[esdf.layout.rank(id / kBlockVoxels) + 1];
+  std::partial_sum(curves.first_of_block.begin(), curves.first_of_block.end(),
+                   curves.first_of_block.begin());
   curves.squared.resize(curves.size());
   curves.position.resize(curves.size());
   std::vector<std::vector<DiagramMove>> moves(curves.size());
@@ -36,20 +70,17 @@ DiagramCurves index_diagram(const EsdfMap& esdf, const VoxelMask& diagram, doubl
         const VoxelId id = curves.voxels[i];
         curves.squared[i] = esdf.squared[id];
         curves.position[i] = centre_of(esdf.layout.index_of(id), esdf.voxel_size);
-        for (Cube27 cube = cube_around(esdf.layout, diagram, id) & kCells26; cube != 0;
-             cube &= cube - 1) {
-          const int d = std::countr_zero(cube);
-          const VoxelId other = esdf.layout.neighbour(id, d);
-          const SquaredHalves clearance = space.move_clearance(id, other, d);
-          if (clearance < threshold) continue;
-          moves[i].push_back({curves.find(other),
-                              kLengths[static_cast<std::size_t>(squared_length(d))], clearance});
-        }
+        moves[i] = moves_to_neighbours(space, curves, static_cast<DiagramNumber>(i),
+                                       cube_around(esdf.layout, diagram, id) & kCells26);
       },
       64);
   curves.first_move.push_back(0);
-  for (const std::vector<DiagramMove>& of_voxel : moves) {
-    curves.moves.insert(curves.moves.end(), of_voxel.begin(), of_voxel.end());
+  for (DiagramNumber from = 0; from < curves.size(); ++from) {
+    for (DiagramMove move : moves[from]) {
+      if (move.clearance == kMeasuredByTheOther)
+        move.clearance = clearance_of_move(moves[move.to], from);
+      if (move.clearance >= threshold) curves.moves.push_back(move);
+    }
     curves.first_move.push_back(static_cast<std::uint32_t>(curves.moves.size()));
   }
   return curves;

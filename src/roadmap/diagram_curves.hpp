@@ -25,11 +25,12 @@ struct DiagramMove {
 /// The diagram as a compact graph of its voxels and their legal moves: everything the sparse
 /// graph is made from, in a few cache lines a voxel.
 struct DiagramCurves {
-  const BlockLayout* layout = nullptr;    ///< of the map
-  std::vector<VoxelId> voxels;            ///< in the layout's order
-  std::vector<std::uint32_t> squared;     ///< as in EsdfMap
-  std::vector<Point> position;            ///< voxel centres, metres
-  std::vector<std::uint32_t> first_move;  ///< voxels.size() + 1 entries into `moves`
+  const BlockLayout* layout = nullptr;        ///< of the map
+  std::vector<VoxelId> voxels;                ///< in the layout's order
+  std::vector<std::uint32_t> first_of_block;  ///< by the block's place in that order, of `voxels`
+  std::vector<std::uint32_t> squared;         ///< as in EsdfMap
+  std::vector<Point> position;                ///< voxel centres, metres
+  std::vector<std::uint32_t> first_move;      ///< voxels.size() + 1 entries into `moves`
   std::vector<DiagramMove> moves;
 
   std::size_t size() const { return voxels.size(); }

@@ -34,6 +34,7 @@ class EdgeHooks {
       return std::pair(esdf_.squared[b], layout_.order_of(a)) <
              std::pair(esdf_.squared[a], layout_.order_of(b));
     });
+    piece_.reserve(voxels.size());
     for (const VoxelId id : voxels) {
       sink_to(esdf_.squared[id]);
       if (!diagram_.test(id)) add(id);

@@ -49,11 +49,18 @@ bool any_neighbour_site(const EsdfMap& esdf, VoxelId id, const Body& body) {
   return false;
 }
 
-bool is_on_gvd(const EsdfMap& esdf, VoxelId id, double cosine) {
+/// Squared distance between two sites, voxels.
+double apart_squared(const SiteOffset& v, const SiteOffset& w) {
+  const double x = v.x - w.x, y = v.y - w.y, z = v.z - w.z;
+  return x * x + y * y + z * z;
+}
+
+bool is_on_gvd(const EsdfMap& esdf, VoxelId id, double cosine, double least_squared) {
   if (esdf.squared[id] == kNoSite) return true;
   const SiteOffset v = esdf.site[id];
-  return any_neighbour_site(esdf, id,
-                            [&](const SiteOffset& w) { return w != v && diverge(v, w, cosine); });
+  return any_neighbour_site(esdf, id, [&](const SiteOffset& w) {
+    return w != v && apart_squared(v, w) >= least_squared && diverge(v, w, cosine);
+  });
 }
 
 /// Whether a voxel has `least` basis points or more, at most 7.
@@ -91,13 +98,14 @@ struct SiteGather {
 
 /// What single precision says of four voxels without a doubt.
 struct Verdict {
-  Cubes off_ridge;  ///< the sites of all six neighbours lie in directions less than theta away
-  Cubes on_ridge;   ///< that of one lies more than theta away
+  Cubes off_ridge;  ///< the sites of all six neighbours are near or less than theta away
+  Cubes on_ridge;   ///< that of one is far enough and more than theta away
 };
 
 /// One or the other is true of almost all voxels. Where unknown voxels have sites too, but no say,
 /// they may raise a doubt (`all_count`: there are none).
-Verdict judge(const SiteGather& sites, std::size_t first, double cosine, bool all_count) {
+Verdict judge(const SiteGather& sites, std::size_t first, double cosine, double least_squared,
+              bool all_count) {
   Floats v[3], vv{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     v[axis] = load_lanes<Floats>(&sites.at[axis][first]);
@@ -111,17 +119,20 @@ Verdict judge(const SiteGather& sites, std::size_t first, double cosine, bool al
   for (const Direction d : kFaceDirections) {
     const VoxelIndex o = offset_of(d);
     const std::array<int, 3> step{o.x, o.y, o.z};
-    Floats dot{}, ww{};
+    Floats dot{}, ww{}, apart{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const Floats w = load_lanes<Floats>(&sites.at[axis][first] + detail::bordered_step(d)) +
                        static_cast<float>(step[axis]);
       dot += v[axis] * w;
       ww += w * w;
+      apart += (v[axis] - w) * (v[axis] - w);
     }
+    const auto are_near = apart < static_cast<float>(least_squared);
     const Floats squared = dot * dot;
-    verdict.off_ridge &= reinterpret_cast<Cubes>((dot > 0.0f) & (squared >= off_limit * ww));
-    verdict.on_ridge |= reinterpret_cast<Cubes>(squared < on_limit * ww);
-    verdict.on_ridge |= reinterpret_cast<Cubes>((dot < 0.0f) & (on_limit > 0.0f));
+    const auto diverge_little = (dot > 0.0f) & (squared >= off_limit * ww);
+    const auto diverge_much = (squared < on_limit * ww) | ((dot < 0.0f) & (on_limit > 0.0f));
+    verdict.off_ridge &= reinterpret_cast<Cubes>(diverge_little | are_near);
+    verdict.on_ridge |= reinterpret_cast<Cubes>(diverge_much & ~are_near);
   }
   return verdict;
 }
@@ -166,11 +177,14 @@ VoxelMask traversable_voxels(const EsdfMap& esdf, double radius) {
 void GvdConfig::validate() const {
   detail::require(theta > 0.0 && theta < 3.1416, "theta", theta,
                   "give an angle in radians in (0, pi)");
+  detail::require(least_apart >= 0.0 && std::isfinite(least_apart), "least_apart", least_apart,
+                  "give metres, 0 or more");
 }
 
 VoxelMask compute_gvd(const EsdfMap& esdf, const VoxelMask& traversable, const GvdConfig& config) {
   config.validate();
   const double cosine = std::cos(config.theta);
+  const double least = config.least_apart / esdf.voxel_size, least_squared = least * least;
   const bool all_count = esdf.unknown == UnknownPolicy::kObstacle;
   assert(traversable.is_of(esdf.layout) && esdf.site.is_of(esdf.layout));
   VoxelMask gvd(esdf.layout);
@@ -181,11 +195,13 @@ VoxelMask compute_gvd(const EsdfMap& esdf, const VoxelMask& traversable, const G
         if (traversable.block(slot) == VoxelMask::Block{}) return;
         const SiteGather sites(esdf, slot);
         detail::for_each_four(traversable, slot, [&](VoxelId first, unsigned members) {
-          const Verdict verdict = judge(sites, detail::bordered_place(first), cosine, all_count);
+          const Verdict verdict =
+              judge(sites, detail::bordered_place(first), cosine, least_squared, all_count);
           for (; members != 0; members &= members - 1) {
             const auto x = static_cast<VoxelId>(std::countr_zero(members));
             if (verdict.off_ridge[x]) continue;
-            if (verdict.on_ridge[x] || is_on_gvd(esdf, first + x, cosine)) gvd.set(first + x);
+            if (verdict.on_ridge[x] || is_on_gvd(esdf, first + x, cosine, least_squared))
+              gvd.set(first + x);
           }
         });
       },
@@ -209,7 +225,7 @@ VoxelMask extract_edges(const EsdfMap& esdf, const VoxelMask& gvd) {
         if (gvd.block(static_cast<std::uint32_t>(slot)) == VoxelMask::Block{}) return;
         const CubeGather gather(esdf.layout, gvd, static_cast<std::uint32_t>(slot));
         for_each_member(gvd, static_cast<std::uint32_t>(slot), [&](VoxelId id) {
-          if (std::popcount(gather.cube(id) & kCells26) >= kEdgeNeighbours) edges.set(id);
+          if (bit_count(gather.cube(id) & kCells26) >= kEdgeNeighbours) edges.set(id);
         });
       },
       kGrain);

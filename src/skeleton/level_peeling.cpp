@@ -14,33 +14,11 @@
 #include "parallel_deletion.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "simple_point.hpp"
+#include "turns.hpp"
 #include "voxel/cube_gather.hpp"
 
 namespace ridgeway::detail {
 namespace {
-
-/// The traversable neighbours of a voxel by their levels.
-struct Surroundings {
-  Cube27 higher = 0;
-  Cube27 level = 0;
-
-  /// Those whose first turn comes after the voxel's own. No two voxels with the same level and
-  /// sub-field are adjacent.
-  Cube27 later(VoxelId id) const { return higher | (level & kLaterFields[id % kBlockVoxels]); }
-};
-
-Surroundings look_around(const EsdfMap& esdf, const VoxelMask& traversable, VoxelId id) {
-  const std::uint32_t own = esdf.squared[id];
-  Surroundings around;
-  for (Cube27 cells = cube_around(esdf.layout, traversable, id) & kCells26; cells != 0;
-       cells &= cells - 1) {
-    const Cube27 cell = cells & (~cells + 1);
-    const std::uint32_t level = esdf.squared[esdf.layout.neighbour(id, std::countr_zero(cells))];
-    if (level > own) around.higher |= cell;
-    if (level == own) around.level |= cell;
-  }
-  return around;
-}
 
 /// Surroundings of the voxels that the peeling is likely to ask, gathered in parallel before: a
 /// look at all levels around one voxel waits a dozen times for memory.
@@ -62,7 +40,7 @@ class KnownSurroundings {
     const std::uint32_t layer = id / 64 % kBlockSide;
     const std::uint64_t before = known_.block(slot)[layer] & ((std::uint64_t{1} << id % 64) - 1);
     const InBlock& block = blocks_[slot];
-    return block.around[block.first[layer] + static_cast<std::size_t>(std::popcount(before))];
+    return block.around[block.first[layer] + static_cast<std::size_t>(bit_count(before))];
   }
 
  private:
@@ -80,7 +58,7 @@ class KnownSurroundings {
     std::uint16_t count = 0;
     for (std::size_t z = 0; z < kBlockSide; ++z) {
       block.first[z] = count;
-      count = static_cast<std::uint16_t>(count + std::popcount(known[z]));
+      count = static_cast<std::uint16_t>(count + bit_count(known[z]));
     }
     block.around.reserve(count);
     for_each_four(known_, slot, [&](VoxelId first, unsigned members) {

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "ridgeway/esdf/esdf.hpp"
@@ -11,6 +12,17 @@
 #include "sub_field.hpp"
 
 namespace ridgeway::detail {
+
+/// The neighbours of a voxel in a set whose first turn comes after its own.
+inline Cube27 plain_later(const EsdfMap& esdf, const VoxelMask& voxels, VoxelId id) {
+  const auto turn = [&](VoxelId v) { return std::pair(esdf.squared[v], sub_field(v)); };
+  Cube27 later = 0;
+  for (int d = 0; d < 27; ++d) {
+    const VoxelId n = esdf.layout.neighbour(id, d);
+    if (n != kNoVoxel && voxels.test(n) && turn(n) > turn(id)) later |= 1u << d;
+  }
+  return later;
+}
 
 /// What peel_levels leaves, every turn of every voxel played, for tests: each level's voxels are
 /// asked in rounds, sub-field by sub-field, then those of this and of lower levels beside a voxel

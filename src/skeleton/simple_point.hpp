@@ -2,8 +2,6 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
-#include <bit>
-
 #include "ridgeway/voxel/neighbourhood.hpp"
 
 namespace ridgeway {
@@ -42,9 +40,10 @@ constexpr bool is_simple(Cube27 cube) {
 /// its orientations), for curves that run in 6-steps.
 constexpr bool is_curve_end(Cube27 cube) {
   const Cube27 foreground = cube & kCells26;
-  if (std::popcount(foreground) <= 1) return true;
-  if (std::popcount(foreground & kCells6) > 1) return false;
+  if (bit_count(foreground) <= 1) return true;
+  if (bit_count(foreground & kCells6) > 1) return false;
   constexpr auto side = [](int axis, int value) { return detail::cells_where(axis, value); };
+  if (bit_count(foreground) > 5) return false;  // of an octant: a face's, three edges', a corner's
   for (int octant = 0; octant < 8; ++octant) {
     const Cube27 outside =
         side(0, octant & 1 ? -1 : 1) | side(1, octant & 2 ? -1 : 1) | side(2, octant & 4 ? -1 : 1);

@@ -2,10 +2,14 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "watershed.hpp"
 
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cassert>
+#include <iterator>
+#include <utility>
 
 #include "cube_answers.hpp"
 #include "level_gather.hpp"
@@ -91,10 +95,28 @@ Cubes steepest_ways(const float* first, const Cubes& higher) {
   return moves != 0u ? first_cells(moves) : (moves & 0u) + kCentre;
 }
 
-/// Where ways inside a block end, and what its voxels are to its basins.
+/// By place in a block: the directions that lead out of it.
+constexpr std::array<Cube27, kBlockVoxels> kLeaving = [] {
+  std::array<Cube27, kBlockVoxels> leaving{};
+  for (VoxelId place = 0; place < kBlockVoxels; ++place)
+    for (int d = 0; d < 27; ++d)
+      if (!has_neighbour_in_block(place, d)) leaving[place] |= 1u << d;
+  return leaving;
+}();
+
+bool leaves_block(VoxelId place, Direction next) { return (kLeaving[place] >> next & 1) != 0; }
+
+/// The direction from a block to the one that a step out of it leads to.
+int block_direction(VoxelId place, Direction next) {
+  const BlockIndex block = block_of(voxel_of({}, static_cast<int>(place)) + offset_of(next));
+  return direction_of({block.x, block.y, block.z});
+}
+
+/// What a block's voxels are to its basins.
 struct BlockWays {
-  std::vector<std::uint16_t> drains;  // places where ways leave the block, and its peaks
-  std::vector<VoxelId> critical;      // ascending
+  std::uint32_t top = 0;  // highest level
+  bool has_peak = false;
+  std::vector<VoxelId> critical;  // ascending
 };
 
 /// Where each place's way ends as long as it stays in the block.
@@ -119,64 +141,101 @@ std::array<std::uint16_t, kBlockVoxels> ends_in_block(const VoxelMask& traversab
   return end;
 }
 
-/// Fills in each place's number among the drains that it returns; 0, which is none, where a place
-/// is not traversable.
-std::vector<std::uint16_t> find_drains(const VoxelMask& traversable, std::uint32_t slot,
-                                       const Direction* next, std::uint16_t* drain) {
-  const std::array<std::uint16_t, kBlockVoxels> end = ends_in_block(traversable, slot, next);
-  std::vector<std::uint16_t> drains{0};
-  std::fill_n(drain, kBlockVoxels, std::uint16_t{0});
-  for_each_member(traversable, slot, [&](VoxelId id) {
-    const VoxelId place = id % kBlockVoxels;
-    if (end[place] != place) return;
-    drain[place] = static_cast<std::uint16_t>(drains.size());
-    drains.push_back(static_cast<std::uint16_t>(place));
-  });
-  for (std::size_t place = 0; place < kBlockVoxels; ++place) drain[place] = drain[end[place]];
-  return drains;
-}
+/// Finds the basins of whole blocks, those first that lie high: the ways of others lead there.
+/// Whatever a thread sees of what others have found, it finds the same.
+class BasinFinder {
+ public:
+  BasinFinder(const EsdfMap& esdf, const VoxelMask& traversable, const std::vector<BlockWays>& ways,
+              Basins& basins)
+      : layout_(esdf.layout), traversable_(traversable), ways_(ways), basins_(basins) {
+    basins.basin.whole.assign(ways.size(), kNone);
+    basins.basin.several.resize(ways.size());
+  }
 
-/// Numbers the peaks and finds the basin of every drain.
-void number_basins(const BlockLayout& layout, const std::vector<BlockWays>& ways, Basins& basins) {
-  BasinNumbers& numbers = basins.basin;
-  numbers.first.assign(ways.size() + 1, 0);
-  for (std::size_t slot = 0; slot < ways.size(); ++slot)
-    numbers.first[slot + 1] =
-        numbers.first[slot] + static_cast<std::uint32_t>(ways[slot].drains.size());
-  numbers.basin.assign(numbers.first.back(), kNone);
-  const auto drain_of = [&](VoxelId id) {
-    return numbers.first[id / kBlockVoxels] + numbers.drain[id];
-  };
-  for (std::uint32_t rank = 0; rank < ways.size(); ++rank)
-    for (const VoxelId id : ways[layout.slot_at(rank)].critical)
-      if (basins.next[id] == kCentre) {
-        numbers.basin[drain_of(id)] = static_cast<std::uint32_t>(basins.peaks.size());
-        basins.peaks.push_back(id);
+  void run() {
+    std::vector<std::uint32_t> order;
+    for (std::uint32_t slot = 0; slot < ways_.size(); ++slot)
+      if (ways_[slot].top > 0) order.push_back(slot);
+    tbb::parallel_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return std::pair(ways_[b].top, a) < std::pair(ways_[a].top, b);
+    });
+    parallel_for_each_index(
+        order.size(), [&](std::size_t i) { number(order[i]); }, 16);
+  }
+
+ private:
+  /// Of a block: a basin, kSeveral, or kNone as long as it is not known.
+  std::uint32_t known(std::uint32_t slot) const {
+    return std::atomic_ref<std::uint32_t>(basins_.basin.whole[slot])
+        .load(std::memory_order_acquire);
+  }
+  void set_known(std::uint32_t slot, std::uint32_t basin) {
+    std::atomic_ref<std::uint32_t>(basins_.basin.whole[slot])
+        .store(basin, std::memory_order_release);
+  }
+
+  void number(std::uint32_t slot) {
+    const std::uint32_t only = ways_[slot].has_peak ? kNone : basin_of_all_exits(slot);
+    if (only != kNone) return set_known(slot, only);
+    BasinNumbers::InBlock found;
+    const Direction* next = basins_.next.block(slot);
+    const std::array<std::uint16_t, kBlockVoxels> end = ends_in_block(traversable_, slot, next);
+    std::array<std::uint16_t, kBlockVoxels> place_of_end{};
+    for_each_member(traversable_, slot, [&](VoxelId id) {
+      const VoxelId place = id % kBlockVoxels;
+      if (end[place] != place) return;
+      const std::uint32_t basin = follow(id);
+      const auto same = std::find(found.basins.begin(), found.basins.end(), basin);
+      place_of_end[place] = static_cast<std::uint16_t>(same - found.basins.begin());
+      if (same == found.basins.end()) found.basins.push_back(basin);
+    });
+    if (found.basins.size() == 1) return set_known(slot, found.basins[0]);
+    found.place.resize(kBlockVoxels);
+    for (std::size_t i = 0; i < kBlockVoxels; ++i) found.place[i] = place_of_end[end[i]];
+    basins_.basin.several[slot] = std::move(found);
+    set_known(slot, BasinNumbers::kSeveral);
+  }
+
+  /// Of a block without a peak, the basin to which all its ways lead, if that shows at the blocks
+  /// that they lead to; else kNone.
+  std::uint32_t basin_of_all_exits(std::uint32_t slot) const {
+    const Direction* next = basins_.next.block(slot);
+    std::uint32_t basin = kNone;
+    Cube27 asked = 0;
+    for (std::uint32_t z = 0; z < kBlockSide; ++z)
+      for (std::uint64_t bits = traversable_.block(slot)[z]; bits != 0; bits &= bits - 1) {
+        const VoxelId place = z * 64 + static_cast<VoxelId>(std::countr_zero(bits));
+        if (!leaves_block(place, next[place])) continue;
+        const int d = block_direction(place, next[place]);
+        if ((asked >> d & 1) != 0) continue;
+        asked |= 1u << d;
+        const std::uint32_t there = known(layout_.neighbour_block(slot, d));
+        if (there == kNone || there == BasinNumbers::kSeveral) return kNone;
+        if (basin != kNone && basin != there) return kNone;
+        basin = there;
       }
-  const auto basin_of = [&](std::uint32_t drain) {
-    return std::atomic_ref<std::uint32_t>(numbers.basin[drain]);
-  };
-  // Threads may walk the same way twice and then write the same number.
-  parallel_for_each_index(
-      ways.size(),
-      [&](std::size_t slot) {
-        std::vector<std::uint32_t> way;
-        for (std::size_t i = 1; i < ways[slot].drains.size(); ++i) {
-          way.assign(1, numbers.first[slot] + static_cast<std::uint32_t>(i));
-          VoxelId at = static_cast<VoxelId>(slot * kBlockVoxels) + ways[slot].drains[i];
-          std::uint32_t basin = kNone;
-          while ((basin = basin_of(way.back()).load(std::memory_order_relaxed)) == kNone) {
-            const VoxelId to = layout.neighbour(at, basins.next[at]);
-            way.push_back(drain_of(to));
-            at = to / kBlockVoxels * kBlockVoxels +
-                 ways[to / kBlockVoxels].drains[numbers.drain[to]];
-          }
-          for (const std::uint32_t drain : way)
-            basin_of(drain).store(basin, std::memory_order_relaxed);
-        }
-      },
-      16);
-}
+    return basin;
+  }
+
+  /// The basin of the peak to which a voxel's way leads.
+  std::uint32_t follow(VoxelId id) const {
+    while (basins_.next[id] != kCentre) {
+      const std::uint32_t before = id / kBlockVoxels;
+      id = layout_.neighbour(id, basins_.next[id]);
+      if (id / kBlockVoxels != before && known(id / kBlockVoxels) != kNone)
+        return basins_.basin[id];
+    }
+    const auto peak = std::lower_bound(
+        basins_.peaks.begin(), basins_.peaks.end(), layout_.order_of(id),
+        [&](VoxelId p, std::uint32_t order) { return layout_.order_of(p) < order; });
+    return static_cast<std::uint32_t>(peak - basins_.peaks.begin());
+  }
+
+  const BlockLayout& layout_;
+  const VoxelMask& traversable_;
+  const std::vector<BlockWays>& ways_;
+  Basins& basins_;
+};
 
 }  // namespace
 
@@ -185,7 +244,6 @@ Watershed find_watershed(const EsdfMap& esdf, const VoxelMask& traversable) {
   Watershed watershed;
   Basins& basins = watershed.basins;
   basins.next = VoxelField<Direction>::unset(esdf.layout);
-  basins.basin.drain = VoxelField<std::uint16_t>::unset(esdf.layout);
   basins.not_simple_at_first_turn = VoxelMask(esdf.layout);
   std::vector<BlockWays> ways(esdf.layout.block_count());
   CubeAnswers answers;
@@ -194,13 +252,10 @@ Watershed find_watershed(const EsdfMap& esdf, const VoxelMask& traversable) {
       [&](std::size_t block) {
         const auto slot = static_cast<std::uint32_t>(block);
         std::fill_n(basins.next.block(slot), kBlockVoxels, kNotTraversable);
-        if (traversable.block(slot) == VoxelMask::Block{}) {
-          std::fill_n(basins.basin.drain.block(slot), kBlockVoxels, std::uint16_t{0});
-          ways[slot].drains = {0};
-          return;
-        }
+        if (traversable.block(slot) == VoxelMask::Block{}) return;
         const Levels levels = gather_levels(esdf, traversable, slot);
         const Bordered<float> heights = heights_of(levels);
+        BlockWays& own = ways[slot];
         for_each_four(traversable, slot, [&](VoxelId first, unsigned members) {
           const VoxelId place = first % kBlockVoxels;
           const LevelCubes cubes(levels, bordered_place(first));
@@ -211,19 +266,22 @@ Watershed find_watershed(const EsdfMap& esdf, const VoxelMask& traversable) {
           for (; members != 0; members &= members - 1) {
             const auto x = static_cast<VoxelId>(std::countr_zero(members));
             basins.next[first + x] = static_cast<Direction>(steepest[x]);
-            if (!answers.of(higher[x]).is_regular) ways[slot].critical.push_back(first + x);
+            own.has_peak |= steepest[x] == kCentre;
+            own.top = std::max(own.top, esdf.squared[first + x]);
+            if (!answers.of(higher[x]).is_regular) own.critical.push_back(first + x);
             if (!answers.of(later[x]).is_simple) basins.not_simple_at_first_turn.set(first + x);
           }
         });
-        ways[slot].drains =
-            find_drains(traversable, slot, basins.next.block(slot), basins.basin.drain.block(slot));
       },
       16);
-  number_basins(esdf.layout, ways, basins);
   for (std::uint32_t rank = 0; rank < ways.size(); ++rank) {
     const std::vector<VoxelId>& critical = ways[esdf.layout.slot_at(rank)].critical;
     watershed.critical.insert(watershed.critical.end(), critical.begin(), critical.end());
   }
+  std::copy_if(watershed.critical.begin(), watershed.critical.end(),
+               std::back_inserter(basins.peaks),
+               [&](VoxelId id) { return basins.next[id] == kCentre; });
+  BasinFinder(esdf, traversable, ways, basins).run();
   return watershed;
 }
 

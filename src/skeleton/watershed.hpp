@@ -18,8 +18,8 @@ struct Watershed {
 /// Leads every voxel to its peak by the steepest of the ways that do not dip.
 ///
 /// Plain form: plain_watershed.hpp, plain_climb() for each voxel. From it, docs/fast-kernels.md
-/// section 3: critical voxels by a local test (2), peaks by the drains of blocks (7), four voxels
-/// at a time (8); voxels not simple at their first turn, section 4 (2).
+/// section 3: critical voxels by a local test (2), peaks by whole blocks (7), four voxels at a time
+/// (8); voxels not simple at their first turn, section 4 (2).
 Watershed find_watershed(const EsdfMap& esdf, const VoxelMask& traversable);
 
 }  // namespace ridgeway::detail

@@ -29,14 +29,15 @@ double angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 }
 
 /// Sites of a voxel and its free 6-neighbours that part by more than theta, its own first.
-std::vector<Eigen::Vector3d> basis_points(const EsdfMap& esdf, VoxelId id, double theta) {
+std::vector<Eigen::Vector3d> basis_points(const EsdfMap& esdf, VoxelId id, double theta,
+                                          double least_apart = 0.0) {
   const VoxelIndex v = esdf.layout.index_of(id);
   std::vector<Eigen::Vector3d> basis = {to_site(esdf, v, v)};
   for (const Direction d : kFaceDirections) {
     const VoxelId q = esdf.layout.find(v + offset_of(d));
     if (q == kNoVoxel || esdf.state[q] != VoxelState::kFree || esdf.squared[q] == kNoSite) continue;
     const Eigen::Vector3d w = to_site(esdf, v, v + offset_of(d));
-    bool is_new = w.norm() > 0.0;
+    bool is_new = w.norm() > 0.0 && (w - basis[0]).norm() >= least_apart - 1e-9;
     for (const Eigen::Vector3d& b : basis) is_new &= angle(b, w) > theta;
     if (is_new) basis.push_back(w);
   }
@@ -53,6 +54,9 @@ TEST(Gvd, AndEdgesAreWhatTheirDefinitionsSay) {
     for (const double theta : {0.3, 0.785, 1.3, 2.0}) {
       const VoxelMask gvd = compute_gvd(esdf, traversable, {theta});
       const VoxelMask edges = extract_edges(esdf, gvd);
+      // Of a voxel's own site alone: those of its neighbours may be as near to each other.
+      const double least_apart = 1.0 + static_cast<double>(seed % 5);  // voxels
+      const VoxelMask apart = compute_gvd(esdf, traversable, {theta, least_apart * 0.1});
       const VoxelMask basis_edges = extract_basis_point_edges(esdf, gvd, {theta});
       for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id) {
         const bool open = esdf.state[id] == VoxelState::kFree && esdf.distance(id) >= 0.1 - 1e-9;
@@ -62,6 +66,8 @@ TEST(Gvd, AndEdgesAreWhatTheirDefinitionsSay) {
                                   : open           ? 7
                                                    : 0;
         ASSERT_EQ(gvd.test(id), basis >= 2);
+        ASSERT_EQ(apart.test(id),
+                  open && (!has_site || basis_points(esdf, id, theta, least_apart).size() >= 2));
         int beside = 0;
         for (int d = 0; d < 27; ++d) {
           const VoxelId n = d == kCentre ? kNoVoxel : esdf.layout.neighbour(id, d);

@@ -31,14 +31,24 @@ struct NarrowerPass {
   }
 };
 
-/// The number of each traversable voxel's basin. Ways lead to few places where they leave their
-/// block or end, its drains: a voxel names its drain, and a drain its basin.
+/// The number of each traversable voxel's basin: one for all of a block, or where several meet in
+/// it one for each voxel.
 struct BasinNumbers {
-  VoxelField<std::uint16_t> drain;   ///< place among those of the block; 0: not traversable
-  std::vector<std::uint32_t> first;  ///< by block, of its drains
-  std::vector<std::uint32_t> basin;  ///< by drain
+  static constexpr std::uint32_t kSeveral = 0xfffffffeu;
 
-  std::uint32_t operator[](VoxelId id) const { return basin[first[id / kBlockVoxels] + drain[id]]; }
+  struct InBlock {
+    std::vector<std::uint32_t> basins;  ///< that meet in the block
+    std::vector<std::uint16_t> place;   ///< among those, by voxel
+  };
+  std::vector<std::uint32_t>
+      whole;                     ///< by block; kSeveral: by voxel; any where none is traversable
+  std::vector<InBlock> several;  ///< by block
+
+  std::uint32_t operator[](VoxelId id) const {
+    const std::uint32_t slot = id / kBlockVoxels;
+    if (whole[slot] != kSeveral) return whole[slot];
+    return several[slot].basins[several[slot].place[id % kBlockVoxels]];
+  }
 };
 
 /// The watershed of traversable space, its height the clearance. Each voxel climbs to a peak by

@@ -7,6 +7,13 @@
 
 namespace ridgeway {
 
+/// Removes voxels so that nothing floats in what is left: each part of the background is joined
+/// with another one by an arc where the two are nearest, from obstacle to obstacle one voxel wide.
+/// b0 and b1 stay, b2 becomes zero, but where an arc cannot be without a change to b0 or b1 (hardly
+/// anywhere; parts beyond max_distance). `not_simple`: Basins::not_simple_at_first_turn of the
+/// voxels, kept so.
+void join_background(const EsdfMap& esdf, VoxelMask& voxels, VoxelMask& not_simple);
+
 /// Homotopic kernel of a set: deletes simple voxels in ascending order of clearance until only
 /// what carries the topology is left (same b0, b1, b2), along the widest ways. Peaks of the
 /// clearance that rise at least one voxel above their pass stay. Levels of equal d^2 are peeled

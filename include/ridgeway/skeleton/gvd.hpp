@@ -9,6 +9,9 @@ namespace ridgeway {
 
 struct GvdConfig {
   double theta = 0.785;  ///< radians in (0, pi); least angle between the directions to two sites
+  /// Metres; least distance between two sites. A robot does not pass between two that are nearer to
+  /// each other than it is wide: a ridge between them decides nothing.
+  double least_apart = 0.0;
 
   /// Throws InputError naming the bad field.
   void validate() const;
@@ -19,8 +22,8 @@ VoxelMask traversable_voxels(const EsdfMap& esdf, double radius);
 
 /// Voxels on the generalized Voronoi diagram (paper: GVD Generation): those with a free
 /// 6-neighbour whose nearest site lies in a direction more than theta away from the voxel's own,
-/// both seen from the voxel. A voxel without a site counts as on the ridge.
-/// Throws InputError naming the bad field.
+/// both seen from the voxel, and `least_apart` or more from it. A voxel without a site counts as on
+/// the ridge. Throws InputError naming the bad field.
 VoxelMask compute_gvd(const EsdfMap& esdf, const VoxelMask& traversable,
                       const GvdConfig& config = {});
 

@@ -10,6 +10,15 @@
 
 namespace ridgeway {
 
+/// How many bits of a number are ones. (A plain x86-64 has no instruction for it, and std::popcount
+/// is a call.)
+constexpr int bit_count(std::uint64_t bits) {
+  bits -= bits >> 1 & 0x5555555555555555u;                                  // of each two bits
+  bits = (bits & 0x3333333333333333u) + (bits >> 2 & 0x3333333333333333u);  // of each four
+  bits = (bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0fu;
+  return static_cast<int>(bits * 0x0101010101010101u >> 56);
+}
+
 /// The 3x3x3 cube around a voxel as 27 bits: bit (dx+1) + 3 (dy+1) + 9 (dz+1). The same number
 /// names a direction; 13 is the voxel itself.
 using Cube27 = std::uint32_t;

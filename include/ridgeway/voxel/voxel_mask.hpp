@@ -46,8 +46,7 @@ class VoxelMask {
   std::size_t count() const {
     std::size_t total = 0;
     for (const Block& block : blocks_)
-      for (const std::uint64_t layer : block)
-        total += static_cast<std::size_t>(std::popcount(layer));
+      for (const std::uint64_t layer : block) total += static_cast<std::size_t>(bit_count(layer));
     return total;
   }
 
