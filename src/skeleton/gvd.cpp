@@ -184,7 +184,8 @@ void GvdConfig::validate() const {
 VoxelMask compute_gvd(const EsdfMap& esdf, const VoxelMask& traversable, const GvdConfig& config) {
   config.validate();
   const double cosine = std::cos(config.theta);
-  const double least = config.least_apart / esdf.voxel_size, least_squared = least * least;
+  const double least = config.least_apart * (1.0 - 1e-9) / esdf.voxel_size,
+               least_squared = least * least;
   const bool all_count = esdf.unknown == UnknownPolicy::kObstacle;
   assert(traversable.is_of(esdf.layout) && esdf.site.is_of(esdf.layout));
   VoxelMask gvd(esdf.layout);

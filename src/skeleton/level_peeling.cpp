@@ -29,9 +29,19 @@ class KnownSurroundings {
         traversable_(traversable),
         known_(esdf.layout),
         blocks_(esdf.layout.block_count()) {
+    std::vector<std::uint8_t> has_any(blocks_.size());
+    for (std::uint32_t slot = 0; slot < blocks_.size(); ++slot)
+      has_any[slot] = not_simple.block(slot) != VoxelMask::Block{};
     parallel_for_each_index(
-        esdf.layout.block_count(),
-        [&](std::size_t slot) { gather(static_cast<std::uint32_t>(slot), not_simple); }, 16);
+        blocks_.size(),
+        [&](std::size_t block) {
+          const auto slot = static_cast<std::uint32_t>(block);
+          for (int d = 0; d < 27; ++d)
+            if (const std::uint32_t n = esdf.layout.neighbour_block(slot, d);
+                n != BlockLayout::kNoBlock && has_any[n] != 0)
+              return gather(slot, not_simple);
+        },
+        64);
   }
 
   Surroundings of(VoxelId id) const {
