@@ -43,19 +43,30 @@ struct TsdfBlock {
 /// Blocks that are added while scans come in; their addresses stay.
 class TsdfBlocks {
  public:
-  TsdfBlock* find(const BlockIndex& index) {
-    const auto place = table_.find(index);
-    return place == table_.end() ? nullptr : place->second;
-  }
+  /// A block to be written to.
   TsdfBlock& find_or_add(const BlockIndex& index) {
-    TsdfBlock*& place = table_[index];
-    if (place == nullptr) {
-      place = &blocks_.emplace_back();
-      indices_.push_back(index);
+    const auto [place, is_new] = table_.try_emplace(index, static_cast<std::uint32_t>(size()));
+    if (is_new) add(index);
+    const std::uint32_t number = place->second;
+    if (!is_touched_[number]) {
+      touched_.push_back(number);
+      is_touched_[number] = true;
     }
-    return *place;
+    return blocks_[number];
   }
   std::size_t size() const { return blocks_.size(); }
+  const BlockIndex& index(std::uint32_t number) const { return indices_[number]; }
+  const TsdfBlock& block(std::uint32_t number) const { return blocks_[number]; }
+  /// Number of a block that is there.
+  std::uint32_t number_of(const BlockIndex& index) const { return table_.at(index); }
+
+  /// Numbers of the blocks that were asked for since these were last forgotten, each once.
+  const std::vector<std::uint32_t>& touched() const { return touched_; }
+  void forget_touched() {
+    for (const std::uint32_t number : touched_) is_touched_[number] = false;
+    touched_.clear();
+  }
+
   /// Copies all into a map, on a layout of its own.
   void copy_to(TsdfMap& map) const {
     map.layout = BlockLayout(indices_);
@@ -69,9 +80,24 @@ class TsdfBlocks {
   }
 
  private:
-  std::unordered_map<BlockIndex, TsdfBlock*, BlockHash> table_;
-  std::deque<TsdfBlock> blocks_;
+  /// The block that the table has a number for already.
+  void add(const BlockIndex& index) {
+    try {
+      if (indices_.size() == indices_.capacity()) indices_.reserve(2 * size() + 1);
+      is_touched_.resize(size() + 1);
+      blocks_.emplace_back();
+    } catch (...) {
+      table_.erase(index);
+      throw;
+    }
+    indices_.push_back(index);
+  }
+
+  std::unordered_map<BlockIndex, std::uint32_t, BlockHash> table_;  // numbers
+  std::deque<TsdfBlock> blocks_;                                    // by number
   std::vector<BlockIndex> indices_;
+  std::vector<bool> is_touched_;
+  std::vector<std::uint32_t> touched_;
 };
 
 /// Throws InputError unless there is memory for more blocks, here and in the map made of them.

@@ -15,6 +15,7 @@
 #include "ridgeway/mapping/map_edits.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
 #include "ridgeway/mapping/occupancy_map.hpp"
+#include "state_changes.hpp"
 #include "tsdf_blocks.hpp"
 
 namespace ridgeway {
@@ -67,18 +68,12 @@ std::vector<detail::SurfacePoint> points_of(const detail::DepthSurfaces& surface
 
 /// Where the robot has been is free, whatever was measured there. All is in the map's own frame.
 void clear_sphere(const Point& centre, double radius, TsdfMap& map) {
-  const VoxelIndex low = voxel_at(centre - Point::Constant(radius), map.voxel_size);
-  const VoxelIndex high = voxel_at(centre + Point::Constant(radius), map.voxel_size);
-  for (int z = low.z; z <= high.z; ++z)
-    for (int y = low.y; y <= high.y; ++y)
-      for (int x = low.x; x <= high.x; ++x) {
-        const VoxelId id = map.layout.find({x, y, z});
-        if (id == kNoVoxel || (centre_of({x, y, z}, map.voxel_size) - centre).norm() > radius)
-          continue;
-        if (map.weight[id] > 0.0f && map.distance[id] > 0.0f) continue;
-        map.distance[id] = static_cast<float>(map.truncation);
-        map.weight[id] = std::max(map.weight[id], 1.0f);
-      }
+  detail::for_each_in_sphere(centre, radius, map.voxel_size, [&](const VoxelIndex& v) {
+    const VoxelId id = map.layout.find(v);
+    if (id == kNoVoxel || (map.weight[id] > 0.0f && map.distance[id] > 0.0f)) return;
+    map.distance[id] = static_cast<float>(map.truncation);
+    map.weight[id] = std::max(map.weight[id], 1.0f);
+  });
 }
 
 }  // namespace
@@ -111,6 +106,7 @@ struct TsdfFusion::State {
   std::optional<VoxelIndex> origin;  // the voxel that held the sensor at first
   detail::TsdfBlocks blocks;
   std::vector<Point> places;  // of the sensor
+  detail::ReportedStates reported;
 
   /// A pose is recorded only once its measurements are in: what throws on the way leaves no trace
   /// of it, nor of the origin that the first pose gives. `measure` adds the measurements from a
@@ -203,6 +199,11 @@ TsdfMap TsdfFusion::map() const {
   if (s.config.clear_radius > 0.0)
     for (const Point& place : s.places) clear_sphere(place, s.config.clear_radius, map);
   return map;
+}
+
+std::vector<VoxelChange> TsdfFusion::take_changes() {
+  State& s = *state_;
+  return s.reported.take(s.blocks, s.origin.value_or(VoxelIndex{}), s.places, s.config);
 }
 
 OccupancyMap occupancy_of(const TsdfMap& tsdf) {

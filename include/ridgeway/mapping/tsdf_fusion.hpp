@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ridgeway/mapping/occupancy_map.hpp"
+#include "ridgeway/mapping/voxel_change.hpp"
 #include "ridgeway/sensing/depth_camera.hpp"
 #include "ridgeway/sensing/solid_mesh.hpp"
 #include "ridgeway/voxel/voxel_field.hpp"
@@ -93,6 +94,11 @@ class TsdfFusion {
 
   /// All that was fused so far.
   TsdfMap map() const;
+
+  /// The voxels of the lattice whose state, as occupancy_of(map()) has it, is another than at the
+  /// last call, with what it is; at first they all are unknown. By block in (z, y, x) order, then
+  /// by voxel. Takes time linear in the blocks that measurements since then have touched.
+  std::vector<VoxelChange> take_changes();
 
  private:
   struct State;

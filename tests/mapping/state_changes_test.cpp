@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+// What fusion says has changed is what has changed: nothing more, nothing less, scan after scan.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "ridgeway/common/parallel.hpp"
+#include "ridgeway/mapping/tsdf_fusion.hpp"
+#include "ridgeway/sensing/poses.hpp"
+#include "ridgeway/sensing/world_generators.hpp"
+
+namespace ridgeway {
+namespace {
+
+using States = std::map<VoxelIndex, VoxelState>;  // of the lattice, the known ones
+
+States states_of(const TsdfFusion& fusion) {
+  const OccupancyMap map = occupancy_of(fusion.map());
+  States states;
+  for (VoxelId id = 0; id < map.layout.voxel_count(); ++id)
+    if (map.state[id] != VoxelState::kUnknown)
+      states[map.origin + map.layout.index_of(id)] = map.state[id];
+  return states;
+}
+
+DepthSensor small_sensor() {
+  DepthSensor sensor;
+  sensor.camera = {.width = 80, .height = 60, .fx = 40.0, .fy = 40.0, .cx = 39.5, .cy = 29.5};
+  sensor.range_sigma = 0.03;
+  return sensor;
+}
+
+std::vector<Eigen::Isometry3d> flight() {
+  return sample_poses(make_house(), {.low = {1, 1, 1}, .high = {14, 10, 4}, .count = 6, .seed = 3});
+}
+
+void expect_told_after_every_scan(const FusionConfig& config) {
+  const World world = make_house();
+  const DepthSensor sensor = small_sensor();
+  TsdfFusion fusion(config);
+  States told;
+  std::uint64_t seed = 0;
+  for (const Eigen::Isometry3d& pose : flight()) {
+    fusion.integrate(render_depth(world, sensor, pose, seed++), sensor.camera, pose);
+    for (const VoxelChange& change : fusion.take_changes()) {
+      const auto [place, is_new] = told.try_emplace(change.voxel, VoxelState::kUnknown);
+      EXPECT_NE(place->second, change.state);
+      place->second = change.state;
+    }
+    EXPECT_TRUE(told == states_of(fusion));
+    EXPECT_TRUE(fusion.take_changes().empty());
+  }
+  EXPECT_GT(told.size(), 10000u);
+}
+
+TEST(StateChanges, AreWhatHasChangedByEitherIntegrator) {
+  for (const Integrator integrator : {Integrator::kProjective, Integrator::kRayCasting})
+    expect_told_after_every_scan({.voxel_size = 0.2, .integrator = integrator});
+}
+
+TEST(StateChanges, CountWhereTheRobotHasBeen) {
+  expect_told_after_every_scan({.voxel_size = 0.2, .clear_radius = 0.7});
+}
+
+TEST(StateChanges, ComeInTheOrderOfBlocksOnAnyNumberOfThreads) {
+  const World world = make_house();
+  const DepthSensor sensor = small_sensor();
+  const auto changes = [&](int threads) {
+    return with_threads(threads, [&] {
+      TsdfFusion fusion({.voxel_size = 0.2});
+      std::vector<VoxelChange> all;
+      for (const Eigen::Isometry3d& pose : flight()) {
+        fusion.integrate(render_depth(world, sensor, pose, 1), sensor.camera, pose);
+        const std::vector<VoxelChange> some = fusion.take_changes();
+        const VoxelIndex origin = voxel_at(flight().front().translation(), 0.2);
+        const auto key = [&](const VoxelChange& c) {
+          return std::pair(block_of(c.voxel - origin), local_of(c.voxel - origin));
+        };
+        EXPECT_TRUE(std::is_sorted(some.begin(), some.end(),
+                                   [&](const auto& a, const auto& b) { return key(a) < key(b); }));
+        all.insert(all.end(), some.begin(), some.end());
+      }
+      return all;
+    });
+  };
+  EXPECT_TRUE(changes(1) == changes(2));
+}
+
+}  // namespace
+}  // namespace ridgeway
