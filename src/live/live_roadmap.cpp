@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/live/live_roadmap.hpp"
+
+#include <algorithm>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "live_field.hpp"
+#include "ridgeway/common/clock.hpp"
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/mapping/voxel_range.hpp"
+#include "ridgeway/skeleton/gvd.hpp"
+#include "roadmap/build_stages.hpp"
+
+namespace ridgeway {
+namespace {
+
+using detail::LiveField;
+using detail::seconds_now;
+
+/// Times one step after the other.
+class Lap {
+ public:
+  double seconds() {
+    const double before = std::exchange(start_, seconds_now());
+    return start_ - before;
+  }
+
+ private:
+  double start_ = seconds_now();
+};
+
+void validate_changes(std::span<const VoxelChange> changes, const VoxelIndex& origin) {
+  const VoxelRange reach = grown({origin, origin}, kMaxVoxelIndex / 2);
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    const auto refuse = [i](const char* what, const char* remedy) {
+      throw InputError("change " + std::to_string(i), what, remedy);
+    };
+    if (changes[i].state > VoxelState::kOccupied)
+      refuse("has no enumerator of VoxelState", "give kUnknown, kFree or kOccupied");
+    if (!kAllVoxels.contains(changes[i].voxel))
+      refuse("lies farther than 1e9 voxels from the world's zero",
+             "check its units and the voxel size");
+    if (!reach.contains(changes[i].voxel))
+      refuse("lies farther than 5e8 voxels from the map's origin", "give an origin near the map");
+  }
+}
+
+std::vector<VoxelChange> all_of(const OccupancyMap& map) {
+  std::vector<VoxelChange> changes;
+  for (VoxelId id = 0; id < map.layout.voxel_count(); ++id)
+    if (map.state[id] != VoxelState::kUnknown)
+      changes.push_back({map.origin + map.layout.index_of(id), map.state[id]});
+  return changes;
+}
+
+}  // namespace
+
+void LiveConfig::validate() const {
+  fusion.validate();
+  build.validate();
+  detail::require_suits(build, fusion.voxel_size);
+  if (origin) require_within_reach({*origin, *origin}, "origin");
+}
+
+struct LiveRoadmap::State {
+  explicit State(const LiveConfig& given)
+      : config(given), fusion((given.validate(), given.fusion)) {}
+
+  const LiveConfig config;
+  TsdfFusion fusion;
+  std::uint64_t frames = 0;          // that were fused
+  std::vector<VoxelChange> pending;  // that fusion has told, and no update has taken in
+  std::optional<LiveField> field;    // none before the first update
+  bool is_stale = false;             // the map is right, distances are not
+  std::uint64_t version = 0;
+  mutable std::mutex mutex;  // of what follows
+  std::shared_ptr<const Roadmap> snapshot;
+
+  EsdfConfig esdf_config() const { return {config.build.unknown, config.build.max_distance}; }
+
+  template <typename Fuse>
+  UpdateReport integrate(const Point& sensor_world, const Fuse& fuse) {
+    Lap lap;
+    UpdateReport report;
+    try {
+      fuse();
+      ++frames;
+      const std::vector<VoxelChange> told = fusion.take_changes();
+      pending.insert(pending.end(), told.begin(), told.end());
+      report.fusion_seconds = lap.seconds();
+      update(pending, voxel_at(sensor_world, config.fusion.voxel_size), report);
+    } catch (const InputError& error) {
+      throw error.within("frame " + std::to_string(frames + 1));
+    }
+    pending.clear();
+    return report;
+  }
+
+  /// Brings all up to date; `first`: the map's origin if it has none.
+  void update(std::span<const VoxelChange> changes, const VoxelIndex& first, UpdateReport& report) {
+    Lap all;
+    if (field && is_stale) {
+      field = remade();
+      is_stale = false;
+    }
+    const bool is_first = !field;
+    if (is_first)
+      field.emplace(config.fusion.voxel_size, config.origin.value_or(first), esdf_config());
+    try {
+      bring_up_to_date(changes, report);
+    } catch (...) {
+      if (is_first) {
+        field.reset();
+      } else {
+        undo_changes(*field);
+        is_stale = true;
+      }
+      throw;
+    }
+    report.version = version;
+    report.has_roadmap = snapshot != nullptr;
+    report.seconds = report.fusion_seconds + all.seconds();
+  }
+
+  void bring_up_to_date(std::span<const VoxelChange> changes, UpdateReport& report) {
+    Lap lap;
+    const std::uint32_t blocks = field->esdf.layout.block_count();
+    apply_changes(*field, changes);
+    report.map_seconds = lap.seconds();
+    report.changed_voxels = field->before.size();
+    report.flipped_voxels = field->flipped.count();
+    report.added_blocks = field->esdf.layout.block_count() - blocks;
+    if (report.changed_voxels == 0) return;
+    // Blocks in which nothing is known any more are none of the map's.
+    const bool is_whole =
+        std::find(field->known.begin(), field->known.end(), 0) == field->known.end();
+    std::optional<LiveField> other;
+    std::shared_ptr<const Roadmap> next;
+    if (config.build.unknown == UnknownPolicy::kIgnore) {
+      // Pockets of free space are filled, small ones: whether one is may change from far away.
+      report.in_batch = true;
+      next = built_on(detail::distances_of(map_of(*field), config.build), lap, report);
+    } else {
+      if (!is_whole) other = remade();
+      report.in_batch = !is_whole;
+      LiveField& now = other ? *other : *field;
+      if (is_whole) update_distances(now);
+      report.changed_distances = now.changed.count();
+      report.changed_blocks = now.changed.slots.size();
+      report.build.seconds.esdf = lap.seconds();
+      EsdfMap copy = now.esdf;
+      report.copy_seconds = lap.seconds();
+      next = built_on(std::move(copy), lap, report);
+    }
+    const std::lock_guard lock(mutex);
+    snapshot = std::move(next);
+    ++version;
+    if (other) field = std::move(other);
+  }
+
+  /// The same map in a new field, to which it is one change.
+  LiveField remade() const {
+    const OccupancyMap map = map_of(*field);
+    LiveField other(map.voxel_size, map.origin, esdf_config());
+    apply_changes(other, all_of(map));
+    update_distances(other);
+    return other;
+  }
+
+  std::shared_ptr<const Roadmap> built_on(EsdfMap esdf, Lap& lap, UpdateReport& report) const {
+    BuildResult result;
+    result.roadmap.min_clearance = config.build.min_clearance;
+    result.roadmap.esdf = std::move(esdf);
+    result.report = report.build;
+    const VoxelMask traversable =
+        traversable_voxels(result.roadmap.esdf, config.build.min_clearance);
+    result.report.traversable_voxels = traversable.count();
+    result.report.allocated_voxels = result.roadmap.esdf.layout.voxel_count();
+    result.report.seconds.esdf += lap.seconds();
+    const Progress none;
+    detail::StageClock clock(none);
+    const bool has_any = result.report.traversable_voxels > 0;
+    if (has_any) detail::build_on_distances(traversable, config.build, result, clock);
+    report.build = result.report;
+    return has_any ? std::make_shared<const Roadmap>(std::move(result.roadmap)) : nullptr;
+  }
+};
+
+LiveRoadmap::LiveRoadmap(const LiveConfig& config) : state_(std::make_unique<State>(config)) {}
+LiveRoadmap::~LiveRoadmap() = default;
+LiveRoadmap::LiveRoadmap(LiveRoadmap&&) noexcept = default;
+LiveRoadmap& LiveRoadmap::operator=(LiveRoadmap&&) noexcept = default;
+
+UpdateReport LiveRoadmap::integrate(const DepthImage& image, const PinholeCamera& camera,
+                                    const Eigen::Isometry3d& T_world_camera) {
+  return state_->integrate(T_world_camera.translation(),
+                           [&] { state_->fusion.integrate(image, camera, T_world_camera); });
+}
+
+UpdateReport LiveRoadmap::integrate(std::span<const Point> points,
+                                    const Eigen::Isometry3d& T_world_sensor) {
+  return state_->integrate(T_world_sensor.translation(),
+                           [&] { state_->fusion.integrate(points, T_world_sensor); });
+}
+
+UpdateReport LiveRoadmap::set_voxels(std::span<const VoxelChange> changes) {
+  State& s = *state_;
+  validate_changes(changes,
+                   s.field ? s.field->esdf.origin : s.config.origin.value_or(VoxelIndex{}));
+  UpdateReport report;
+  s.update(changes, {}, report);
+  return report;
+}
+
+std::shared_ptr<const Roadmap> LiveRoadmap::snapshot() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->snapshot;
+}
+
+OccupancyMap LiveRoadmap::map() const {
+  const State& s = *state_;
+  if (s.field) return map_of(*s.field);
+  OccupancyMap map;
+  map.voxel_size = s.config.fusion.voxel_size;
+  map.origin = s.config.origin.value_or(VoxelIndex{});
+  return map;
+}
+
+}  // namespace ridgeway
