@@ -8,18 +8,24 @@
 #include <utility>
 #include <vector>
 
-#include "live_field.hpp"
+#include "live_ridges.hpp"
 #include "ridgeway/common/clock.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/mapping/voxel_range.hpp"
-#include "ridgeway/skeleton/gvd.hpp"
 #include "roadmap/build_stages.hpp"
 
 namespace ridgeway {
 namespace {
 
 using detail::LiveField;
+using detail::LiveRidges;
 using detail::seconds_now;
+
+/// What follows the map.
+struct Live {
+  LiveField field;
+  LiveRidges ridges;
+};
 
 /// Times one step after the other.
 class Lap {
@@ -74,7 +80,7 @@ struct LiveRoadmap::State {
   TsdfFusion fusion;
   std::uint64_t frames = 0;          // that were fused
   std::vector<VoxelChange> pending;  // that fusion has told, and no update has taken in
-  std::optional<LiveField> field;    // none before the first update
+  std::optional<Live> now;           // none before the first update
   bool is_stale = false;             // the map is right, distances are not
   std::uint64_t version = 0;
   mutable std::mutex mutex;  // of what follows
@@ -103,20 +109,19 @@ struct LiveRoadmap::State {
   /// Brings all up to date; `first`: the map's origin if it has none.
   void update(std::span<const VoxelChange> changes, const VoxelIndex& first, UpdateReport& report) {
     Lap all;
-    if (field && is_stale) {
-      field = remade();
+    if (now && is_stale) {
+      now = remade();
       is_stale = false;
     }
-    const bool is_first = !field;
-    if (is_first)
-      field.emplace(config.fusion.voxel_size, config.origin.value_or(first), esdf_config());
+    const bool is_first = !now;
+    if (is_first) now = nothing(config.origin.value_or(first));
     try {
       bring_up_to_date(changes, report);
     } catch (...) {
       if (is_first) {
-        field.reset();
+        now.reset();
       } else {
-        undo_changes(*field);
+        undo_changes(now->field);
         is_stale = true;
       }
       throw;
@@ -128,59 +133,89 @@ struct LiveRoadmap::State {
 
   void bring_up_to_date(std::span<const VoxelChange> changes, UpdateReport& report) {
     Lap lap;
-    const std::uint32_t blocks = field->esdf.layout.block_count();
-    apply_changes(*field, changes);
+    LiveField& field = now->field;
+    const std::uint32_t blocks = field.esdf.layout.block_count();
+    apply_changes(field, changes);
     report.map_seconds = lap.seconds();
-    report.changed_voxels = field->before.size();
-    report.flipped_voxels = field->flipped.count();
-    report.added_blocks = field->esdf.layout.block_count() - blocks;
+    report.changed_voxels = field.before.size();
+    report.flipped_voxels = field.flipped.count();
+    report.added_blocks = field.esdf.layout.block_count() - blocks;
     if (report.changed_voxels == 0) return;
+    const bool follows =
+        config.build.unknown == UnknownPolicy::kObstacle && !config.build.basis_point_edges;
     // Blocks in which nothing is known any more are none of the map's.
-    const bool is_whole =
-        std::find(field->known.begin(), field->known.end(), 0) == field->known.end();
-    std::optional<LiveField> other;
+    report.in_batch =
+        !follows || std::find(field.known.begin(), field.known.end(), 0) != field.known.end();
+    std::optional<Live> other;
     std::shared_ptr<const Roadmap> next;
-    if (config.build.unknown == UnknownPolicy::kIgnore) {
-      // Pockets of free space are filled, small ones: whether one is may change from far away.
-      report.in_batch = true;
-      next = built_on(detail::distances_of(map_of(*field), config.build), lap, report);
+    if (!follows) {
+      next = built_in_batch(lap, report);
+    } else if (report.in_batch) {
+      other = remade();
+      next = built_on(*other, lap, report);
     } else {
-      if (!is_whole) other = remade();
-      report.in_batch = !is_whole;
-      LiveField& now = other ? *other : *field;
-      if (is_whole) update_distances(now);
-      report.changed_distances = now.changed.count();
-      report.changed_blocks = now.changed.slots.size();
-      report.build.seconds.esdf = lap.seconds();
-      EsdfMap copy = now.esdf;
-      report.copy_seconds = lap.seconds();
-      next = built_on(std::move(copy), lap, report);
+      update_distances(field);
+      next = built_on(*now, lap, report);
     }
     const std::lock_guard lock(mutex);
     snapshot = std::move(next);
     ++version;
-    if (other) field = std::move(other);
+    if (other) now = std::move(other);
   }
 
-  /// The same map in a new field, to which it is one change.
-  LiveField remade() const {
-    const OccupancyMap map = map_of(*field);
-    LiveField other(map.voxel_size, map.origin, esdf_config());
-    apply_changes(other, all_of(map));
-    update_distances(other);
+  /// A map without blocks.
+  Live nothing(const VoxelIndex& origin) const {
+    return {LiveField(config.fusion.voxel_size, origin,
+                      {config.build.unknown, config.build.max_distance}),
+            {.radius = config.build.min_clearance, .config = {.theta = config.build.theta}}};
+  }
+
+  /// The same map in fields of their own, to which it is one change.
+  Live remade() const {
+    Live other = nothing(now->field.esdf.origin);
+    apply_changes(other.field, all_of(map_of(now->field)));
+    update_distances(other.field);
     return other;
   }
 
-  std::shared_ptr<const Roadmap> built_on(EsdfMap esdf, Lap& lap, UpdateReport& report) const {
+  /// The stages that follow once the distances are right.
+  std::shared_ptr<const Roadmap> built_on(Live& live, Lap& lap, UpdateReport& report) const {
+    BuildReport& build = report.build;
+    const LiveField& field = live.field;
+    report.changed_distances = field.changed.count();
+    report.changed_blocks = field.changed.slots.size();
+    build.allocated_voxels = field.esdf.layout.voxel_count();
+    build.seconds.esdf = lap.seconds();
+    update_ridges(live.ridges, field);
+    build.traversable_voxels = live.ridges.traversable.count();
+    build.gvd_voxels = live.ridges.gvd.count();
+    build.edge_voxels = live.ridges.thick_edges.count();
+    build.seconds.gvd = lap.seconds();
+    if (build.traversable_voxels == 0) return nullptr;
     BuildResult result;
+    result.report = build;
+    result.roadmap.esdf = field.esdf;
+    result.roadmap.min_clearance = live.ridges.radius;
+    VoxelMask edges = live.ridges.edges;
+    report.copy_seconds = lap.seconds();
+    const Progress none;
+    detail::StageClock clock(none);
+    detail::build_on_edges(live.ridges.traversable, std::move(edges), config.build, result, clock);
+    build = result.report;
+    return std::make_shared<const Roadmap>(std::move(result.roadmap));
+  }
+
+  /// Where unknown space is ignored, pockets of free space are filled: whether one is small enough
+  /// may change from far away.
+  std::shared_ptr<const Roadmap> built_in_batch(Lap& lap, UpdateReport& report) const {
+    BuildResult result;
+    result.roadmap.esdf = detail::distances_of(map_of(now->field), config.build);
     result.roadmap.min_clearance = config.build.min_clearance;
-    result.roadmap.esdf = std::move(esdf);
-    result.report = report.build;
-    const VoxelMask traversable =
-        traversable_voxels(result.roadmap.esdf, config.build.min_clearance);
+    const EsdfMap& esdf = result.roadmap.esdf;
+    const VoxelMask traversable = traversable_voxels(esdf, config.build.min_clearance);
     result.report.traversable_voxels = traversable.count();
-    result.report.allocated_voxels = result.roadmap.esdf.layout.voxel_count();
-    result.report.seconds.esdf += lap.seconds();
+    result.report.allocated_voxels = esdf.layout.voxel_count();
+    result.report.seconds.esdf = lap.seconds();
     const Progress none;
     detail::StageClock clock(none);
     const bool has_any = result.report.traversable_voxels > 0;
@@ -210,7 +245,7 @@ UpdateReport LiveRoadmap::integrate(std::span<const Point> points,
 UpdateReport LiveRoadmap::set_voxels(std::span<const VoxelChange> changes) {
   State& s = *state_;
   validate_changes(changes,
-                   s.field ? s.field->esdf.origin : s.config.origin.value_or(VoxelIndex{}));
+                   s.now ? s.now->field.esdf.origin : s.config.origin.value_or(VoxelIndex{}));
   UpdateReport report;
   s.update(changes, {}, report);
   return report;
@@ -223,7 +258,7 @@ std::shared_ptr<const Roadmap> LiveRoadmap::snapshot() const {
 
 OccupancyMap LiveRoadmap::map() const {
   const State& s = *state_;
-  if (s.field) return map_of(*s.field);
+  if (s.now) return map_of(s.now->field);
   OccupancyMap map;
   map.voxel_size = s.config.fusion.voxel_size;
   map.origin = s.config.origin.value_or(VoxelIndex{});
