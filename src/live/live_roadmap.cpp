@@ -73,15 +73,20 @@ void LiveConfig::validate() const {
 }
 
 struct LiveRoadmap::State {
-  explicit State(const LiveConfig& given)
-      : config(given), fusion((given.validate(), given.fusion)) {}
+  explicit State(const LiveConfig& given) : config(given), fusion(undoable(given)) {}
+
+  static FusionConfig undoable(const LiveConfig& given) {
+    given.validate();
+    FusionConfig fusion = given.fusion;
+    fusion.can_undo = true;
+    return fusion;
+  }
 
   const LiveConfig config;
   TsdfFusion fusion;
-  std::uint64_t frames = 0;          // that were fused
-  std::vector<VoxelChange> pending;  // that fusion has told, and no update has taken in
-  std::optional<Live> now;           // none before the first update
-  bool is_stale = false;             // the map is right, distances are not
+  std::uint64_t frames = 0;  // that were fused
+  std::optional<Live> now;   // none before the first update
+  bool is_stale = false;     // the map is right, distances are not
   std::uint64_t version = 0;
   mutable std::mutex mutex;  // of what follows
   std::shared_ptr<const Roadmap> snapshot;
@@ -94,15 +99,18 @@ struct LiveRoadmap::State {
     UpdateReport report;
     try {
       fuse();
-      ++frames;
-      const std::vector<VoxelChange> told = fusion.take_changes();
-      pending.insert(pending.end(), told.begin(), told.end());
+      const std::vector<VoxelChange> changes = fusion.find_changes();
       report.fusion_seconds = lap.seconds();
-      update(pending, voxel_at(sensor_world, config.fusion.voxel_size), report);
+      update(changes, voxel_at(sensor_world, config.fusion.voxel_size), report);
     } catch (const InputError& error) {
+      fusion.undo();
       throw error.within("frame " + std::to_string(frames + 1));
+    } catch (...) {
+      fusion.undo();
+      throw;
     }
-    pending.clear();
+    fusion.accept_changes();
+    ++frames;
     return report;
   }
 

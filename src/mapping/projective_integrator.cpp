@@ -229,6 +229,7 @@ void integrate_projective(const DepthSurfaces& surfaces, const PinholeCamera& ca
   std::vector<TsdfBlock*> targets;
   targets.reserve(seen.size());
   for (const BlockIndex& index : seen) targets.push_back(&blocks.find_or_add(index));
+  if (config.can_undo) blocks.keep_touched();
   const BlockUpdate update(surfaces, camera, T_map_camera, config);
   parallel_for_each_index(seen.size(), [&](std::size_t i) { update.run(seen[i], *targets[i]); });
 }

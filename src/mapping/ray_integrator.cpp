@@ -204,6 +204,7 @@ void integrate_rays(const std::vector<SurfacePoint>& points, const Point& sensor
   std::vector<TsdfBlock*> targets;
   targets.reserve(passages.blocks.size());
   for (const BlockIndex& index : passages.blocks) targets.push_back(&blocks.find_or_add(index));
+  if (config.can_undo) blocks.keep_touched();
   parallel_for_each_index(passages.blocks.size(), [&](std::size_t i) {
     for (const std::uint32_t ray : passages.rays[i])
       update(rays[ray], sensor, passages.blocks[i], config, *targets[i]);

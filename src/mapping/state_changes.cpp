@@ -10,18 +10,21 @@
 namespace ridgeway::detail {
 namespace {
 
-/// Marks where the robot was; the blocks around are there.
+/// Marks where the robot was; the blocks around are among those found.
 void clear_around(const Point& place, const TsdfBlocks& tsdf, const FusionConfig& config,
-                  std::vector<ReportedStates::Block>& blocks) {
+                  AcceptedStates& states) {
   for_each_in_sphere(place, config.clear_radius, config.voxel_size, [&](const VoxelIndex& v) {
+    const auto found = std::lower_bound(
+        states.found.begin(), states.found.end(), block_of(v),
+        [&](std::uint32_t number, const BlockIndex& b) { return tsdf.index(number) < b; });
     const int local = local_of(v);
-    blocks[tsdf.number_of(block_of(v))].cleared[static_cast<std::size_t>(local / 64)] |=
-        1ull << (local % 64);
+    states.now[static_cast<std::size_t>(found - states.found.begin())]
+        .cleared[static_cast<std::size_t>(local / 64)] |= 1ull << (local % 64);
   });
 }
 
 /// Brings what was said of a block up to date; the voxels of which it was something else.
-VoxelMask::Block update(const TsdfBlock& tsdf, ReportedStates::Block& said) {
+VoxelMask::Block update(const TsdfBlock& tsdf, AcceptedStates::Block& said) {
   const auto at = [](int v) { return static_cast<std::size_t>(v); };
   const VoxelMask::Block known = block_where([&](int v) { return tsdf.weight[at(v)] > 0.0f; });
   const VoxelMask::Block before = block_where([&](int v) { return tsdf.distance[at(v)] > 0.0f; });
@@ -38,37 +41,42 @@ VoxelMask::Block update(const TsdfBlock& tsdf, ReportedStates::Block& said) {
 
 }  // namespace
 
-std::vector<VoxelChange> ReportedStates::take(TsdfBlocks& tsdf, const VoxelIndex& origin,
+std::vector<VoxelChange> AcceptedStates::find(const TsdfBlocks& tsdf, const VoxelIndex& origin,
                                               const std::vector<Point>& all_places,
                                               const FusionConfig& config) {
-  std::vector<std::uint32_t> touched = tsdf.touched();
-  std::sort(touched.begin(), touched.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return tsdf.index(a) < tsdf.index(b); });
-  std::vector<VoxelMask::Block> changed(touched.size());
   blocks.resize(tsdf.size());
-  for (; places < all_places.size(); ++places)
-    if (config.clear_radius > 0.0) clear_around(all_places[places], tsdf, config, blocks);
-  std::vector<Block> now(touched.size());  // until nothing can fail
+  now.reserve(tsdf.touched().size());
+  found = tsdf.touched();
+  std::sort(found.begin(), found.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return tsdf.index(a) < tsdf.index(b); });
+  now.clear();
+  for (const std::uint32_t number : found) now.push_back(blocks[number]);
+  if (config.clear_radius > 0.0)
+    for (std::size_t i = places; i < all_places.size(); ++i)
+      clear_around(all_places[i], tsdf, config, *this);
+  places_now = all_places.size();
+  std::vector<VoxelMask::Block> changed(found.size());
   parallel_for_each_index(
-      touched.size(),
-      [&](std::size_t i) {
-        now[i] = blocks[touched[i]];
-        changed[i] = update(tsdf.block(touched[i]), now[i]);
-      },
-      16);
+      found.size(), [&](std::size_t i) { changed[i] = update(tsdf.block(found[i]), now[i]); }, 16);
   std::vector<VoxelChange> changes;
-  for (std::size_t i = 0; i < touched.size(); ++i)
+  for (std::size_t i = 0; i < found.size(); ++i)
     for (std::size_t z = 0; z < kBlockSide; ++z)
       for (std::uint64_t bits = changed[i][z]; bits != 0; bits &= bits - 1) {
         const int place = std::countr_zero(bits);
-        const VoxelIndex own = voxel_of(tsdf.index(touched[i]), static_cast<int>(64 * z) + place);
-        changes.push_back({origin + own, (now[i].free[z] >> place & 1) != 0
-                                             ? VoxelState::kFree
-                                             : VoxelState::kOccupied});
+        const VoxelIndex own = voxel_of(tsdf.index(found[i]), static_cast<int>(64 * z) + place);
+        const VoxelState state = (now[i].free[z] >> place & 1) != 0    ? VoxelState::kFree
+                                 : (now[i].known[z] >> place & 1) != 0 ? VoxelState::kOccupied
+                                                                       : VoxelState::kUnknown;
+        changes.push_back({origin + own, state});
       }
-  for (std::size_t i = 0; i < touched.size(); ++i) blocks[touched[i]] = now[i];
-  tsdf.forget_touched();
   return changes;
+}
+
+void AcceptedStates::accept(TsdfBlocks& tsdf) noexcept {
+  for (std::size_t i = 0; i < found.size(); ++i) blocks[found[i]] = now[i];
+  found.clear();
+  places = places_now;
+  tsdf.forget_touched();
 }
 
 }  // namespace ridgeway::detail

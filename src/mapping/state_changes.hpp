@@ -22,18 +22,23 @@ void for_each_in_sphere(const Point& place, double radius, double voxel_size, co
           body(VoxelIndex{x, y, z});
 }
 
-/// What was said of the states of a fusion's voxels, to say what is new. `cleared`: where the robot
-/// has been, which is free.
-struct ReportedStates {
+/// What was accepted of the states of a fusion's voxels, to tell what is new. `cleared`: where the
+/// robot has been, which is free.
+struct AcceptedStates {
   struct Block {
     VoxelMask::Block known{}, free{}, cleared{};
   };
   std::vector<Block> blocks;  ///< by number
   std::size_t places = 0;     ///< that `cleared` has
 
-  /// The changes since the last call, see TsdfFusion::take_changes; `all_places`: of the sensor.
-  std::vector<VoxelChange> take(TsdfBlocks& tsdf, const VoxelIndex& origin,
+  std::vector<std::uint32_t> found;  ///< blocks that were looked at, by index, and what they are
+  std::vector<Block> now;
+  std::size_t places_now = 0;
+
+  /// See TsdfFusion::find_changes; `all_places`: of the sensor.
+  std::vector<VoxelChange> find(const TsdfBlocks& tsdf, const VoxelIndex& origin,
                                 const std::vector<Point>& all_places, const FusionConfig& config);
+  void accept(TsdfBlocks& tsdf) noexcept;
 };
 
 }  // namespace ridgeway::detail

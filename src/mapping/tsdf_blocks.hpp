@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "memory_limit.hpp"
+#include "ridgeway/common/parallel.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
 
 namespace ridgeway::detail {
@@ -57,15 +58,26 @@ class TsdfBlocks {
   std::size_t size() const { return blocks_.size(); }
   const BlockIndex& index(std::uint32_t number) const { return indices_[number]; }
   const TsdfBlock& block(std::uint32_t number) const { return blocks_[number]; }
-  /// Number of a block that is there.
-  std::uint32_t number_of(const BlockIndex& index) const { return table_.at(index); }
 
   /// Numbers of the blocks that were asked for since these were last forgotten, each once.
   const std::vector<std::uint32_t>& touched() const { return touched_; }
-  void forget_touched() {
+  void forget_touched() noexcept {
     for (const std::uint32_t number : touched_) is_touched_[number] = false;
     touched_.clear();
   }
+
+  /// Keeps what the touched blocks hold, before they are written to, for restore().
+  void keep_touched() {
+    kept_.resize(touched_.size());
+    parallel_for_each_index(
+        kept_.size(), [&](std::size_t i) { kept_[i] = blocks_[touched_[i]]; }, 16);
+    kept_numbers_ = touched_;
+  }
+  void restore() noexcept {
+    for (std::size_t i = 0; i < kept_numbers_.size(); ++i) blocks_[kept_numbers_[i]] = kept_[i];
+    drop_kept();
+  }
+  void drop_kept() noexcept { kept_numbers_.clear(); }
 
   /// Copies all into a map, on a layout of its own.
   void copy_to(TsdfMap& map) const {
@@ -98,6 +110,8 @@ class TsdfBlocks {
   std::vector<BlockIndex> indices_;
   std::vector<bool> is_touched_;
   std::vector<std::uint32_t> touched_;
+  std::vector<TsdfBlock> kept_;
+  std::vector<std::uint32_t> kept_numbers_;
 };
 
 /// Throws InputError unless there is memory for more blocks, here and in the map made of them.

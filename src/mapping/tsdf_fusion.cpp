@@ -106,7 +106,8 @@ struct TsdfFusion::State {
   std::optional<VoxelIndex> origin;  // the voxel that held the sensor at first
   detail::TsdfBlocks blocks;
   std::vector<Point> places;  // of the sensor
-  detail::ReportedStates reported;
+  detail::AcceptedStates accepted;
+  bool is_undoable = false;
 
   /// A pose is recorded only once its measurements are in: what throws on the way leaves no trace
   /// of it, nor of the origin that the first pose gives. `measure` adds the measurements from a
@@ -123,10 +124,13 @@ struct TsdfFusion::State {
     if (places.size() == places.capacity()) places.reserve(2 * places.size() + 1);
     Eigen::Isometry3d T_map_sensor = T_world_sensor;
     T_map_sensor.translation() = place;
+    is_undoable = false;
+    blocks.drop_kept();
     measure(T_map_sensor);
     for (const BlockIndex& block : around) blocks.find_or_add(block);
     places.push_back(place);
     origin = first;
+    is_undoable = config.can_undo;
   }
 
   /// Throws InputError where what a sensor can see lies too far from a frame's zero.
@@ -201,9 +205,23 @@ TsdfMap TsdfFusion::map() const {
   return map;
 }
 
-std::vector<VoxelChange> TsdfFusion::take_changes() {
+std::vector<VoxelChange> TsdfFusion::find_changes() {
   State& s = *state_;
-  return s.reported.take(s.blocks, s.origin.value_or(VoxelIndex{}), s.places, s.config);
+  return s.accepted.find(s.blocks, s.origin.value_or(VoxelIndex{}), s.places, s.config);
+}
+
+void TsdfFusion::accept_changes() noexcept {
+  State& s = *state_;
+  s.accepted.accept(s.blocks);
+  s.is_undoable = false;
+}
+
+void TsdfFusion::undo() noexcept {
+  State& s = *state_;
+  if (!std::exchange(s.is_undoable, false)) return;
+  s.blocks.restore();
+  s.places.pop_back();
+  if (s.places.empty()) s.origin.reset();
 }
 
 OccupancyMap occupancy_of(const TsdfMap& tsdf) {

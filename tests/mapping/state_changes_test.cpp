@@ -44,13 +44,14 @@ void expect_told_after_every_scan(const FusionConfig& config) {
   std::uint64_t seed = 0;
   for (const Eigen::Isometry3d& pose : flight()) {
     fusion.integrate(render_depth(world, sensor, pose, seed++), sensor.camera, pose);
-    for (const VoxelChange& change : fusion.take_changes()) {
+    for (const VoxelChange& change : fusion.find_changes()) {
       const auto [place, is_new] = told.try_emplace(change.voxel, VoxelState::kUnknown);
       EXPECT_NE(place->second, change.state);
       place->second = change.state;
     }
     EXPECT_TRUE(told == states_of(fusion));
-    EXPECT_TRUE(fusion.take_changes().empty());
+    fusion.accept_changes();
+    EXPECT_TRUE(fusion.find_changes().empty());
   }
   EXPECT_GT(told.size(), 10000u);
 }
@@ -64,6 +65,35 @@ TEST(StateChanges, CountWhereTheRobotHasBeen) {
   expect_told_after_every_scan({.voxel_size = 0.2, .clear_radius = 0.7});
 }
 
+TEST(StateChanges, OfMeasurementsThatAreTakenBackAreNone) {
+  const World world = make_house();
+  const DepthSensor sensor = small_sensor();
+  for (const Integrator integrator : {Integrator::kProjective, Integrator::kRayCasting}) {
+    const FusionConfig config{
+        .voxel_size = 0.2, .clear_radius = 0.7, .integrator = integrator, .can_undo = true};
+    TsdfFusion fusion(config), plain(config);
+    for (const Eigen::Isometry3d& pose : flight()) {
+      const DepthImage image = render_depth(world, sensor, pose, 1);
+      fusion.integrate(image, sensor.camera, pose);
+      EXPECT_FALSE(fusion.find_changes().empty());
+      fusion.undo();
+      fusion.undo();  // does nothing
+      EXPECT_TRUE(fusion.find_changes().empty());
+      EXPECT_TRUE(states_of(fusion) == states_of(plain));
+      fusion.integrate(image, sensor.camera, pose);
+      plain.integrate(image, sensor.camera, pose);
+      EXPECT_TRUE(fusion.find_changes() == plain.find_changes());
+      fusion.accept_changes();
+      plain.accept_changes();
+      // What shows nothing overwrites nothing.
+      fusion.integrate(DepthImage{80, 60, std::vector<float>(80 * 60)}, sensor.camera, pose);
+      fusion.undo();
+      EXPECT_TRUE(fusion.map().distance.values() == plain.map().distance.values());
+      EXPECT_TRUE(fusion.map().weight.values() == plain.map().weight.values());
+    }
+  }
+}
+
 TEST(StateChanges, ComeInTheOrderOfBlocksOnAnyNumberOfThreads) {
   const World world = make_house();
   const DepthSensor sensor = small_sensor();
@@ -73,7 +103,8 @@ TEST(StateChanges, ComeInTheOrderOfBlocksOnAnyNumberOfThreads) {
       std::vector<VoxelChange> all;
       for (const Eigen::Isometry3d& pose : flight()) {
         fusion.integrate(render_depth(world, sensor, pose, 1), sensor.camera, pose);
-        const std::vector<VoxelChange> some = fusion.take_changes();
+        const std::vector<VoxelChange> some = fusion.find_changes();
+        fusion.accept_changes();
         const VoxelIndex origin = voxel_at(flight().front().translation(), 0.2);
         const auto key = [&](const VoxelChange& c) {
           return std::pair(block_of(c.voxel - origin), local_of(c.voxel - origin));

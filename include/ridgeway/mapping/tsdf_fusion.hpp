@@ -61,6 +61,7 @@ struct FusionConfig {
   double max_weight = 1e4;    ///< a voxel never knows better: old measurements fade
   double clear_radius = 0.0;  ///< around every pose: the robot was there, so it is free; 0: none
   Integrator integrator = Integrator::kProjective;
+  bool can_undo = false;  ///< keeps what the last measurements overwrote, see TsdfFusion::undo
 
   /// Whether a measurement at a range, metres along the ray, is taken; none is that is no number.
   bool takes(double range) const { return range > 0.0 && range >= min_range && range <= max_range; }
@@ -95,10 +96,16 @@ class TsdfFusion {
   /// All that was fused so far.
   TsdfMap map() const;
 
-  /// The voxels of the lattice whose state, as occupancy_of(map()) has it, is another than at the
-  /// last call, with what it is; at first they all are unknown. By block in (z, y, x) order, then
-  /// by voxel. Takes time linear in the blocks that measurements since then have touched.
-  std::vector<VoxelChange> take_changes();
+  /// The voxels of the lattice whose state, as occupancy_of(map()) has it, is another than when
+  /// changes were last accepted, with what it is; at first they all are unknown. By block in
+  /// (z, y, x) order, then by voxel. Takes time linear in the blocks that were touched since then.
+  std::vector<VoxelChange> find_changes();
+  /// Accepts what find_changes has found, if nothing was fused since.
+  void accept_changes() noexcept;
+
+  /// Takes back the last measurements, once, if they can be (FusionConfig::can_undo) and their
+  /// changes were not accepted yet.
+  void undo() noexcept;
 
  private:
   struct State;
