@@ -6,15 +6,14 @@
 #include <cmath>
 #include <utility>
 
+#include "common/random.hpp"
+#include "common/require.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/random.hpp"
-#include "ridgeway/common/require.hpp"
 #include "ridgeway/mapping/world_map.hpp"
 #include "ridgeway/planning/plan.hpp"
-#include "ridgeway/sensing/poses.hpp"
+#include "ridgeway/skeleton/diagram.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
-#include "ridgeway/skeleton/kernel.hpp"
-#include "ridgeway/skeleton/thinning.hpp"
+#include "sensing/poses.hpp"
 
 namespace ridgeway {
 namespace {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "ridgeway/esdf/esdf_map.hpp"
+#include "ridgeway/esdf/esdf.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -44,7 +44,7 @@ unsigned bits_on_line(const VoxelMask::Block& block, int axis, int line) {
 SweepReach reach_of(double farthest) {
   const double reach = std::min(farthest, static_cast<double>(kFarthestSite));
   return {static_cast<int>(std::ceil(reach)) + 1,
-          static_cast<std::uint32_t>(squared_threshold(reach, 1.0) * (1.0 + 4e-9))};
+          static_cast<std::uint32_t>(least_clearance(reach, 1.0).value * (1.0 + 4e-9))};
 }
 
 std::vector<std::vector<std::uint32_t>> by_lane(const BlockLayout& layout,

@@ -9,7 +9,7 @@
 
 #include "marked_voxels.hpp"
 #include "ridgeway/esdf/esdf.hpp"
-#include "ridgeway/mapping/voxel_change.hpp"
+#include "ridgeway/mapping/occupancy_map.hpp"
 
 namespace ridgeway::detail {
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/voxel/cube_gather.hpp"
 #include "skeleton/block_ridges.hpp"
 #include "skeleton/thin_among.hpp"
+#include "voxel/cube_gather.hpp"
 
 namespace ridgeway::detail {
 namespace {

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "common/clock.hpp"
 #include "live_ridges.hpp"
-#include "ridgeway/common/clock.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/mapping/voxel_range.hpp"
+#include "ridgeway/mapping/occupancy_map.hpp"
 #include "roadmap/build_stages.hpp"
 
 namespace ridgeway {

@@ -192,7 +192,7 @@ class BlockUpdate {
     if (value <= -behind_ || (value >= truncation_ && !config_.carve)) return;
     const float gain = gain_of(value, config_) *
                        std::max(facing, static_cast<float>(kLeastFacing)) / (p.z() * p.z());
-    block.add(voxel, std::min(value, truncation_), gain, static_cast<float>(config_.max_weight));
+    block.add(voxel, std::min(value, truncation_), gain, config_);
   }
 
   /// Whether the surface reaches as far as the foot of a perpendicular to its plane: seen at a

@@ -188,8 +188,7 @@ void update(const Ray& ray, const Point& sensor, const BlockIndex& index,
          }
          if (value >= config.truncation && !config.carve) return;
          block.add(local_of(voxel), static_cast<float>(std::min(value, config.truncation)),
-                   static_cast<float>(gain) * gain_of(static_cast<float>(value), config),
-                   static_cast<float>(config.max_weight));
+                   static_cast<float>(gain) * gain_of(static_cast<float>(value), config), config);
        });
 }
 

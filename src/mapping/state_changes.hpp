@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "ridgeway/mapping/voxel_change.hpp"
+#include "ridgeway/mapping/occupancy_map.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
 #include "tsdf_blocks.hpp"
 

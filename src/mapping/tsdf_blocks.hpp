@@ -27,17 +27,34 @@ inline float gain_of(float value, const FusionConfig& config) {
   return std::max(1.0f + value / static_cast<float>(config.depth_behind), 0.0f);
 }
 
-/// Distance and weight of the voxels of one block, x fastest.
+/// Distance and weight of the voxels of one block, x fastest, and how many measurements in a row
+/// have spoken against each.
 struct TsdfBlock {
   std::array<float, kBlockVoxels> distance{};
   std::array<float, kBlockVoxels> weight{};
+  std::array<std::uint8_t, kBlockVoxels> doubts{};
 
-  void add(int voxel, float value, float gain, float most) {
+  void add(int voxel, float value, float gain, const FusionConfig& config) {
     if (gain <= 0.0f) return;
+    const auto most = static_cast<float>(config.max_weight);
     float& w = weight[static_cast<std::size_t>(voxel)];
     float& d = distance[static_cast<std::size_t>(voxel)];
+    if (config.forget_after > 0 && is_forgotten(voxel, value, config)) w = 0.0f;
     d += gain / (w + gain) * (value - d);  // equal values stay as they are, to the bit
     w = std::min(w + gain, most);
+  }
+
+ private:
+  /// Counts a measurement; whether it is the last that it takes for a voxel to be forgotten.
+  bool is_forgotten(int voxel, float value, const FusionConfig& config) {
+    const auto v = static_cast<std::size_t>(voxel);
+    const bool was_free = distance[v] > 0.0f, is_free = value > 0.0f;
+    const bool speaks_against = weight[v] > 0.0f && was_free != is_free &&
+                                std::abs(value) >= 0.5f * static_cast<float>(config.voxel_size);
+    doubts[v] = speaks_against ? static_cast<std::uint8_t>(doubts[v] + 1) : std::uint8_t{0};
+    if (doubts[v] < config.forget_after) return false;
+    doubts[v] = 0;
+    return true;
   }
 };
 

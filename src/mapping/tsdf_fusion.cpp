@@ -96,6 +96,8 @@ void FusionConfig::validate() const {
           "depth_behind", depth_behind,
           "give a voxel's length or more, to max_range, or 0 for two voxels");
   require(max_weight > 0.0, "max_weight", max_weight, "give a number above 0");
+  require(forget_after >= 0 && forget_after <= 255, "forget_after", forget_after,
+          "give 1 to 255 measurements, or 0 for never");
   require(clear_radius >= 0.0 && clear_radius <= max_range, "clear_radius", clear_radius,
           "give metres, 0 for none");
 }

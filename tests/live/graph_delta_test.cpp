@@ -30,7 +30,7 @@ std::vector<VoxelChange> box(const VoxelIndex& low, const VoxelIndex& high, Voxe
 
 /// Two rooms of 4 x 4 x 2 m, a wall between them with a door of 1 m.
 LiveRoadmap two_rooms() {
-  LiveRoadmap live({.build = {.min_clearance = kRadius, .taut_pairs = 100}});
+  LiveRoadmap live({.build = {.min_clearance = kRadius, .tangent_pairs = 100}});
   std::vector<VoxelChange> changes = box({0, 0, 0}, {80, 39, 19}, VoxelState::kFree);
   for (const VoxelChange& wall : box({40, 0, 0}, {40, 39, 19}, VoxelState::kOccupied))
     if (wall.voxel.y < 10 || wall.voxel.y > 19) changes.push_back(wall);
@@ -51,7 +51,7 @@ TEST(GraphDelta, NamesTheVerticesThatCameAndWent) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
-    LiveRoadmap live({.build = {.min_clearance = 0.1, .taut_pairs = 0}});
+    LiveRoadmap live({.build = {.min_clearance = 0.1, .tangent_pairs = 0}});
     std::shared_ptr<const Roadmap> before;
     for (int step = 0; step < 8; ++step) {
       live.set_voxels(testing::random_changes(random, {-12, -9, -11}, {14, 12, 9}));

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/skeleton/thinning.hpp"
+#include "ridgeway/skeleton/gvd.hpp"
 #include "support/random_changes.hpp"
 
 namespace ridgeway {

@@ -8,12 +8,12 @@
 #include <limits>
 #include <random>
 
+#include "files/read_file.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/files/read_file.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
-#include "ridgeway/sensing/poses.hpp"
-#include "ridgeway/sensing/world_generators.hpp"
+#include "sensing/poses.hpp"
+#include "sensing/world_generators.hpp"
 #include "support/random_changes.hpp"
 #include "support/refusal.hpp"
 #include "support/temporary_folder.hpp"
@@ -39,7 +39,8 @@ std::string batch_bytes(const OccupancyMap& map, const BuildConfig& config) {
 }
 
 BuildConfig small_build(UnknownPolicy unknown, double max_distance) {
-  return {.min_clearance = 0.1, .unknown = unknown, .max_distance = max_distance, .taut_pairs = 40};
+  return {
+      .min_clearance = 0.1, .unknown = unknown, .max_distance = max_distance, .tangent_pairs = 40};
 }
 
 struct Sets {
@@ -127,7 +128,7 @@ std::vector<Scan> flight_through_house(std::size_t count) {
 
 LiveConfig house_config() {
   return {.fusion = {.voxel_size = 0.2, .clear_radius = 0.4},
-          .build = {.min_clearance = 0.3, .max_distance = 2.0, .taut_pairs = 200}};
+          .build = {.min_clearance = 0.3, .max_distance = 2.0, .tangent_pairs = 200}};
 }
 
 TEST(LiveRoadmap, OfEveryScanOfAFlightHasTheBytesOfABatchBuild) {

@@ -9,8 +9,8 @@
 
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/live/live_roadmap.hpp"
-#include "ridgeway/sensing/poses.hpp"
-#include "ridgeway/sensing/world_generators.hpp"
+#include "sensing/poses.hpp"
+#include "sensing/world_generators.hpp"
 #include "support/random_changes.hpp"
 
 namespace {
@@ -83,7 +83,7 @@ TEST(OutOfMemory, LeavesMapAndSnapshotAndWhatComesAfterAsTheyWere) {
   const PinholeCamera camera = small_sensor().camera;
   const LiveConfig config = {
       .fusion = {.voxel_size = 0.4, .clear_radius = 0.6},
-      .build = {.min_clearance = 0.3, .max_distance = 2.0, .taut_pairs = 20}};
+      .build = {.min_clearance = 0.3, .max_distance = 2.0, .tangent_pairs = 20}};
   const auto integrate = [&](LiveRoadmap& live, const Scan& scan) {
     live.integrate(scan.image, camera, scan.T_world_camera);
   };

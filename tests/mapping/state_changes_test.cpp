@@ -8,8 +8,8 @@
 
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
-#include "ridgeway/sensing/poses.hpp"
-#include "ridgeway/sensing/world_generators.hpp"
+#include "sensing/poses.hpp"
+#include "sensing/world_generators.hpp"
 
 namespace ridgeway {
 namespace {
@@ -90,6 +90,49 @@ TEST(StateChanges, OfMeasurementsThatAreTakenBackAreNone) {
       fusion.undo();
       EXPECT_TRUE(fusion.map().distance.values() == plain.map().distance.values());
       EXPECT_TRUE(fusion.map().weight.values() == plain.map().weight.values());
+    }
+  }
+}
+
+/// A wall 4 m ahead and, while it is there, a box before it.
+DepthImage wall_and_box(const DepthSensor& sensor, bool has_box, std::uint64_t seed) {
+  World world;
+  world.planes.push_back({-Eigen::Vector3d::UnitX(), -4.0});
+  if (has_box) world.boxes.push_back({{2.5, 0.0, 0.0}, {0.6, 1.0, 1.0}});
+  return render_depth(world, sensor, level_pose({0.0, 0.0, 0.0}, 0.0), seed);
+}
+
+/// Scans until a voxel's state is another, after it was seen a hundred times; -1: not in as many.
+int scans_until_changed(const FusionConfig& config, bool box_goes, const Point& place) {
+  constexpr int kScans = 100;
+  const DepthSensor sensor = small_sensor();
+  const Eigen::Isometry3d pose = level_pose({0.0, 0.0, 0.0}, 0.0);
+  TsdfFusion fusion(config);
+  const auto fuse = [&](bool has_box, int scan) {
+    const auto seed = static_cast<std::uint64_t>(scan);
+    fusion.integrate(wall_and_box(sensor, has_box, seed), sensor.camera, pose);
+  };
+  for (int scan = 0; scan < kScans; ++scan) fuse(box_goes, scan);
+  const VoxelIndex voxel = voxel_at(place, config.voxel_size);
+  const VoxelState before = states_of(fusion).at(voxel);
+  for (int scan = 0; scan < kScans; ++scan) {
+    fuse(!box_goes, kScans + scan);
+    if (states_of(fusion).at(voxel) != before) return scan + 1;
+  }
+  return -1;
+}
+
+TEST(StateChanges, ThatContradictAreTakenAfterAsManyScansAsAsked) {
+  // Just behind the face of the box, and just before it, where its face had long been free.
+  const Point behind(2.3, 0.05, 0.05);
+  for (const Integrator integrator : {Integrator::kProjective, Integrator::kRayCasting}) {
+    FusionConfig config{.integrator = integrator};
+    EXPECT_EQ(scans_until_changed(config, true, behind), -1);
+    config.forget_after = 8;
+    for (const bool box_goes : {true, false}) {
+      const int scans = scans_until_changed(config, box_goes, behind);
+      EXPECT_GE(scans, 1) << box_goes;
+      EXPECT_LE(scans, 8) << box_goes;
     }
   }
 }

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "ridgeway/mapping/voxel_change.hpp"
+#include "ridgeway/mapping/occupancy_map.hpp"
 
 namespace ridgeway::testing {
 

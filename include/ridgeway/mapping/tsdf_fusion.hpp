@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "ridgeway/mapping/occupancy_map.hpp"
-#include "ridgeway/mapping/voxel_change.hpp"
 #include "ridgeway/sensing/depth_camera.hpp"
 #include "ridgeway/sensing/solid_mesh.hpp"
 #include "ridgeway/voxel/voxel_field.hpp"
@@ -59,6 +58,10 @@ struct FusionConfig {
   double max_range = 10.0;    ///< and those farther
   bool carve = true;          ///< what lies before a surface becomes free, not only near it
   double max_weight = 1e4;    ///< a voxel never knows better: old measurements fade
+  /// Measurements in a row that find a voxel on the other side of the surface than it is taken to
+  /// be, by half a voxel or more, and it is taken as the last one finds it: what was moved is
+  /// forgotten after so many looks, however well it was known. 0: never, it fades.
+  int forget_after = 0;
   double clear_radius = 0.0;  ///< around every pose: the robot was there, so it is free; 0: none
   Integrator integrator = Integrator::kProjective;
   bool can_undo = false;  ///< keeps what the last measurements overwrote, see TsdfFusion::undo
