@@ -2,12 +2,17 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "ridgeway/voxel/voxel_mask.hpp"
 
 namespace ridgeway::detail {
+
+/// In place of a way along a line: there is none.
+inline constexpr std::int16_t kNoWay = std::numeric_limits<std::int16_t>::max();
 
 /// How far an obstacle counts: voxels along a line, and 4 d^2 at most.
 struct SweepReach {

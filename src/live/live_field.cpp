@@ -10,20 +10,26 @@
 namespace ridgeway::detail {
 namespace {
 
+Put compared(std::uint32_t before, std::uint32_t now) {
+  return now < before ? Put::kLowered : Put::kRaised;
+}
+
 /// What the sweep along x reads and writes.
 struct AlongX {
   static constexpr int kAxis = 0;
   LiveField& field;
 
   std::uint32_t cost(VoxelId id) const { return field.esdf.obstacle.test(id) ? 0 : kNoSite; }
-  bool write(VoxelId id, VoxelId, int along, std::uint32_t) const {
+  int way(VoxelId id) const { return field.in_line[id]; }
+  Put write(VoxelId id, VoxelId, int along, std::uint32_t) const {
     return put(id, static_cast<LineOffset>(along));
   }
-  bool write_none(VoxelId id) const { return put(id, kNoWay); }
+  Put write_none(VoxelId id) const { return put(id, kNoWay); }
 
  private:
-  bool put(VoxelId id, LineOffset offset) const {
-    return std::exchange(field.in_line[id], offset) != offset;
+  Put put(VoxelId id, LineOffset offset) const {
+    const LineOffset before = std::exchange(field.in_line[id], offset);
+    return before == offset ? Put::kSame : compared(line_cost(before), line_cost(offset));
   }
 };
 
@@ -32,19 +38,21 @@ struct AlongY {
   static constexpr int kAxis = 1;
   LiveField& field;
 
-  std::uint32_t cost(VoxelId id) const {
-    const LineOffset x = field.in_line[id];
-    return x == kNoWay ? kNoSite : quarter_squared(x);
+  std::uint32_t cost(VoxelId id) const { return line_cost(field.in_line[id]); }
+  int way(VoxelId id) const {
+    const PlaneOffset& o = field.in_plane[id];
+    return o.x == kNoWay ? kNoWay : o.y;
   }
-  bool write(VoxelId id, VoxelId from, int along, std::uint32_t) const {
+  Put write(VoxelId id, VoxelId from, int along, std::uint32_t) const {
     const LineOffset x = from == kNoVoxel ? LineOffset{0} : field.in_line[from];
     return put(id, {x, static_cast<std::int16_t>(along)});
   }
-  bool write_none(VoxelId id) const { return put(id, {kNoWay, 0}); }
+  Put write_none(VoxelId id) const { return put(id, {kNoWay, 0}); }
 
  private:
-  bool put(VoxelId id, const PlaneOffset& offset) const {
-    return !(std::exchange(field.in_plane[id], offset) == offset);
+  Put put(VoxelId id, const PlaneOffset& offset) const {
+    const PlaneOffset before = std::exchange(field.in_plane[id], offset);
+    return before == offset ? Put::kSame : compared(plane_cost(before), plane_cost(offset));
   }
 };
 
@@ -53,22 +61,21 @@ struct AlongZ {
   static constexpr int kAxis = 2;
   LiveField& field;
 
-  std::uint32_t cost(VoxelId id) const {
-    const PlaneOffset& o = field.in_plane[id];
-    return o.x == kNoWay ? kNoSite : quarter_squared(o.x) + quarter_squared(o.y);
+  std::uint32_t cost(VoxelId id) const { return plane_cost(field.in_plane[id]); }
+  int way(VoxelId id) const {
+    return field.esdf.squared[id] == kNoSite ? kNoWay : field.esdf.site[id].z;
   }
-  bool write(VoxelId id, VoxelId from, int along, std::uint32_t squared) const {
+  Put write(VoxelId id, VoxelId from, int along, std::uint32_t squared) const {
     const PlaneOffset o = from == kNoVoxel ? PlaneOffset{} : field.in_plane[from];
     return put(id, {o.x, o.y, static_cast<std::int16_t>(along)}, squared);
   }
-  bool write_none(VoxelId id) const { return put(id, {}, kNoSite); }
+  Put write_none(VoxelId id) const { return put(id, {}, kNoSite); }
 
  private:
-  bool put(VoxelId id, const SiteOffset& site, std::uint32_t squared) const {
-    const bool is_new = field.esdf.squared[id] != squared || !(field.esdf.site[id] == site);
-    field.esdf.squared[id] = squared;
-    field.esdf.site[id] = site;
-    return is_new;
+  Put put(VoxelId id, const SiteOffset& site, std::uint32_t squared) const {
+    const std::uint32_t before = std::exchange(field.esdf.squared[id], squared);
+    const bool is_same = std::exchange(field.esdf.site[id], site) == site && before == squared;
+    return is_same ? Put::kSame : compared(before, squared);
   }
 };
 
@@ -77,6 +84,7 @@ void mark_blocks(MarkedVoxels& marked, std::uint32_t first, std::uint32_t end) {
   std::vector<std::uint32_t> slots;
   for (std::uint32_t slot = first; slot < end; ++slot) {
     marked.voxels.block(slot).fill(~std::uint64_t{0});
+    marked.lowered.block(slot).fill(~std::uint64_t{0});
     slots.push_back(slot);
   }
   marked.name(slots);
@@ -96,7 +104,11 @@ void update_distances(LiveField& field) {
   };
   field.due.clear();
   for (const std::uint32_t slot : field.flipped.slots)
-    field.due.voxels.block(slot) = field.flipped.voxels.block(slot);
+    for (std::size_t z = 0; z < kBlockSide; ++z) {
+      const std::uint64_t flips = field.flipped.voxels.block(slot)[z];
+      field.due.voxels.block(slot)[z] = flips;
+      field.due.lowered.block(slot)[z] = flips & esdf.obstacle.block(slot)[z];
+    }
   field.due.name(field.flipped.slots);
   sweep(AlongX{field}, field.due, field.passed);
   sweep(AlongY{field}, field.passed, field.due);

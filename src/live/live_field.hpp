@@ -2,11 +2,12 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
-#include <limits>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "block_rows.hpp"
 #include "marked_voxels.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/mapping/occupancy_map.hpp"
@@ -22,7 +23,14 @@ struct PlaneOffset {
   std::int16_t y = 0;
   friend constexpr bool operator==(const PlaneOffset&, const PlaneOffset&) = default;
 };
-inline constexpr std::int16_t kNoWay = std::numeric_limits<std::int16_t>::max();
+
+/// 4 d^2 to it; kNoSite where there is none.
+constexpr std::uint32_t line_cost(LineOffset x) {
+  return x == kNoWay ? kNoSite : squared_halves(x);
+}
+constexpr std::uint32_t plane_cost(const PlaneOffset& o) {
+  return o.x == kNoWay ? kNoSite : squared_halves(o.x) + squared_halves(o.y);
+}
 
 /// A map that changes and the distance field that follows it: the field, and what the sweeps along
 /// x and y left, from which those along y and z go on. All fields are on `esdf.layout`; what is

@@ -4,13 +4,10 @@
 #include <algorithm>
 
 #include "live_field.hpp"
+#include "mapping/memory_limit.hpp"
 
 namespace ridgeway::detail {
 namespace {
-
-bool is_solid(const LiveField& field, VoxelState state) {
-  return state == VoxelState::kOccupied || (state == VoxelState::kUnknown && field.solid_outside());
-}
 
 void set_state(LiveField& field, VoxelId id, VoxelState state) {
   VoxelState& current = field.esdf.state[id];
@@ -18,14 +15,14 @@ void set_state(LiveField& field, VoxelId id, VoxelState state) {
   known = static_cast<std::uint16_t>(known + (state != VoxelState::kUnknown) -
                                      (current != VoxelState::kUnknown));
   current = state;
-  if (is_solid(field, state)) {
+  if (is_obstacle(state, field.esdf.unknown)) {
     field.esdf.obstacle.set(id);
   } else {
     field.esdf.obstacle.reset(id);
   }
 }
 
-/// Blocks that the layout lacks, in the order in which they come.
+/// Blocks that the layout lacks.
 std::vector<BlockIndex> missing_blocks(const LiveField& field,
                                        std::span<const VoxelChange> changes) {
   std::vector<BlockIndex> missing;
@@ -36,6 +33,8 @@ std::vector<BlockIndex> missing_blocks(const LiveField& field,
     if (finder.find_block(block) != BlockLayout::kNoBlock) continue;
     if (missing.empty() || missing.back() != block) missing.push_back(block);
   }
+  std::sort(missing.begin(), missing.end());
+  missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
   return missing;
 }
 
@@ -73,8 +72,10 @@ void apply_changes(LiveField& field, std::span<const VoxelChange> changes) {
   field.before.clear();
   field.before.reserve(changes.size());
   field.flipped.clear();
-  if (const std::vector<BlockIndex> missing = missing_blocks(field, changes); !missing.empty())
+  if (const std::vector<BlockIndex> missing = missing_blocks(field, changes); !missing.empty()) {
+    require_memory_for_blocks(static_cast<double>(missing.size()), kPipelineBytesPerVoxel, "map");
     add_blocks(field, missing);
+  }
   VoxelFinder finder(field.esdf.layout);
   std::vector<std::uint32_t> slots;
   for (const VoxelChange& change : changes) {
@@ -83,7 +84,8 @@ void apply_changes(LiveField& field, std::span<const VoxelChange> changes) {
     const VoxelState before = field.esdf.state[id];
     field.before.emplace_back(id, before);
     set_state(field, id, change.state);
-    if (is_solid(field, before) == is_solid(field, change.state)) continue;
+    if (is_obstacle(before, field.esdf.unknown) == is_obstacle(change.state, field.esdf.unknown))
+      continue;
     const std::uint32_t slot = id / kBlockVoxels;
     if (slots.empty() || slots.back() != slot) slots.push_back(slot);
     field.flipped.voxels.block(slot)[id / 64 % kBlockSide] ^= 1ull << id % 64;  // twice: not at all

@@ -40,10 +40,16 @@ std::vector<std::uint32_t> blocks_around(const BlockLayout& layout, const Marked
   return std::move(around.slots);
 }
 
-/// Makes some blocks of a mask again and marks what is new.
+std::size_t count_of(const VoxelMask::Block& block) {
+  std::size_t count = 0;
+  for (const std::uint64_t layer : block) count += static_cast<std::size_t>(std::popcount(layer));
+  return count;
+}
+
+/// Makes some blocks of a mask again, marks what is new, and keeps count of its members.
 template <typename BlockOf>
 void remake(const std::vector<std::uint32_t>& slots, const BlockOf& block_of_slot, VoxelMask& mask,
-            MarkedVoxels& changed) {
+            MarkedVoxels& changed, std::size_t& count) {
   changed.clear();
   std::vector<std::uint8_t> is_new(slots.size());
   parallel_for_each_index(slots.size(), [&](std::size_t i) {
@@ -56,8 +62,14 @@ void remake(const std::vector<std::uint32_t>& slots, const BlockOf& block_of_slo
     is_new[i] = 1;
   });
   std::vector<std::uint32_t> named;
-  for (std::size_t i = 0; i < slots.size(); ++i)
-    if (is_new[i] != 0) named.push_back(slots[i]);
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    if (is_new[i] == 0) continue;
+    named.push_back(slots[i]);
+    VoxelMask::Block came = changed.voxels.block(slots[i]);
+    const std::size_t all = count_of(came);
+    for (std::size_t z = 0; z < kBlockSide; ++z) came[z] &= mask.block(slots[i])[z];
+    count += 2 * count_of(came) - all;  // what came less what went
+  }
   changed.name(named);
 }
 
@@ -125,17 +137,17 @@ void update_ridges(LiveRidges& ridges, const LiveField& field) {
   remake(
       field.changed.slots,
       [&](std::uint32_t slot) { return traversable_in_block(esdf, ridges.radius, slot); },
-      ridges.traversable, ridges.changed_space);
+      ridges.traversable, ridges.changed_space, ridges.traversable_count);
   remake(
       blocks_around(esdf.layout, field.changed),
       [&](std::uint32_t slot) {
         return gvd_in_block(esdf, ridges.traversable, ridges.config, slot);
       },
-      ridges.gvd, ridges.changed_gvd);
+      ridges.gvd, ridges.changed_gvd, ridges.gvd_count);
   remake(
       blocks_around(esdf.layout, ridges.changed_gvd),
       [&](std::uint32_t slot) { return edges_in_block(esdf.layout, ridges.gvd, slot); },
-      ridges.thick_edges, ridges.changed_thick);
+      ridges.thick_edges, ridges.changed_thick, ridges.thick_count);
   thin_again(ridges, esdf.layout);
 }
 

@@ -12,6 +12,7 @@ struct LiveRidges {
   double radius = 0.0;  ///< metres; of what is traversable
   GvdConfig config = {};
   VoxelMask traversable = {}, gvd = {}, thick_edges = {}, edges = {};
+  std::size_t traversable_count = 0, gvd_count = 0, thick_count = 0;
   /// Those that came or went with the last update.
   MarkedVoxels changed_space = {}, changed_gvd = {}, changed_thick = {};
   MarkedVoxels seen = {};  ///< for updates

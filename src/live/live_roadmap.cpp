@@ -183,6 +183,7 @@ struct LiveRoadmap::State {
     Live other = nothing(now->field.esdf.origin);
     apply_changes(other.field, all_of(map_of(now->field)));
     update_distances(other.field);
+    update_ridges(other.ridges, other.field);
     return other;
   }
 
@@ -195,9 +196,9 @@ struct LiveRoadmap::State {
     build.allocated_voxels = field.esdf.layout.voxel_count();
     build.seconds.esdf = lap.seconds();
     update_ridges(live.ridges, field);
-    build.traversable_voxels = live.ridges.traversable.count();
-    build.gvd_voxels = live.ridges.gvd.count();
-    build.edge_voxels = live.ridges.thick_edges.count();
+    build.traversable_voxels = live.ridges.traversable_count;
+    build.gvd_voxels = live.ridges.gvd_count;
+    build.edge_voxels = live.ridges.thick_count;
     build.seconds.gvd = lap.seconds();
     if (build.traversable_voxels == 0) return nullptr;
     BuildResult result;

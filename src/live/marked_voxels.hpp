@@ -15,12 +15,16 @@ namespace ridgeway::detail {
 /// number. Invariant: blocks that `slots` does not name hold none.
 struct MarkedVoxels {
   VoxelMask voxels;
+  VoxelMask lowered;                 ///< those of them that obstacles came nearer to; for sweeps
   std::vector<std::uint32_t> slots;  ///< of blocks that may hold some, ascending, each once
 
-  void grow(const BlockLayout& layout) { voxels.grow(layout); }
+  void grow(const BlockLayout& layout) {
+    voxels.grow(layout);
+    lowered.grow(layout);
+  }
 
   void clear() {
-    for (const std::uint32_t slot : slots) voxels.block(slot) = {};
+    for (const std::uint32_t slot : slots) voxels.block(slot) = lowered.block(slot) = {};
     slots.clear();
   }
 

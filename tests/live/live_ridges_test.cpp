@@ -21,6 +21,9 @@ void expect_those_of(const detail::LiveRidges& ridges, const EsdfMap& esdf) {
   EXPECT_TRUE(ridges.traversable == traversable);
   EXPECT_TRUE(ridges.gvd == gvd);
   EXPECT_TRUE(ridges.thick_edges == edges);
+  EXPECT_EQ(ridges.traversable_count, traversable.count());
+  EXPECT_EQ(ridges.gvd_count, gvd.count());
+  EXPECT_EQ(ridges.thick_count, edges.count());
   thin(esdf.layout, edges);
   EXPECT_TRUE(ridges.edges == edges);
 }

@@ -109,7 +109,10 @@ TEST(OutOfMemory, LeavesMapAndSnapshotAndWhatComesAfterAsTheyWere) {
   EXPECT_EQ(a->graph.vertices.size(), b->graph.vertices.size());
   for (const VoxelChange& change : testing::changes_to(live.map())) {
     const VoxelIndex own = change.voxel - a->esdf.origin;
-    ASSERT_EQ(a->esdf.squared[a->esdf.layout.find(own)], b->esdf.squared[b->esdf.layout.find(own)]);
+    const VoxelId at = a->esdf.layout.find(own), same = b->esdf.layout.find(own);
+    ASSERT_EQ(a->esdf.squared[at], b->esdf.squared[same]);
+    ASSERT_EQ(a->attach.next[at], b->attach.next[same]);
+    ASSERT_EQ(a->diagram.voxels.test(at), b->diagram.voxels.test(same));
   }
 }
 
