@@ -12,6 +12,7 @@ void add_bench_command(Command& program) {
   add_bench_fusion(bench);
   add_bench_grid(bench);
   add_bench_hall(bench);
+  add_bench_live(bench);
   add_bench_maze(bench);
   add_bench_noise(bench);
   add_bench_trajectory(bench);

@@ -10,6 +10,7 @@ namespace ridgeway::cli {
 void add_bench_fusion(Command& bench);
 void add_bench_grid(Command& bench);
 void add_bench_hall(Command& bench);
+void add_bench_live(Command& bench);
 void add_bench_maze(Command& bench);
 void add_bench_noise(Command& bench);
 void add_bench_trajectory(Command& bench);

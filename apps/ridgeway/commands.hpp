@@ -15,6 +15,7 @@ void add_info_command(Command& program);
 void add_export_command(Command& program);
 void add_world_command(Command& program);
 void add_fuse_command(Command& program);
+void add_live_command(Command& program);
 void add_simulate_command(Command& program);
 void add_trajectory_command(Command& program);
 

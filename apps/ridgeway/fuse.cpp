@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include <algorithm>
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -12,6 +10,7 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "json.hpp"
+#include "recording.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
 #include "ridgeway/recordings/depth_sequence.hpp"
@@ -117,30 +116,16 @@ Fused fuse_scans(const FuseOptions& options, const FusionConfig& config, const G
   return fused;
 }
 
-enum class Kind : std::uint8_t { kImages, kScans };
-
-Kind kind_of(const std::string& folder) {
-  if (holds_depth_images(folder)) return Kind::kImages;
-  if (holds_scans(folder)) return Kind::kScans;
-  std::error_code error;
-  if (!std::filesystem::is_directory(folder, error))
-    throw InputError(folder, "is no folder" + (error ? ": " + error.message() : std::string()),
-                     "give the folder of a recording");
-  throw InputError(folder, "holds no recording",
-                   "give a folder with depth.txt (TUM RGB-D), frame-*.depth.png (7-Scenes, "
-                   "3DMatch), or scans and their poses in poses.txt");
-}
-
-FusionConfig fusion_config(const FuseOptions& options, Kind kind) {
+FusionConfig fusion_config(const FuseOptions& options, RecordingKind kind) {
   FusionConfig config = options.fusion;
   if (options.truncation) config.truncation = *options.truncation;
-  if (kind == Kind::kScans) {
+  if (kind == RecordingKind::kScans) {
     if (options.integrator == "projective")
       throw InputError("--integrator projective", "is for depth images", "leave it out for scans");
     if (!options.intrinsics.empty())
       throw InputError("--intrinsics", "are those of depth images", "leave them out for scans");
   }
-  if (kind == Kind::kScans || options.integrator == "rays")
+  if (kind == RecordingKind::kScans || options.integrator == "rays")
     config.integrator = Integrator::kRayCasting;
   config.validate();
   return config;
@@ -176,24 +161,14 @@ void print(const FuseOptions& options, const Fused& fused, const VoxelCounts& vo
   print_row("file", options.output);
 }
 
-/// The map must not be written over what it is made of.
-void require_outside(const std::filesystem::path& output, const std::filesystem::path& folder) {
-  std::error_code error;
-  const auto whole = std::filesystem::weakly_canonical(folder, error);
-  const auto file = std::filesystem::weakly_canonical(output, error);
-  if (std::filesystem::exists(file, error) && file.extension() != ".ridge" &&
-      std::mismatch(whole.begin(), whole.end(), file.begin(), file.end()).first == whole.end())
-    throw InputError(output.string(), "is part of the recording", "give another file to write to");
-}
-
 int run(const FuseOptions& options, const Globals& globals) {
-  const Kind kind = kind_of(options.folder);
+  const RecordingKind kind = kind_of_recording(options.folder);
   const FusionConfig config = fusion_config(options, kind);
   require_outside(options.output, options.folder);
   require_writable({options.output}, {});
   require_extension(options.output, "a map", {".ridge"});
-  const Fused fused = kind == Kind::kScans ? fuse_scans(options, config, globals)
-                                           : fuse_images(options, config, globals);
+  const Fused fused = kind == RecordingKind::kScans ? fuse_scans(options, config, globals)
+                                                    : fuse_images(options, config, globals);
   if (fused.without_pose > 0)
     note(globals, count_text(fused.without_pose) + " frames have no pose and were passed over");
   const VoxelCounts voxels = count_voxels(occupancy_of(fused.map));

@@ -40,6 +40,7 @@ void add_commands(CommandLine& line) {
   add_world_command(program);
   add_simulate_command(program);
   add_fuse_command(program);
+  add_live_command(program);
   add_bench_command(program);
   program.footer(
       "Exit codes: 0 done, 1 bad usage or input, 2 no plan, 130 interrupted (143 terminated).\n"

@@ -13,6 +13,8 @@
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/esdf/surroundings.hpp"
+#include "ridgeway/live/graph_delta.hpp"
+#include "ridgeway/live/live_roadmap.hpp"
 #include "ridgeway/mapping/map_edits.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
 #include "ridgeway/mapping/occupancy_map.hpp"

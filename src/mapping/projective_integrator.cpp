@@ -192,7 +192,7 @@ class BlockUpdate {
     if (value <= -behind_ || (value >= truncation_ && !config_.carve)) return;
     const float gain = gain_of(value, config_) *
                        std::max(facing, static_cast<float>(kLeastFacing)) / (p.z() * p.z());
-    block.add(voxel, std::min(value, truncation_), gain, static_cast<float>(config_.max_weight));
+    block.add(voxel, std::min(value, truncation_), gain, config_);
   }
 
   /// Whether the surface reaches as far as the foot of a perpendicular to its plane: seen at a
@@ -229,6 +229,7 @@ void integrate_projective(const DepthSurfaces& surfaces, const PinholeCamera& ca
   std::vector<TsdfBlock*> targets;
   targets.reserve(seen.size());
   for (const BlockIndex& index : seen) targets.push_back(&blocks.find_or_add(index));
+  if (config.can_undo) blocks.keep_touched();
   const BlockUpdate update(surfaces, camera, T_map_camera, config);
   parallel_for_each_index(seen.size(), [&](std::size_t i) { update.run(seen[i], *targets[i]); });
 }

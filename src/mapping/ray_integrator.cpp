@@ -188,8 +188,7 @@ void update(const Ray& ray, const Point& sensor, const BlockIndex& index,
          }
          if (value >= config.truncation && !config.carve) return;
          block.add(local_of(voxel), static_cast<float>(std::min(value, config.truncation)),
-                   static_cast<float>(gain) * gain_of(static_cast<float>(value), config),
-                   static_cast<float>(config.max_weight));
+                   static_cast<float>(gain) * gain_of(static_cast<float>(value), config), config);
        });
 }
 
@@ -204,6 +203,7 @@ void integrate_rays(const std::vector<SurfacePoint>& points, const Point& sensor
   std::vector<TsdfBlock*> targets;
   targets.reserve(passages.blocks.size());
   for (const BlockIndex& index : passages.blocks) targets.push_back(&blocks.find_or_add(index));
+  if (config.can_undo) blocks.keep_touched();
   parallel_for_each_index(passages.blocks.size(), [&](std::size_t i) {
     for (const std::uint32_t ray : passages.rays[i])
       update(rays[ray], sensor, passages.blocks[i], config, *targets[i]);

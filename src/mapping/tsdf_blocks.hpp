@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "memory_limit.hpp"
+#include "ridgeway/common/parallel.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
 
 namespace ridgeway::detail {
@@ -26,36 +27,75 @@ inline float gain_of(float value, const FusionConfig& config) {
   return std::max(1.0f + value / static_cast<float>(config.depth_behind), 0.0f);
 }
 
-/// Distance and weight of the voxels of one block, x fastest.
+/// Distance and weight of the voxels of one block, x fastest, and how many measurements in a row
+/// have spoken against each.
 struct TsdfBlock {
   std::array<float, kBlockVoxels> distance{};
   std::array<float, kBlockVoxels> weight{};
+  std::array<std::uint8_t, kBlockVoxels> doubts{};
 
-  void add(int voxel, float value, float gain, float most) {
+  void add(int voxel, float value, float gain, const FusionConfig& config) {
     if (gain <= 0.0f) return;
+    const auto most = static_cast<float>(config.max_weight);
     float& w = weight[static_cast<std::size_t>(voxel)];
     float& d = distance[static_cast<std::size_t>(voxel)];
+    if (config.forget_after > 0 && is_forgotten(voxel, value, config)) w = 0.0f;
     d += gain / (w + gain) * (value - d);  // equal values stay as they are, to the bit
     w = std::min(w + gain, most);
+  }
+
+ private:
+  /// Counts a measurement; whether it is the last that it takes for a voxel to be forgotten.
+  bool is_forgotten(int voxel, float value, const FusionConfig& config) {
+    const auto v = static_cast<std::size_t>(voxel);
+    const bool was_free = distance[v] > 0.0f, is_free = value > 0.0f;
+    const bool speaks_against = weight[v] > 0.0f && was_free != is_free &&
+                                std::abs(value) >= 0.5f * static_cast<float>(config.voxel_size);
+    doubts[v] = speaks_against ? static_cast<std::uint8_t>(doubts[v] + 1) : std::uint8_t{0};
+    if (doubts[v] < config.forget_after) return false;
+    doubts[v] = 0;
+    return true;
   }
 };
 
 /// Blocks that are added while scans come in; their addresses stay.
 class TsdfBlocks {
  public:
-  TsdfBlock* find(const BlockIndex& index) {
-    const auto place = table_.find(index);
-    return place == table_.end() ? nullptr : place->second;
-  }
+  /// A block to be written to.
   TsdfBlock& find_or_add(const BlockIndex& index) {
-    TsdfBlock*& place = table_[index];
-    if (place == nullptr) {
-      place = &blocks_.emplace_back();
-      indices_.push_back(index);
+    const auto [place, is_new] = table_.try_emplace(index, static_cast<std::uint32_t>(size()));
+    if (is_new) add(index);
+    const std::uint32_t number = place->second;
+    if (!is_touched_[number]) {
+      touched_.push_back(number);
+      is_touched_[number] = true;
     }
-    return *place;
+    return blocks_[number];
   }
   std::size_t size() const { return blocks_.size(); }
+  const BlockIndex& index(std::uint32_t number) const { return indices_[number]; }
+  const TsdfBlock& block(std::uint32_t number) const { return blocks_[number]; }
+
+  /// Numbers of the blocks that were asked for since these were last forgotten, each once.
+  const std::vector<std::uint32_t>& touched() const { return touched_; }
+  void forget_touched() noexcept {
+    for (const std::uint32_t number : touched_) is_touched_[number] = false;
+    touched_.clear();
+  }
+
+  /// Keeps what the touched blocks hold, before they are written to, for restore().
+  void keep_touched() {
+    kept_.resize(touched_.size());
+    parallel_for_each_index(
+        kept_.size(), [&](std::size_t i) { kept_[i] = blocks_[touched_[i]]; }, 16);
+    kept_numbers_ = touched_;
+  }
+  void restore() noexcept {
+    for (std::size_t i = 0; i < kept_numbers_.size(); ++i) blocks_[kept_numbers_[i]] = kept_[i];
+    drop_kept();
+  }
+  void drop_kept() noexcept { kept_numbers_.clear(); }
+
   /// Copies all into a map, on a layout of its own.
   void copy_to(TsdfMap& map) const {
     map.layout = BlockLayout(indices_);
@@ -69,9 +109,26 @@ class TsdfBlocks {
   }
 
  private:
-  std::unordered_map<BlockIndex, TsdfBlock*, BlockHash> table_;
-  std::deque<TsdfBlock> blocks_;
+  /// The block that the table has a number for already.
+  void add(const BlockIndex& index) {
+    try {
+      if (indices_.size() == indices_.capacity()) indices_.reserve(2 * size() + 1);
+      is_touched_.resize(size() + 1);
+      blocks_.emplace_back();
+    } catch (...) {
+      table_.erase(index);
+      throw;
+    }
+    indices_.push_back(index);
+  }
+
+  std::unordered_map<BlockIndex, std::uint32_t, BlockHash> table_;  // numbers
+  std::deque<TsdfBlock> blocks_;                                    // by number
   std::vector<BlockIndex> indices_;
+  std::vector<bool> is_touched_;
+  std::vector<std::uint32_t> touched_;
+  std::vector<TsdfBlock> kept_;
+  std::vector<std::uint32_t> kept_numbers_;
 };
 
 /// Throws InputError unless there is memory for more blocks, here and in the map made of them.

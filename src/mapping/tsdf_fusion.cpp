@@ -15,6 +15,7 @@
 #include "ridgeway/mapping/map_edits.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
 #include "ridgeway/mapping/occupancy_map.hpp"
+#include "state_changes.hpp"
 #include "tsdf_blocks.hpp"
 
 namespace ridgeway {
@@ -67,18 +68,12 @@ std::vector<detail::SurfacePoint> points_of(const detail::DepthSurfaces& surface
 
 /// Where the robot has been is free, whatever was measured there. All is in the map's own frame.
 void clear_sphere(const Point& centre, double radius, TsdfMap& map) {
-  const VoxelIndex low = voxel_at(centre - Point::Constant(radius), map.voxel_size);
-  const VoxelIndex high = voxel_at(centre + Point::Constant(radius), map.voxel_size);
-  for (int z = low.z; z <= high.z; ++z)
-    for (int y = low.y; y <= high.y; ++y)
-      for (int x = low.x; x <= high.x; ++x) {
-        const VoxelId id = map.layout.find({x, y, z});
-        if (id == kNoVoxel || (centre_of({x, y, z}, map.voxel_size) - centre).norm() > radius)
-          continue;
-        if (map.weight[id] > 0.0f && map.distance[id] > 0.0f) continue;
-        map.distance[id] = static_cast<float>(map.truncation);
-        map.weight[id] = std::max(map.weight[id], 1.0f);
-      }
+  detail::for_each_in_sphere(centre, radius, map.voxel_size, [&](const VoxelIndex& v) {
+    const VoxelId id = map.layout.find(v);
+    if (id == kNoVoxel || (map.weight[id] > 0.0f && map.distance[id] > 0.0f)) return;
+    map.distance[id] = static_cast<float>(map.truncation);
+    map.weight[id] = std::max(map.weight[id], 1.0f);
+  });
 }
 
 }  // namespace
@@ -101,6 +96,8 @@ void FusionConfig::validate() const {
           "depth_behind", depth_behind,
           "give a voxel's length or more, to max_range, or 0 for two voxels");
   require(max_weight > 0.0, "max_weight", max_weight, "give a number above 0");
+  require(forget_after >= 0 && forget_after <= 255, "forget_after", forget_after,
+          "give 1 to 255 measurements, or 0 for never");
   require(clear_radius >= 0.0 && clear_radius <= max_range, "clear_radius", clear_radius,
           "give metres, 0 for none");
 }
@@ -111,6 +108,8 @@ struct TsdfFusion::State {
   std::optional<VoxelIndex> origin;  // the voxel that held the sensor at first
   detail::TsdfBlocks blocks;
   std::vector<Point> places;  // of the sensor
+  detail::AcceptedStates accepted;
+  bool is_undoable = false;
 
   /// A pose is recorded only once its measurements are in: what throws on the way leaves no trace
   /// of it, nor of the origin that the first pose gives. `measure` adds the measurements from a
@@ -127,10 +126,13 @@ struct TsdfFusion::State {
     if (places.size() == places.capacity()) places.reserve(2 * places.size() + 1);
     Eigen::Isometry3d T_map_sensor = T_world_sensor;
     T_map_sensor.translation() = place;
+    is_undoable = false;
+    blocks.drop_kept();
     measure(T_map_sensor);
     for (const BlockIndex& block : around) blocks.find_or_add(block);
     places.push_back(place);
     origin = first;
+    is_undoable = config.can_undo;
   }
 
   /// Throws InputError where what a sensor can see lies too far from a frame's zero.
@@ -203,6 +205,25 @@ TsdfMap TsdfFusion::map() const {
   if (s.config.clear_radius > 0.0)
     for (const Point& place : s.places) clear_sphere(place, s.config.clear_radius, map);
   return map;
+}
+
+std::vector<VoxelChange> TsdfFusion::find_changes() {
+  State& s = *state_;
+  return s.accepted.find(s.blocks, s.origin.value_or(VoxelIndex{}), s.places, s.config);
+}
+
+void TsdfFusion::accept_changes() noexcept {
+  State& s = *state_;
+  s.accepted.accept(s.blocks);
+  s.is_undoable = false;
+}
+
+void TsdfFusion::undo() noexcept {
+  State& s = *state_;
+  if (!std::exchange(s.is_undoable, false)) return;
+  s.blocks.restore();
+  s.places.pop_back();
+  if (s.places.empty()) s.origin.reset();
 }
 
 OccupancyMap occupancy_of(const TsdfMap& tsdf) {

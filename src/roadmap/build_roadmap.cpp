@@ -4,9 +4,11 @@
 
 #include <cmath>
 #include <numbers>
+#include <numbers>
 #include <string>
+#include <utility>
 
-#include "common/clock.hpp"
+#include "build_stages.hpp"
 #include "common/number_text.hpp"
 #include "common/require.hpp"
 #include "graph_of_curves.hpp"
@@ -22,36 +24,11 @@ namespace {
 
 using detail::require;
 
-/// Times the stages one after the other and reports each to the caller.
-class StageClock {
- public:
-  explicit StageClock(const Progress& progress) : progress_(progress) {}
-
-  void begin(std::string_view stage) {
-    if (progress_ && !progress_(stage, static_cast<double>(done_++) / kStages)) throw Cancelled();
-    start_ = detail::seconds_now();
-  }
-  void end(double& seconds) const { seconds += detail::seconds_now() - start_; }
-
- private:
-  static constexpr int kStages = 8;
-  const Progress& progress_;
-  int done_ = 0;
-  double start_ = detail::seconds_now();
-};
-
 double ball_volume(double radius) {
   return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
 }
 
 // What each stage takes of the whole configuration.
-
-/// Ridges between what no robot passes between are left out with the rest that is not significant.
-GvdConfig ridges_of(const BuildConfig& config) {
-  return {
-      .theta = config.theta,
-      .least_apart = config.simplify && !config.paper_diagram ? 2.0 * config.min_clearance : 0.0};
-}
 
 GraphConfig graph_of(const BuildConfig& config) {
   return {.min_clearance = config.min_clearance,
@@ -73,47 +50,39 @@ void BuildConfig::validate() const {
           "give the robot's radius in metres, above 0");
   require(max_distance > min_clearance, "max_distance", max_distance,
           "give a length above min_clearance, or leave it out for no limit");
-  ridges_of(*this).validate();
+  detail::ridges_of(*this).validate();
   graph_of(*this).validate();
   simplification_of(*this).validate();
   corners_of(*this).validate();
 }
 
-BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Progress& progress) {
-  config.validate();
-  require(config.min_clearance >= 1e-3 * map.voxel_size, "min_clearance", config.min_clearance,
+namespace detail {
+
+GvdConfig ridges_of(const BuildConfig& config) {
+  return {
+      .theta = config.theta,
+      .least_apart = config.simplify && !config.paper_diagram ? 2.0 * config.min_clearance : 0.0};
+}
+
+void require_suits(const BuildConfig& config, double voxel_size) {
+  require(config.min_clearance >= 1e-3 * voxel_size, "min_clearance", config.min_clearance,
           "give the robot's radius in metres, at least a thousandth of a voxel");
   // Up to two voxels below max_distance radii are exact; at least the smallest must be.
-  require(config.max_distance >= config.min_clearance + 2.0 * map.voxel_size, "max_distance",
+  require(config.max_distance >= config.min_clearance + 2.0 * voxel_size, "max_distance",
           config.max_distance, "give at least min_clearance and two voxels, or leave it out");
-  BuildResult result;
-  BuildReport& report = result.report;
-  Roadmap& roadmap = result.roadmap;
-  StageClock clock(progress);
-  require_memory_for_blocks(map.layout.block_count(), kPipelineBytesPerVoxel - kMapBytesPerVoxel,
-                            "map");  // of which there is only the map so far
-  report.voxels = count_voxels(map);
-  if (report.voxels.free == 0)
-    throw InputError("map", "has no free space",
-                     "record free space, or give bounds where a cloud holds only surfaces");
-  roadmap.min_clearance = config.min_clearance;
+}
 
-  clock.begin("esdf");
+EsdfMap distances_of(OccupancyMap map, const BuildConfig& config) {
   if (config.unknown ==
       UnknownPolicy::kIgnore)  // where unknown space is solid, none is left anyway
     map = remove_pockets(std::move(map), ball_volume(config.min_clearance));
-  roadmap.esdf = compute_esdf(std::move(map), {config.unknown, config.max_distance});
-  const EsdfMap& esdf = roadmap.esdf;
-  require_memory_for_blocks(esdf.layout.block_count(), kPipelineBytesPerVoxel - kEsdfBytesPerVoxel,
-                            "map");  // it may have grown
-  VoxelMask traversable = traversable_voxels(esdf, config.min_clearance);
-  clock.end(report.seconds.esdf);
-  report.allocated_voxels = esdf.layout.voxel_count();
-  report.traversable_voxels = traversable.count();
-  if (report.traversable_voxels == 0)
-    throw InputError("min_clearance " + number_text(config.min_clearance),
-                     "leaves no traversable voxel in this map",
-                     "give a smaller min_clearance, or ignore the unknown");
+  return compute_esdf(std::move(map), {config.unknown, config.max_distance});
+}
+
+void build_on_distances(VoxelMask traversable, const BuildConfig& config, BuildResult& result,
+                        StageClock& clock) {
+  const EsdfMap& esdf = result.roadmap.esdf;
+  BuildReport& report = result.report;
 
   clock.begin("gvd");
   const GvdConfig ridges = ridges_of(config);
@@ -131,6 +100,15 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
   clock.begin("thin");
   thin(esdf.layout, edges);
   clock.end(report.seconds.thin);
+
+  build_on_edges(std::move(traversable), std::move(edges), config, result, clock);
+}
+
+void build_on_edges(VoxelMask traversable, VoxelMask edges, const BuildConfig& config,
+                    BuildResult& result, StageClock& clock) {
+  Roadmap& roadmap = result.roadmap;
+  const EsdfMap& esdf = roadmap.esdf;
+  BuildReport& report = result.report;
 
   clock.begin("kernel");
   Basins basins = find_basins(esdf, traversable, config.min_clearance);
@@ -169,6 +147,40 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
   const BuildSeconds& s = report.seconds;
   report.seconds.total =
       s.esdf + s.gvd + s.edges + s.thin + s.kernel + s.graph + s.attach + s.tangents;
+}
+
+}  // namespace detail
+
+BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Progress& progress) {
+  config.validate();
+  detail::require_suits(config, map.voxel_size);
+  BuildResult result;
+  BuildReport& report = result.report;
+  Roadmap& roadmap = result.roadmap;
+  detail::StageClock clock(progress);
+  require_memory_for_blocks(map.layout.block_count(), kPipelineBytesPerVoxel - kMapBytesPerVoxel,
+                            "map");  // of which there is only the map so far
+  report.voxels = count_voxels(map);
+  if (report.voxels.free == 0)
+    throw InputError("map", "has no free space",
+                     "record free space, or give bounds where a cloud holds only surfaces");
+  roadmap.min_clearance = config.min_clearance;
+
+  clock.begin("esdf");
+  roadmap.esdf = detail::distances_of(std::move(map), config);
+  const EsdfMap& esdf = roadmap.esdf;
+  require_memory_for_blocks(esdf.layout.block_count(), kPipelineBytesPerVoxel - kEsdfBytesPerVoxel,
+                            "map");  // it may have grown
+  VoxelMask traversable = traversable_voxels(esdf, config.min_clearance);
+  clock.end(report.seconds.esdf);
+  report.allocated_voxels = esdf.layout.voxel_count();
+  report.traversable_voxels = traversable.count();
+  if (report.traversable_voxels == 0)
+    throw InputError("min_clearance " + number_text(config.min_clearance),
+                     "leaves no traversable voxel in this map",
+                     "give a smaller min_clearance, or ignore the unknown");
+
+  detail::build_on_distances(std::move(traversable), config, result, clock);
   if (progress && !progress("done", 1.0)) throw Cancelled();
   return result;
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "block_ridges.hpp"
 #include "common/require.hpp"
 #include "lanes.hpp"
 #include "ridgeway/common/parallel.hpp"
@@ -137,6 +138,22 @@ Verdict judge(const SiteGather& sites, std::size_t first, double cosine, double 
   return verdict;
 }
 
+void set(VoxelMask::Block& block, VoxelId id) { block[id / 64 % kBlockSide] |= 1ull << id % 64; }
+
+/// A mask made block by block.
+template <typename BlockOf>
+VoxelMask mask_by_block(const BlockLayout& layout, const BlockOf& block_of_slot) {
+  VoxelMask mask(layout);
+  parallel_for_each_index(
+      layout.block_count(),
+      [&](std::size_t index) {
+        const auto slot = static_cast<std::uint32_t>(index);
+        mask.block(slot) = block_of_slot(slot);
+      },
+      kGrain);
+  return mask;
+}
+
 /// Those voxels of a mask for which keep(voxel) holds.
 template <typename Keep>
 VoxelMask filter(const BlockLayout& layout, const VoxelMask& mask, const Keep& keep) {
@@ -157,21 +174,9 @@ VoxelMask filter(const BlockLayout& layout, const VoxelMask& mask, const Keep& k
 
 VoxelMask traversable_voxels(const EsdfMap& esdf, double radius) {
   assert(esdf.state.is_of(esdf.layout) && esdf.squared.is_of(esdf.layout));
-  const double threshold = std::ceil(least_clearance(radius, esdf.voxel_size).value);
-  if (threshold > kNoSite) return VoxelMask(esdf.layout);
-  const auto least = static_cast<std::uint32_t>(threshold);
-  VoxelMask result(esdf.layout);
-  parallel_for_each_index(
-      esdf.layout.block_count(),
-      [&](std::size_t index) {
-        const auto slot = static_cast<std::uint32_t>(index);
-        const VoxelState* state = esdf.state.block(slot);
-        const std::uint32_t* squared = esdf.squared.block(slot);
-        result.block(slot) = block_where(
-            [&](int v) { return (state[v] == VoxelState::kFree) & (squared[v] >= least); });
-      },
-      kGrain);
-  return result;
+  return mask_by_block(esdf.layout, [&](std::uint32_t slot) {
+    return detail::traversable_in_block(esdf, radius, slot);
+  });
 }
 
 void GvdConfig::validate() const {
@@ -183,31 +188,10 @@ void GvdConfig::validate() const {
 
 VoxelMask compute_gvd(const EsdfMap& esdf, const VoxelMask& traversable, const GvdConfig& config) {
   config.validate();
-  const double cosine = std::cos(config.theta);
-  const double least = config.least_apart * (1.0 - 1e-9) / esdf.voxel_size,
-               least_squared = least * least;
-  const bool all_count = esdf.unknown == UnknownPolicy::kObstacle;
   assert(traversable.is_of(esdf.layout) && esdf.site.is_of(esdf.layout));
-  VoxelMask gvd(esdf.layout);
-  parallel_for_each_index(
-      esdf.layout.block_count(),
-      [&](std::size_t index) {
-        const auto slot = static_cast<std::uint32_t>(index);
-        if (traversable.block(slot) == VoxelMask::Block{}) return;
-        const SiteGather sites(esdf, slot);
-        detail::for_each_four(traversable, slot, [&](VoxelId first, unsigned members) {
-          const Verdict verdict =
-              judge(sites, detail::bordered_place(first), cosine, least_squared, all_count);
-          for (; members != 0; members &= members - 1) {
-            const auto x = static_cast<VoxelId>(std::countr_zero(members));
-            if (verdict.off_ridge[x]) continue;
-            if (verdict.on_ridge[x] || is_on_gvd(esdf, first + x, cosine, least_squared))
-              gvd.set(first + x);
-          }
-        });
-      },
-      kGrain);
-  return gvd;
+  return mask_by_block(esdf.layout, [&](std::uint32_t slot) {
+    return detail::gvd_in_block(esdf, traversable, config, slot);
+  });
 }
 
 VoxelMask extract_basis_point_edges(const EsdfMap& esdf, const VoxelMask& gvd,
@@ -219,18 +203,54 @@ VoxelMask extract_basis_point_edges(const EsdfMap& esdf, const VoxelMask& gvd,
 }
 
 VoxelMask extract_edges(const EsdfMap& esdf, const VoxelMask& gvd) {
-  VoxelMask edges(esdf.layout);
-  parallel_for_each_index(
-      esdf.layout.block_count(),
-      [&](std::size_t slot) {
-        if (gvd.block(static_cast<std::uint32_t>(slot)) == VoxelMask::Block{}) return;
-        const CubeGather gather(esdf.layout, gvd, static_cast<std::uint32_t>(slot));
-        for_each_member(gvd, static_cast<std::uint32_t>(slot), [&](VoxelId id) {
-          if (bit_count(gather.cube(id) & kCells26) >= kEdgeNeighbours) edges.set(id);
-        });
-      },
-      kGrain);
+  return mask_by_block(esdf.layout, [&](std::uint32_t slot) {
+    return detail::edges_in_block(esdf.layout, gvd, slot);
+  });
+}
+
+namespace detail {
+
+VoxelMask::Block traversable_in_block(const EsdfMap& esdf, double radius, std::uint32_t slot) {
+  const double threshold = std::ceil(least_clearance(radius, esdf.voxel_size).value);
+  if (threshold > kNoSite) return {};
+  const auto least = static_cast<std::uint32_t>(threshold);
+  const VoxelState* state = esdf.state.block(slot);
+  const std::uint32_t* squared = esdf.squared.block(slot);
+  return block_where(
+      [&](int v) { return (state[v] == VoxelState::kFree) & (squared[v] >= least); });
+}
+
+VoxelMask::Block gvd_in_block(const EsdfMap& esdf, const VoxelMask& traversable,
+                              const GvdConfig& config, std::uint32_t slot) {
+  VoxelMask::Block gvd{};
+  if (traversable.block(slot) == VoxelMask::Block{}) return gvd;
+  const double cosine = std::cos(config.theta);
+  const double least = config.least_apart * (1.0 - 1e-9) / esdf.voxel_size;
+  const bool all_count = esdf.unknown == UnknownPolicy::kObstacle;
+  const SiteGather sites(esdf, slot);
+  for_each_four(traversable, slot, [&](VoxelId first, unsigned members) {
+    const Verdict verdict = judge(sites, bordered_place(first), cosine, least * least, all_count);
+    for (; members != 0; members &= members - 1) {
+      const auto x = static_cast<VoxelId>(std::countr_zero(members));
+      if (verdict.off_ridge[x]) continue;
+      if (verdict.on_ridge[x] || is_on_gvd(esdf, first + x, cosine, least * least))
+        set(gvd, first + x);
+    }
+  });
+  return gvd;
+}
+
+VoxelMask::Block edges_in_block(const BlockLayout& layout, const VoxelMask& gvd,
+                                std::uint32_t slot) {
+  VoxelMask::Block edges{};
+  if (gvd.block(slot) == VoxelMask::Block{}) return edges;
+  const CubeGather gather(layout, gvd, slot);
+  for_each_member(gvd, slot, [&](VoxelId id) {
+    if (bit_count(gather.cube(id) & kCells26) >= kEdgeNeighbours) set(edges, id);
+  });
   return edges;
 }
+
+}  // namespace detail
 
 }  // namespace ridgeway

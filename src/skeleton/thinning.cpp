@@ -2,11 +2,13 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "parallel_deletion.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
 #include "simple_point.hpp"
+#include "thin_among.hpp"
 
 namespace ridgeway {
 namespace {
@@ -65,11 +67,20 @@ bool matches_deletion_template(Cube27 cube) {
 }
 
 void thin(const BlockLayout& layout, VoxelMask& voxels) {
-  detail::delete_layers(layout, voxels, voxels.members(layout), [](VoxelId, Cube27 cube) {
+  detail::thin_among(layout, voxels, voxels.members(layout));
+}
+
+namespace detail {
+
+void thin_among(const BlockLayout& layout, VoxelMask& voxels, std::vector<VoxelId> among) {
+  delete_layers(layout, voxels, among, [](VoxelId, Cube27 cube) {
     return matches_deletion_template(cube) && may_go(cube);
   });
-  detail::delete_layers(layout, voxels, voxels.members(layout),
-                        [](VoxelId, Cube27 cube) { return may_go(cube); });
+  std::erase_if(among, [&](VoxelId id) { return !voxels.test(id); });
+  delete_layers(layout, voxels, std::move(among),
+                [](VoxelId, Cube27 cube) { return may_go(cube); });
 }
+
+}  // namespace detail
 
 }  // namespace ridgeway

@@ -39,6 +39,14 @@ struct OccupancyMap {
   }
 };
 
+/// A voxel of the lattice, and the state that it now has.
+struct VoxelChange {
+  VoxelIndex voxel;
+  VoxelState state = VoxelState::kUnknown;
+
+  friend bool operator==(const VoxelChange&, const VoxelChange&) = default;
+};
+
 /// How many voxels are in each state; `unknown` counts allocated blocks only.
 struct VoxelCounts {
   std::size_t free = 0;

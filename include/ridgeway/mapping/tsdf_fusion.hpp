@@ -58,8 +58,13 @@ struct FusionConfig {
   double max_range = 10.0;    ///< and those farther
   bool carve = true;          ///< what lies before a surface becomes free, not only near it
   double max_weight = 1e4;    ///< a voxel never knows better: old measurements fade
+  /// Measurements in a row that find a voxel on the other side of the surface than it is taken to
+  /// be, by half a voxel or more, and it is taken as the last one finds it: what was moved is
+  /// forgotten after so many looks, however well it was known. 0: never, it fades.
+  int forget_after = 0;
   double clear_radius = 0.0;  ///< around every pose: the robot was there, so it is free; 0: none
   Integrator integrator = Integrator::kProjective;
+  bool can_undo = false;  ///< keeps what the last measurements overwrote, see TsdfFusion::undo
 
   /// Whether a measurement at a range, metres along the ray, is taken; none is that is no number.
   bool takes(double range) const { return range > 0.0 && range >= min_range && range <= max_range; }
@@ -93,6 +98,17 @@ class TsdfFusion {
 
   /// All that was fused so far.
   TsdfMap map() const;
+
+  /// The voxels of the lattice whose state, as occupancy_of(map()) has it, is another than when
+  /// changes were last accepted, with what it is; at first they all are unknown. By block in
+  /// (z, y, x) order, then by voxel. Takes time linear in the blocks that were touched since then.
+  std::vector<VoxelChange> find_changes();
+  /// Accepts what find_changes has found, if nothing was fused since.
+  void accept_changes() noexcept;
+
+  /// Takes back the last measurements, once, if they can be (FusionConfig::can_undo) and their
+  /// changes were not accepted yet.
+  void undo() noexcept;
 
  private:
   struct State;

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "recording.hpp"
+
+#include <algorithm>
+#include <system_error>
+
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/recordings/depth_sequence.hpp"
+#include "ridgeway/recordings/scan_sequence.hpp"
+
+namespace ridgeway::cli {
+
+RecordingKind kind_of_recording(const std::string& folder) {
+  if (holds_depth_images(folder)) return RecordingKind::kImages;
+  if (holds_scans(folder)) return RecordingKind::kScans;
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error))
+    throw InputError(folder, "is no folder" + (error ? ": " + error.message() : std::string()),
+                     "give the folder of a recording");
+  throw InputError(folder, "holds no recording",
+                   "give a folder with depth.txt (TUM RGB-D), frame-*.depth.png (7-Scenes, "
+                   "3DMatch), or scans and their poses in poses.txt");
+}
+
+void require_outside(const std::filesystem::path& output, const std::filesystem::path& folder) {
+  std::error_code error;
+  const auto whole = std::filesystem::weakly_canonical(folder, error);
+  const auto file = std::filesystem::weakly_canonical(output, error);
+  if (std::filesystem::exists(file, error) && file.extension() != ".ridge" &&
+      std::mismatch(whole.begin(), whole.end(), file.begin(), file.end()).first == whole.end())
+    throw InputError(output.string(), "is part of the recording", "give another file to write to");
+}
+
+}  // namespace ridgeway::cli

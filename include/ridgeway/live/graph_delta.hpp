@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <compare>
+#include <span>
+#include <vector>
+
+#include "ridgeway/roadmap/roadmap.hpp"
+
+namespace ridgeway {
+
+/// An edge of the graph by the voxels of the lattice that its ends stand on, `from` before `to` in
+/// (z, y, x) order. No two edges of a graph have the same.
+struct EdgeName {
+  VoxelIndex from, to;
+  friend constexpr auto operator<=>(const EdgeName&, const EdgeName&) = default;
+};
+
+/// What is different between two snapshots of a map. Vertices are named by their voxel of the
+/// lattice, as their numbers are another in every snapshot. All lists ascend.
+struct GraphDelta {
+  std::vector<VoxelIndex> came_vertices, gone_vertices;
+  std::vector<VoxelIndex> changed_vertices;  ///< have another clearance
+  std::vector<EdgeName> came_edges, gone_edges;
+  std::vector<EdgeName> changed_edges;  ///< have another clearance
+  std::vector<VoxelIndex> closed;       ///< voxels of the lattice that are free no longer
+  double voxel_size = 0.0;              ///< metres
+
+  bool is_empty() const {
+    return came_vertices.empty() && gone_vertices.empty() && changed_vertices.empty() &&
+           came_edges.empty() && gone_edges.empty() && changed_edges.empty() && closed.empty();
+  }
+};
+
+/// Compares two roadmaps of the same map, before and after it has changed. Throws InputError where
+/// voxel size, origin or policy differ.
+GraphDelta delta_between(const Roadmap& before, const Roadmap& now);
+
+/// Whether a path (metres, world) that was free at a radius before may not be so any more: whether
+/// a voxel that has closed since comes near it. False is certain; where true, ask still_safe().
+/// Takes no look at the map, so that it can be asked many times a second.
+bool may_be_invalid(std::span<const Point> path, double radius, const GraphDelta& delta);
+
+/// Whether a sphere of a radius (metres) can move along a path (metres, world; at least one point),
+/// by the one predicate that decides what is free (FreeSpace).
+bool still_safe(std::span<const Point> path, double radius, const Roadmap& now);
+
+}  // namespace ridgeway

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "ridgeway/mapping/tsdf_fusion.hpp"
+#include "ridgeway/roadmap/build_roadmap.hpp"
+
+namespace ridgeway {
+
+struct LiveConfig {
+  FusionConfig fusion = {};  ///< its voxel size is the map's
+  BuildConfig build = {};
+  /// The lattice's voxel that is the map's own (0, 0, 0). Left out: the voxel that holds the sensor
+  /// at the first pose, or, where voxels are set before that, the lattice's zero.
+  std::optional<VoxelIndex> origin = {};
+
+  /// Throws InputError naming the bad field.
+  void validate() const;
+};
+
+/// What an update did, and how long that took.
+struct UpdateReport {
+  std::uint64_t version = 0;          ///< of the snapshot: how many there have been
+  bool has_roadmap = false;           ///< false: no voxel is traversable
+  bool in_batch = false;              ///< all was built again, nothing brought up to date
+  std::size_t changed_voxels = 0;     ///< that are in another state than before
+  std::size_t flipped_voxels = 0;     ///< of them became obstacles or ceased to be
+  std::size_t added_blocks = 0;       ///< of the map
+  std::size_t changed_distances = 0;  ///< voxels with another distance or site than before
+  std::size_t changed_blocks = 0;     ///< that hold such voxels
+  BuildReport build;                  ///< counts of the stages; seconds.esdf is that of the update
+  double fusion_seconds = 0.0;        ///< until the changed voxels were known
+  double map_seconds = 0.0;           ///< to bring the states up to date
+  double copy_seconds = 0.0;          ///< to give the snapshot a field of its own
+  double seconds = 0.0;               ///< in all, until the snapshot was there
+};
+
+/// A roadmap that follows its map while the map is being made.
+///
+/// Contract: after every update the snapshot has the same bytes as build_roadmap(map(), config),
+/// for any order and grouping of the changes and any number of threads, voxels that become free or
+/// unknown again included.
+///
+/// One thread updates; any number may call snapshot() meanwhile and plan on what they get. An
+/// update that throws leaves map and snapshot as they were: InputError for bad input, naming the
+/// frame, counted from 1, or the change, counted from 0.
+class LiveRoadmap {
+ public:
+  explicit LiveRoadmap(const LiveConfig& config = {});
+  ~LiveRoadmap();
+  LiveRoadmap(LiveRoadmap&&) noexcept;
+  LiveRoadmap& operator=(LiveRoadmap&&) noexcept;
+
+  /// Fuses a depth image of a camera with a pose (camera to world), as TsdfFusion does.
+  UpdateReport integrate(const DepthImage& image, const PinholeCamera& camera,
+                         const Eigen::Isometry3d& T_world_camera);
+  /// Fuses points in the sensor's frame, its origin at 0.
+  UpdateReport integrate(std::span<const Point> points, const Eigen::Isometry3d& T_world_sensor);
+
+  /// Sets voxels of the lattice; of several changes of one voxel the last counts. For maps that
+  /// are made elsewhere. What is fused later goes by what was fused before, not by these: a voxel
+  /// that was set stays so until a measurement turns its fused state into another.
+  UpdateReport set_voxels(std::span<const VoxelChange> changes);
+
+  /// The roadmap after the last update, which stays as it is; none as long as no voxel is
+  /// traversable. Thread-safe.
+  std::shared_ptr<const Roadmap> snapshot() const;
+
+  /// The map after the last update: the blocks in which something is known.
+  OccupancyMap map() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace ridgeway

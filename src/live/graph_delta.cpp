@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/live/graph_delta.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/esdf/free_space.hpp"
+
+namespace ridgeway {
+namespace {
+
+template <typename Name>
+using Clearances = std::map<Name, double>;
+
+Clearances<VoxelIndex> vertices_of(const Roadmap& roadmap) {
+  Clearances<VoxelIndex> vertices;
+  for (const Vertex& vertex : roadmap.graph.vertices)
+    vertices[roadmap.esdf.origin + vertex.voxel] = vertex.clearance;
+  return vertices;
+}
+
+Clearances<EdgeName> edges_of(const Roadmap& roadmap) {
+  const auto name = [&](VertexId id) {
+    return roadmap.esdf.origin + roadmap.graph.vertices[number(id)].voxel;
+  };
+  Clearances<EdgeName> edges;
+  for (const Edge& edge : roadmap.graph.edges) {
+    const VoxelIndex a = name(edge.from), b = name(edge.to);
+    edges[{std::min(a, b), std::max(a, b)}] = edge.clearance;
+  }
+  return edges;
+}
+
+template <typename Name>
+void compare(const Clearances<Name>& before, const Clearances<Name>& now, std::vector<Name>& came,
+             std::vector<Name>& gone, std::vector<Name>& changed) {
+  for (const auto& [name, clearance] : now) {
+    const auto old = before.find(name);
+    if (old == before.end()) {
+      came.push_back(name);
+    } else if (old->second != clearance) {
+      changed.push_back(name);
+    }
+  }
+  for (const auto& [name, clearance] : before)
+    if (!now.contains(name)) gone.push_back(name);
+}
+
+/// The free voxels of a block that are not free in the other map.
+void find_closed(const EsdfMap& before, std::uint32_t slot, const EsdfMap& now,
+                 std::vector<VoxelIndex>& closed) {
+  const BlockIndex& block = before.layout.block(slot);
+  const std::uint32_t other = slot < now.layout.block_count() && now.layout.block(slot) == block
+                                  ? slot
+                                  : now.layout.find_block(block);
+  const VoxelState* old = before.state.block(slot);
+  const VoxelState* states = other == BlockLayout::kNoBlock ? nullptr : now.state.block(other);
+  if (states != nullptr && std::memcmp(old, states, kBlockVoxels * sizeof(VoxelState)) == 0) return;
+  for (int v = 0; v < kBlockVoxels; ++v)
+    if (old[v] == VoxelState::kFree && (states == nullptr || states[v] != VoxelState::kFree))
+      closed.push_back(before.origin + voxel_of(block, v));
+}
+
+/// Squared distance from a point to a segment, metres^2.
+double squared_distance(const Point& p, const Point& a, const Point& b) {
+  const Eigen::Vector3d along = b - a;
+  const double length = along.squaredNorm();
+  const double t = length > 0.0 ? std::clamp((p - a).dot(along) / length, 0.0, 1.0) : 0.0;
+  return (a + t * along - p).squaredNorm();
+}
+
+}  // namespace
+
+GraphDelta delta_between(const Roadmap& before, const Roadmap& now) {
+  const EsdfMap &a = before.esdf, &b = now.esdf;
+  if (a.voxel_size != b.voxel_size || a.origin != b.origin || a.unknown != b.unknown)
+    throw InputError("roadmaps", "are of maps with another voxel size, origin or policy",
+                     "compare snapshots of one live roadmap");
+  GraphDelta delta;
+  delta.voxel_size = b.voxel_size;
+  compare(vertices_of(before), vertices_of(now), delta.came_vertices, delta.gone_vertices,
+          delta.changed_vertices);
+  compare(edges_of(before), edges_of(now), delta.came_edges, delta.gone_edges, delta.changed_edges);
+  for (std::uint32_t slot = 0; slot < a.layout.block_count(); ++slot)
+    find_closed(a, slot, b, delta.closed);
+  std::sort(delta.closed.begin(), delta.closed.end());
+  return delta;
+}
+
+bool may_be_invalid(std::span<const Point> path, double radius, const GraphDelta& delta) {
+  // A cube lies within half its diagonal around its centre; a voxel more for rounding in the world.
+  const double reach = radius + (1.0 + 0.5 * std::sqrt(3.0)) * delta.voxel_size;
+  return std::any_of(delta.closed.begin(), delta.closed.end(), [&](const VoxelIndex& voxel) {
+    const Point centre = centre_of(voxel, delta.voxel_size);
+    for (std::size_t i = 0; i < path.size(); ++i)
+      if (squared_distance(centre, path[i], path[std::min(i + 1, path.size() - 1)]) < reach * reach)
+        return true;
+    return false;
+  });
+}
+
+bool still_safe(std::span<const Point> path, double radius, const Roadmap& now) {
+  const FreeSpace space(now.esdf);
+  if (path.empty()) throw InputError("path", "has no point", "give one at least");
+  std::vector<Point> local;
+  for (const Point& p : path) {
+    if (!has_voxel(p, now.esdf.voxel_size))
+      throw InputError("path", "has a point that is no place of the map", "give finite metres");
+    local.push_back(to_local(now.esdf, p));
+  }
+  if (!space.is_free(local.front(), radius)) return false;
+  for (std::size_t i = 0; i + 1 < local.size(); ++i)
+    if (!space.is_free(local[i], local[i + 1], radius)) return false;
+  return true;
+}
+
+}  // namespace ridgeway

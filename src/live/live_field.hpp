@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "block_rows.hpp"
+#include "marked_voxels.hpp"
+#include "ridgeway/esdf/esdf.hpp"
+#include "ridgeway/mapping/occupancy_map.hpp"
+
+namespace ridgeway::detail {
+
+/// The way to the nearest obstacle within a voxel's line along x; kNoWay where there is none.
+using LineOffset = std::int16_t;
+/// The way to the nearest obstacle within a voxel's plane across z; x is kNoWay where there is
+/// none.
+struct PlaneOffset {
+  std::int16_t x = 0;
+  std::int16_t y = 0;
+  friend constexpr bool operator==(const PlaneOffset&, const PlaneOffset&) = default;
+};
+
+/// 4 d^2 to it; kNoSite where there is none.
+constexpr std::uint32_t line_cost(LineOffset x) {
+  return x == kNoWay ? kNoSite : squared_halves(x);
+}
+constexpr std::uint32_t plane_cost(const PlaneOffset& o) {
+  return o.x == kNoWay ? kNoSite : squared_halves(o.x) + squared_halves(o.y);
+}
+
+/// A map that changes and the distance field that follows it: the field, and what the sweeps along
+/// x and y left, from which those along y and z go on. All fields are on `esdf.layout`; what is
+/// farther than `max_distance` is left out by each sweep, as it can be nobody's nearest.
+struct LiveField {
+  EsdfMap esdf;
+  VoxelField<LineOffset> in_line;
+  VoxelField<PlaneOffset> in_plane;
+  std::vector<std::uint16_t> known;  ///< voxels whose state is known, by block
+
+  // Of the last update, and what it worked with.
+  std::vector<std::pair<VoxelId, VoxelState>>
+      before;                   ///< voxels whose state changed, and from what
+  std::uint32_t first_new = 0;  ///< slots from here on are not swept yet
+  MarkedVoxels flipped;         ///< those that became obstacles or ceased to be
+  MarkedVoxels changed;         ///< those whose distance or site the last update changed
+  MarkedVoxels due, passed;     ///< for updates: what a sweep has to look at
+
+  /// Of a map without any block.
+  LiveField(double voxel_size, const VoxelIndex& origin, const EsdfConfig& config);
+
+  bool solid_outside() const { return esdf.unknown == UnknownPolicy::kObstacle; }
+};
+
+/// The map alone: the blocks in which something is known.
+OccupancyMap map_of(const LiveField& field);
+
+/// Adds blocks of voxels that are unknown. Where unknown space is solid nothing else changes.
+void add_blocks(LiveField& field, std::span<const BlockIndex> blocks);
+
+/// Sets the states of voxels of the lattice, adding the blocks of those that become known; of
+/// several changes of one voxel the last counts. Distances do not follow yet.
+void apply_changes(LiveField& field, std::span<const VoxelChange> changes);
+
+/// Takes the states back to what they were before the last changes, whatever has failed since.
+/// Distances do not follow: a new field is to be made of map_of().
+void undo_changes(LiveField& field) noexcept;
+
+/// Brings the distances up to date after `esdf.obstacle` has changed where `flipped` says. Same
+/// bytes as compute_esdf of the whole map, by induction over its three sweeps: a run between
+/// obstacles is swept again only where it holds a voxel that the sweep before has changed.
+///
+/// Where unknown space is ignored, the layout must hold the blocks that sweeps pass through.
+/// An exception leaves the field of no use, but for its map.
+void update_distances(LiveField& field);
+
+}  // namespace ridgeway::detail

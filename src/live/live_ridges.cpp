@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "live_ridges.hpp"
+
+#include <bit>
+#include <utility>
+#include <vector>
+
+#include "ridgeway/common/parallel.hpp"
+#include "skeleton/block_ridges.hpp"
+#include "skeleton/thin_among.hpp"
+#include "voxel/cube_gather.hpp"
+
+namespace ridgeway::detail {
+namespace {
+
+/// Members of a block on the side, edge or corner towards a direction; all for the centre.
+bool has_member_towards(const VoxelMask::Block& block, const VoxelIndex& direction) {
+  constexpr std::uint64_t kLowX = 0x0101010101010101u, kLowY = 0xffu, kAll = ~std::uint64_t{0};
+  const auto side = [](int sign, std::uint64_t low, int shift) {
+    return sign == 0 ? kAll : sign < 0 ? low : low << shift;
+  };
+  const std::uint64_t cells = side(direction.x, kLowX, 7) & side(direction.y, kLowY, 56);
+  std::uint64_t any = 0;
+  for (std::size_t z = 0; z < kBlockSide; ++z)
+    if (direction.z == 0 || (direction.z < 0 ? z == 0 : z == kBlockSide - 1)) any |= block[z];
+  return (any & cells) != 0;
+}
+
+/// The blocks of marked voxels and of their 26-neighbours.
+std::vector<std::uint32_t> blocks_around(const BlockLayout& layout, const MarkedVoxels& marked) {
+  MarkedVoxels around;
+  std::vector<std::uint32_t> slots;
+  for (const std::uint32_t slot : marked.slots)
+    for (int d = 0; d < 27; ++d)
+      if (const std::uint32_t n = layout.neighbour_block(slot, d);
+          n != BlockLayout::kNoBlock && has_member_towards(marked.voxels.block(slot), offset_of(d)))
+        slots.push_back(n);
+  around.name(slots);
+  return std::move(around.slots);
+}
+
+std::size_t count_of(const VoxelMask::Block& block) {
+  std::size_t count = 0;
+  for (const std::uint64_t layer : block) count += static_cast<std::size_t>(std::popcount(layer));
+  return count;
+}
+
+/// Makes some blocks of a mask again, marks what is new, and keeps count of its members.
+template <typename BlockOf>
+void remake(const std::vector<std::uint32_t>& slots, const BlockOf& block_of_slot, VoxelMask& mask,
+            MarkedVoxels& changed, std::size_t& count) {
+  changed.clear();
+  std::vector<std::uint8_t> is_new(slots.size());
+  parallel_for_each_index(slots.size(), [&](std::size_t i) {
+    const std::uint32_t slot = slots[i];
+    const VoxelMask::Block block = block_of_slot(slot);
+    if (block == mask.block(slot)) return;
+    for (std::size_t z = 0; z < kBlockSide; ++z)
+      changed.voxels.block(slot)[z] = block[z] ^ mask.block(slot)[z];
+    mask.block(slot) = block;
+    is_new[i] = 1;
+  });
+  std::vector<std::uint32_t> named;
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    if (is_new[i] == 0) continue;
+    named.push_back(slots[i]);
+    VoxelMask::Block came = changed.voxels.block(slots[i]);
+    const std::size_t all = count_of(came);
+    for (std::size_t z = 0; z < kBlockSide; ++z) came[z] &= mask.block(slots[i])[z];
+    count += 2 * count_of(came) - all;  // what came less what went
+  }
+  changed.name(named);
+}
+
+/// Collects the 26-components of a mask that hold some of its members.
+class Flood {
+ public:
+  Flood(const BlockLayout& layout, const VoxelMask& mask, MarkedVoxels& seen)
+      : layout_(layout), mask_(mask), seen_(seen) {}
+
+  void from(VoxelId seed) {
+    if (!mask_.test(seed) || seen_.voxels.test(seed)) return;
+    take(seed);
+    for (std::size_t next = found_.size() - 1; next < found_.size(); ++next)
+      around(found_[next], [&](VoxelId id) { take(id); });
+  }
+  void from_around(VoxelId id) {
+    around(id, [&](VoxelId seed) { from(seed); });
+  }
+  std::vector<VoxelId> take_all() { return std::move(found_); }
+
+ private:
+  template <typename Body>
+  void around(VoxelId id, const Body& body) const {
+    for (Cube27 cube = cube_around(layout_, mask_, id) & kCells26; cube != 0; cube &= cube - 1)
+      body(layout_.neighbour(id, std::countr_zero(cube)));
+  }
+  void take(VoxelId id) {
+    if (seen_.voxels.test(id)) return;
+    const std::uint32_t slot = id / kBlockVoxels;
+    if (seen_.voxels.block(slot) == VoxelMask::Block{}) seen_.slots.push_back(slot);
+    seen_.voxels.set(id);
+    found_.push_back(id);
+  }
+
+  const BlockLayout& layout_;
+  const VoxelMask& mask_;
+  MarkedVoxels& seen_;
+  std::vector<VoxelId> found_;
+};
+
+/// Thins the components again that thick edges came to or went from.
+void thin_again(LiveRidges& ridges, const BlockLayout& layout) {
+  Flood touched(layout, ridges.thick_edges, ridges.seen);
+  for (const std::uint32_t slot : ridges.changed_thick.slots)
+    for_each_member(ridges.changed_thick.voxels, slot, [&](VoxelId id) {
+      ridges.edges.reset(id);
+      touched.from(id);
+      touched.from_around(id);
+    });
+  ridges.seen.clear();
+  std::vector<VoxelId> voxels = touched.take_all();
+  for (const VoxelId id : voxels) ridges.edges.set(id);
+  thin_among(layout, ridges.edges, std::move(voxels));
+}
+
+}  // namespace
+
+void update_ridges(LiveRidges& ridges, const LiveField& field) {
+  const EsdfMap& esdf = field.esdf;
+  for (VoxelMask* mask : {&ridges.traversable, &ridges.gvd, &ridges.thick_edges, &ridges.edges})
+    mask->grow(esdf.layout);
+  for (MarkedVoxels* marked :
+       {&ridges.changed_space, &ridges.changed_gvd, &ridges.changed_thick, &ridges.seen})
+    marked->grow(esdf.layout);
+  remake(
+      field.changed.slots,
+      [&](std::uint32_t slot) { return traversable_in_block(esdf, ridges.radius, slot); },
+      ridges.traversable, ridges.changed_space, ridges.traversable_count);
+  remake(
+      blocks_around(esdf.layout, field.changed),
+      [&](std::uint32_t slot) {
+        return gvd_in_block(esdf, ridges.traversable, ridges.config, slot);
+      },
+      ridges.gvd, ridges.changed_gvd, ridges.gvd_count);
+  remake(
+      blocks_around(esdf.layout, ridges.changed_gvd),
+      [&](std::uint32_t slot) { return edges_in_block(esdf.layout, ridges.gvd, slot); },
+      ridges.thick_edges, ridges.changed_thick, ridges.thick_count);
+  thin_again(ridges, esdf.layout);
+}
+
+}  // namespace ridgeway::detail

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include "live_field.hpp"
+#include "ridgeway/skeleton/gvd.hpp"
+
+namespace ridgeway::detail {
+
+/// The ridges of a field that changes, as the stages from traversable_voxels to thin() leave them.
+struct LiveRidges {
+  double radius = 0.0;  ///< metres; of what is traversable
+  GvdConfig config = {};
+  VoxelMask traversable = {}, gvd = {}, thick_edges = {}, edges = {};
+  std::size_t traversable_count = 0, gvd_count = 0, thick_count = 0;
+  /// Those that came or went with the last update.
+  MarkedVoxels changed_space = {}, changed_gvd = {}, changed_thick = {};
+  MarkedVoxels seen = {};  ///< for updates
+};
+
+/// Follows a field after update_distances: blocks in which something has changed, and those beside
+/// it; of the edges whole components, which thinning does not look beyond. Where unknown space is
+/// an obstacle.
+void update_ridges(LiveRidges& ridges, const LiveField& field);
+
+}  // namespace ridgeway::detail

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <vector>
+
+#include "ridgeway/mapping/occupancy_map.hpp"
+#include "ridgeway/voxel/voxel_mask.hpp"
+#include "tsdf_blocks.hpp"
+
+namespace ridgeway::detail {
+
+/// Calls body(voxel) for all voxels whose centre is no farther than `radius` metres from a place.
+template <typename Body>
+void for_each_in_sphere(const Point& place, double radius, double voxel_size, const Body& body) {
+  const VoxelIndex low = voxel_at(place - Point::Constant(radius), voxel_size);
+  const VoxelIndex high = voxel_at(place + Point::Constant(radius), voxel_size);
+  for (int z = low.z; z <= high.z; ++z)
+    for (int y = low.y; y <= high.y; ++y)
+      for (int x = low.x; x <= high.x; ++x)
+        if (!((centre_of({x, y, z}, voxel_size) - place).norm() > radius))
+          body(VoxelIndex{x, y, z});
+}
+
+/// What was accepted of the states of a fusion's voxels, to tell what is new. `cleared`: where the
+/// robot has been, which is free.
+struct AcceptedStates {
+  struct Block {
+    VoxelMask::Block known{}, free{}, cleared{};
+  };
+  std::vector<Block> blocks;  ///< by number
+  std::size_t places = 0;     ///< that `cleared` has
+
+  std::vector<std::uint32_t> found;  ///< blocks that were looked at, by index, and what they are
+  std::vector<Block> now;
+  std::size_t places_now = 0;
+
+  /// See TsdfFusion::find_changes; `all_places`: of the sensor.
+  std::vector<VoxelChange> find(const TsdfBlocks& tsdf, const VoxelIndex& origin,
+                                const std::vector<Point>& all_places, const FusionConfig& config);
+  void accept(TsdfBlocks& tsdf) noexcept;
+};
+
+}  // namespace ridgeway::detail

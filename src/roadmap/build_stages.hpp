@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <string_view>
+
+#include "common/clock.hpp"
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/roadmap/build_roadmap.hpp"
+#include "ridgeway/skeleton/gvd.hpp"
+
+/// Parts of build_roadmap, for those who have the results of its first stages already.
+namespace ridgeway::detail {
+
+/// Times the stages one after the other and reports each to the caller.
+class StageClock {
+ public:
+  explicit StageClock(const Progress& progress) : progress_(progress) {}
+
+  void begin(std::string_view stage) {
+    if (progress_ && !progress_(stage, static_cast<double>(done_++) / kStages)) throw Cancelled();
+    start_ = detail::seconds_now();
+  }
+  void end(double& seconds) const { seconds += detail::seconds_now() - start_; }
+
+ private:
+  static constexpr int kStages = 8;
+  const Progress& progress_;
+  int done_ = 0;
+  double start_ = detail::seconds_now();
+};
+
+/// What compute_gvd takes of the whole configuration: ridges between what no robot passes between are
+/// left out with the rest that is not significant.
+GvdConfig ridges_of(const BuildConfig& config);
+
+/// Throws InputError where a valid configuration does not suit maps of a voxel size.
+void require_suits(const BuildConfig& config, double voxel_size);
+
+/// The distances of a map, in which small pockets of free space are filled where unknown space is
+/// ignored. Consumes the map.
+EsdfMap distances_of(OccupancyMap map, const BuildConfig& config);
+
+/// All that follows from the distances, which `result.roadmap` holds, with its min_clearance.
+/// `traversable`: the voxels free at that, at least one.
+void build_on_distances(VoxelMask traversable, const BuildConfig& config, BuildResult& result,
+                        StageClock& clock);
+
+/// And from the edges of the diagram, thinned.
+void build_on_edges(VoxelMask traversable, VoxelMask edges, const BuildConfig& config,
+                    BuildResult& result, StageClock& clock);
+
+}  // namespace ridgeway::detail

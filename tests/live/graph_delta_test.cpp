@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+// What deltas say is what is different, and a path that they leave alone stays free.
+#include "ridgeway/live/graph_delta.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <random>
+#include <set>
+#include <thread>
+
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/live/live_roadmap.hpp"
+#include "ridgeway/planning/plan.hpp"
+#include "support/random_changes.hpp"
+
+namespace ridgeway {
+namespace {
+
+constexpr double kRadius = 0.15;
+
+std::vector<VoxelChange> box(const VoxelIndex& low, const VoxelIndex& high, VoxelState state) {
+  std::vector<VoxelChange> changes;
+  for (int z = low.z; z <= high.z; ++z)
+    for (int y = low.y; y <= high.y; ++y)
+      for (int x = low.x; x <= high.x; ++x) changes.push_back({{x, y, z}, state});
+  return changes;
+}
+
+/// Two rooms of 4 x 4 x 2 m, a wall between them with a door of 1 m.
+LiveRoadmap two_rooms() {
+  LiveRoadmap live({.build = {.min_clearance = kRadius, .tangent_pairs = 100}});
+  std::vector<VoxelChange> changes = box({0, 0, 0}, {80, 39, 19}, VoxelState::kFree);
+  for (const VoxelChange& wall : box({40, 0, 0}, {40, 39, 19}, VoxelState::kOccupied))
+    if (wall.voxel.y < 10 || wall.voxel.y > 19) changes.push_back(wall);
+  live.set_voxels(changes);
+  return live;
+}
+
+std::vector<VoxelChange> door(VoxelState state) { return box({40, 10, 0}, {40, 19, 19}, state); }
+
+std::set<VoxelIndex> vertices_of(const Roadmap& roadmap) {
+  std::set<VoxelIndex> voxels;
+  for (const Vertex& vertex : roadmap.graph.vertices)
+    voxels.insert(roadmap.esdf.origin + vertex.voxel);
+  return voxels;
+}
+
+TEST(GraphDelta, NamesTheVerticesThatCameAndWent) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    LiveRoadmap live({.build = {.min_clearance = 0.1, .tangent_pairs = 0}});
+    std::shared_ptr<const Roadmap> before;
+    for (int step = 0; step < 8; ++step) {
+      live.set_voxels(testing::random_changes(random, {-12, -9, -11}, {14, 12, 9}));
+      const auto now = live.snapshot();
+      if (before && now) {
+        const GraphDelta delta = delta_between(*before, *now);
+        std::set<VoxelIndex> voxels = vertices_of(*before);
+        for (const VoxelIndex& gone : delta.gone_vertices) EXPECT_EQ(voxels.erase(gone), 1u);
+        for (const VoxelIndex& came : delta.came_vertices) EXPECT_TRUE(voxels.insert(came).second);
+        EXPECT_TRUE(voxels == vertices_of(*now));
+        EXPECT_EQ(before->graph.edges.size() + delta.came_edges.size(),
+                  now->graph.edges.size() + delta.gone_edges.size());
+        EXPECT_TRUE(delta_between(*now, *now).is_empty());
+      }
+      before = now;
+    }
+  }
+}
+
+TEST(GraphDelta, ADoorThatClosesAndOpensIsToldAtOnce) {
+  LiveRoadmap live = two_rooms();
+  const Point start(1.0, 1.5, 1.0), goal(7.0, 1.5, 1.0);
+  const auto open = live.snapshot();
+  const PlanResult path = plan(*open, start, goal);
+  ASSERT_TRUE(path.ok());
+  EXPECT_TRUE(still_safe(path.waypoints, kRadius, *open));
+
+  live.set_voxels(door(VoxelState::kOccupied));
+  const auto closed = live.snapshot();
+  const GraphDelta delta = delta_between(*open, *closed);
+  EXPECT_EQ(delta.closed.size(), 200u);
+  EXPECT_FALSE(delta.gone_edges.empty());
+  EXPECT_TRUE(may_be_invalid(path.waypoints, kRadius, delta));
+  EXPECT_FALSE(still_safe(path.waypoints, kRadius, *closed));
+  EXPECT_FALSE(plan(*closed, start, goal).ok());
+  // A path elsewhere is left alone.
+  const PlanResult other = plan(*open, start, {1.0, 3.0, 1.0});
+  ASSERT_TRUE(other.ok());
+  EXPECT_FALSE(may_be_invalid(other.waypoints, kRadius, delta));
+
+  live.set_voxels(door(VoxelState::kFree));
+  const auto again = live.snapshot();
+  EXPECT_TRUE(delta_between(*closed, *again).closed.empty());
+  EXPECT_TRUE(delta_between(*open, *again).is_empty());
+  EXPECT_TRUE(plan(*again, start, goal).ok());
+}
+
+TEST(GraphDelta, APathThatIsLeftAloneStaysFree) {
+  int kept = 0, lost = 0;
+  std::mt19937 random(5);
+  const auto place = [&] {
+    std::uniform_real_distribution<double> share(0.05, 0.95);
+    return Point(8.1 * share(random), 4.0 * share(random), 2.0 * share(random));
+  };
+  LiveRoadmap live = two_rooms();
+  for (int step = 0; step < 40; ++step) {
+    const auto before = live.snapshot();
+    std::vector<std::vector<Point>> paths;
+    for (int i = 0; i < 6; ++i)
+      if (const PlanResult path = plan(*before, place(), place()); path.ok())
+        paths.push_back(path.waypoints);
+    live.set_voxels(testing::random_changes(random, {0, 0, 0}, {81, 40, 20}));
+    const auto now = live.snapshot();
+    ASSERT_NE(now, nullptr);
+    const GraphDelta delta = delta_between(*before, *now);
+    for (const std::vector<Point>& path : paths) {
+      const bool is_safe = still_safe(path, kRadius, *now);
+      EXPECT_TRUE(is_safe || may_be_invalid(path, kRadius, delta));
+      kept += !may_be_invalid(path, kRadius, delta);
+      lost += !is_safe;
+    }
+  }
+  EXPECT_GT(kept, 20);
+  EXPECT_GT(lost, 5);
+}
+
+TEST(GraphDelta, RefusesMapsThatAreNotTheSame) {
+  LiveRoadmap live = two_rooms();
+  LiveRoadmap other({.build = {.min_clearance = kRadius}, .origin = VoxelIndex{1, 0, 0}});
+  other.set_voxels(box({0, 0, 0}, {20, 20, 20}, VoxelState::kFree));
+  EXPECT_THROW(delta_between(*live.snapshot(), *other.snapshot()), InputError);
+  EXPECT_THROW(still_safe({}, kRadius, *live.snapshot()), InputError);
+}
+
+TEST(LiveRoadmap, IsPlannedOnWhileItIsUpdated) {
+  LiveRoadmap live = two_rooms();
+  std::atomic<bool> done = false;
+  std::atomic<int> asked = 0, unsafe = 0;
+  std::thread planner([&] {
+    while (!done || asked == 0) {
+      const auto now = live.snapshot();
+      const PlanResult path = plan(*now, {1.0, 1.5, 1.0}, {7.0, 1.5, 1.0});
+      unsafe += path.ok() && !still_safe(path.waypoints, kRadius, *now);
+      ++asked;
+    }
+  });
+  for (int step = 0; step < 12; ++step)
+    live.set_voxels(door(step % 2 == 0 ? VoxelState::kOccupied : VoxelState::kFree));
+  done = true;
+  planner.join();
+  EXPECT_EQ(unsafe, 0);
+}
+
+}  // namespace
+}  // namespace ridgeway

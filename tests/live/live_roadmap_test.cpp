@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+// The contract: after every update the snapshot has the bytes of a batch build of the same map.
+#include "ridgeway/live/live_roadmap.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+#include "files/read_file.hpp"
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/common/parallel.hpp"
+#include "ridgeway/ridge/ridge_file.hpp"
+#include "sensing/poses.hpp"
+#include "sensing/world_generators.hpp"
+#include "support/random_changes.hpp"
+#include "support/refusal.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace ridgeway {
+namespace {
+
+/// The bytes of a roadmap's file; none for no roadmap.
+std::string bytes_of(const Roadmap* roadmap) {
+  if (roadmap == nullptr) return {};
+  const TemporaryFolder folder;
+  save_roadmap(*roadmap, folder / "map.ridge");
+  return read_file(folder / "map.ridge");
+}
+
+std::string batch_bytes(const OccupancyMap& map, const BuildConfig& config) {
+  try {
+    const BuildResult result = build_roadmap(map, config);
+    return bytes_of(&result.roadmap);
+  } catch (const InputError&) {
+    return {};  // no voxel is traversable
+  }
+}
+
+BuildConfig small_build(UnknownPolicy unknown, double max_distance) {
+  return {
+      .min_clearance = 0.1, .unknown = unknown, .max_distance = max_distance, .tangent_pairs = 40};
+}
+
+struct Sets {
+  UnknownPolicy unknown;
+  double max_distance;
+  unsigned count;
+};
+
+class LiveRoadmapAfter : public ::testing::TestWithParam<Sets> {};
+
+TEST_P(LiveRoadmapAfter, RandomChangeSetsHasTheBytesOfABatchBuild) {
+  constexpr int kSteps = 10;
+  const BuildConfig build = small_build(GetParam().unknown, GetParam().max_distance);
+  std::size_t with_roadmap = 0, removed = 0;
+  for (unsigned seed = 0; seed < GetParam().count / kSteps; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    LiveRoadmap live({.build = build});
+    for (int step = 0; step < kSteps; ++step) {
+      SCOPED_TRACE(step);
+      const auto changes = testing::random_changes(random, {-12, -9, -11}, {14, 12, 9});
+      UpdateReport report;
+      with_threads(1 + step % 2, [&] { report = live.set_voxels(changes); });
+      const auto snapshot = live.snapshot();
+      EXPECT_EQ(report.has_roadmap, snapshot != nullptr);
+      EXPECT_TRUE(bytes_of(snapshot.get()) == batch_bytes(live.map(), build));
+      with_roadmap += snapshot != nullptr;
+      removed += report.in_batch;
+      if (HasFailure()) return;
+    }
+  }
+  EXPECT_GT(with_roadmap, GetParam().count / 2);
+  EXPECT_GT(removed, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Policies, LiveRoadmapAfter,
+    ::testing::Values(Sets{UnknownPolicy::kObstacle, std::numeric_limits<double>::infinity(), 1000},
+                      Sets{UnknownPolicy::kObstacle, 0.45, 1000},
+                      Sets{UnknownPolicy::kIgnore, std::numeric_limits<double>::infinity(), 100}));
+
+TEST(LiveRoadmap, DoesNotDependOnOrderAndGroupingOfChanges) {
+  const BuildConfig build = small_build(UnknownPolicy::kObstacle, 1.0);
+  std::mt19937 random(3);
+  std::vector<VoxelChange> changes;
+  for (int i = 0; i < 12; ++i) {
+    const auto more = testing::random_changes(random, {-12, -9, -11}, {14, 12, 9});
+    changes.insert(changes.end(), more.begin(), more.end());
+  }
+  LiveRoadmap at_once({.build = build});
+  at_once.set_voxels(changes);
+  ASSERT_NE(at_once.snapshot(), nullptr);
+  const std::vector<VoxelChange> all = testing::changes_to(at_once.map());
+  const std::string expected = bytes_of(at_once.snapshot().get());
+  for (const std::size_t group : {std::size_t{97}, changes.size() / 3}) {
+    LiveRoadmap live({.build = build});
+    std::vector<VoxelChange> shuffled = all;
+    std::shuffle(shuffled.begin(), shuffled.end(), random);
+    for (std::size_t i = 0; i < shuffled.size(); i += group)
+      live.set_voxels(std::span(shuffled).subspan(i, std::min(group, shuffled.size() - i)));
+    EXPECT_TRUE(bytes_of(live.snapshot().get()) == expected) << group;
+  }
+}
+
+struct Scan {
+  DepthImage image;
+  Eigen::Isometry3d T_world_camera;
+};
+
+DepthSensor sensor_of_flight() {
+  DepthSensor sensor;
+  sensor.camera = {.width = 160, .height = 120, .fx = 80.0, .fy = 80.0, .cx = 79.5, .cy = 59.5};
+  sensor.range_sigma = 0.01;
+  return sensor;
+}
+
+std::vector<Scan> flight_through_house(std::size_t count) {
+  const World world = make_house();
+  std::vector<Scan> scans;
+  for (const Eigen::Isometry3d& pose :
+       sample_poses(world, {.low = {1, 1, 1}, .high = {14, 10, 4}, .count = count, .seed = 1}))
+    scans.push_back({render_depth(world, sensor_of_flight(), pose, scans.size()), pose});
+  return scans;
+}
+
+LiveConfig house_config() {
+  return {.fusion = {.voxel_size = 0.2, .clear_radius = 0.4},
+          .build = {.min_clearance = 0.3, .max_distance = 2.0, .tangent_pairs = 200}};
+}
+
+TEST(LiveRoadmap, OfEveryScanOfAFlightHasTheBytesOfABatchBuild) {
+  const LiveConfig config = house_config();
+  LiveRoadmap live(config);
+  TsdfFusion fusion(config.fusion);
+  for (const Scan& scan : flight_through_house(12)) {
+    const UpdateReport report =
+        live.integrate(scan.image, sensor_of_flight().camera, scan.T_world_camera);
+    fusion.integrate(scan.image, sensor_of_flight().camera, scan.T_world_camera);
+    EXPECT_FALSE(report.in_batch);
+    EXPECT_GT(report.changed_voxels, 0u);
+    const OccupancyMap map = live.map();
+    EXPECT_TRUE(bytes_of(live.snapshot().get()) == batch_bytes(map, config.build));
+    // And the map is that of fusion, counted from another voxel.
+    const OccupancyMap fused = occupancy_of(fusion.map());
+    EXPECT_EQ(count_voxels(fused).free, count_voxels(map).free);
+    for (const VoxelChange& known : testing::changes_to(fused))
+      ASSERT_EQ(map.at(known.voxel - map.origin), known.state);
+  }
+}
+
+TEST(LiveRoadmap, SnapshotsStayAsTheyAreWhileTheMapGoesOn) {
+  LiveRoadmap live(house_config());
+  std::vector<std::shared_ptr<const Roadmap>> snapshots;
+  std::vector<std::string> bytes;
+  for (const Scan& scan : flight_through_house(4)) {
+    live.integrate(scan.image, sensor_of_flight().camera, scan.T_world_camera);
+    snapshots.push_back(live.snapshot());
+    bytes.push_back(bytes_of(snapshots.back().get()));
+  }
+  for (std::size_t i = 0; i < snapshots.size(); ++i)
+    EXPECT_TRUE(bytes_of(snapshots[i].get()) == bytes[i]);
+}
+
+TEST(LiveRoadmap, AnUpdateThatChangesNothingKeepsTheSnapshot) {
+  LiveRoadmap live({.build = small_build(UnknownPolicy::kObstacle, 1.0)});
+  std::mt19937 random(3);
+  live.set_voxels(testing::random_changes(random, {-12, -9, -11}, {14, 12, 9}));
+  const auto before = live.snapshot();
+  const UpdateReport report = live.set_voxels(testing::changes_to(live.map()));
+  EXPECT_EQ(report.changed_voxels, 0u);
+  EXPECT_EQ(live.snapshot(), before);
+}
+
+TEST(LiveRoadmap, RefusesBadInputByNameAndStaysAsItWas) {
+  const std::vector<Scan> scans = flight_through_house(2);
+  const PinholeCamera camera = sensor_of_flight().camera;
+  LiveRoadmap live(house_config());
+  live.integrate(scans[0].image, camera, scans[0].T_world_camera);
+  const auto snapshot = live.snapshot();
+  const std::vector<VoxelChange> map = testing::changes_to(live.map());
+
+  const auto refused = [&](const std::string& name, const auto& update) {
+    try {
+      update();
+      ADD_FAILURE() << name << " was taken";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+    }
+    EXPECT_EQ(live.snapshot(), snapshot);
+    EXPECT_TRUE(testing::changes_to(live.map()) == map);
+  };
+  Eigen::Isometry3d sheared = scans[1].T_world_camera;
+  sheared.linear() *= 1.1;
+  refused("frame 2", [&] { live.integrate(scans[1].image, camera, sheared); });
+  Eigen::Isometry3d nowhere = scans[1].T_world_camera;
+  nowhere.translation().x() = std::numeric_limits<double>::quiet_NaN();
+  refused("frame 2", [&] { live.integrate(scans[1].image, camera, nowhere); });
+  Eigen::Isometry3d far = scans[1].T_world_camera;
+  far.translation().x() = 1e12;
+  refused("frame 2", [&] { live.integrate(scans[1].image, camera, far); });
+  refused("frame 2", [&] { live.integrate(DepthImage{}, camera, scans[1].T_world_camera); });
+  const std::vector<VoxelChange> beyond = {{{0, 0, 0}, VoxelState::kOccupied},
+                                           {{0, kMaxVoxelIndex + 1, 0}, VoxelState::kFree}};
+  refused("change 1", [&] { live.set_voxels(beyond); });
+  const std::vector<VoxelChange> nothing_known = {{{0, 0, 0}, static_cast<VoxelState>(7)}};
+  refused("change 0", [&] { live.set_voxels(nothing_known); });
+
+  // And goes on as if nothing had been.
+  live.integrate(scans[1].image, camera, scans[1].T_world_camera);
+  LiveRoadmap other(house_config());
+  for (const Scan& scan : scans) other.integrate(scan.image, camera, scan.T_world_camera);
+  EXPECT_TRUE(bytes_of(live.snapshot().get()) == bytes_of(other.snapshot().get()));
+}
+
+}  // namespace
+}  // namespace ridgeway
