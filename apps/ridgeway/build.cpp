@@ -2,7 +2,6 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -223,7 +222,9 @@ void add_build_command(Command& program) {
   const auto options = std::make_shared<BuildOptions>();
   BuildConfig& build = options->build;
   Command command = program.add("build", "Build a roadmap from a map");
-  command.path("map", options->map, "Map: OctoMap .bt, .ot; point cloud .pcd, .ply, .xyz; .3dmap")
+  command
+      .path("map", options->map,
+            "Map: OctoMap .bt, .ot; point cloud .pcd, .ply, .xyz; .3dmap; fused .ridge")
       .required();
   command.path("-o,--output", options->output, "Roadmap to write, .ridge").required();
   command.number("--voxel-size", options->voxel_size, kLengths,
