@@ -13,6 +13,7 @@
 #include "common/number_text.hpp"
 #include "files/byte_reader.hpp"
 #include "files/text.hpp"
+#include "mapping/memory_limit.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
 
 namespace ridgeway {

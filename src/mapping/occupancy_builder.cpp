@@ -3,7 +3,6 @@
 #include "ridgeway/mapping/occupancy_builder.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 #include <utility>
 #include <vector>

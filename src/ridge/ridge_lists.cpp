@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 #include <algorithm>
-#include <array>
 
 #include "files/little_endian.hpp"
 #include "ridge_sections.hpp"

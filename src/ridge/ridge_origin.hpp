@@ -5,7 +5,6 @@
 #include <array>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <string>
 
 #include "ridgeway/mapping/occupancy_map.hpp"
 

@@ -3,7 +3,6 @@
 #include "attach_way.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "ridgeway/esdf/free_space.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "ridgeway/roadmap/build_graph.hpp"

@@ -3,7 +3,6 @@
 #include "segment_fitting.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "ridgeway/esdf/free_space.hpp"
 
