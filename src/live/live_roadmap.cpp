@@ -21,12 +21,6 @@ using detail::LiveField;
 using detail::LiveRidges;
 using detail::seconds_now;
 
-/// What follows the map.
-struct Live {
-  LiveField field;
-  LiveRidges ridges;
-};
-
 /// Times one step after the other.
 class Lap {
  public:
@@ -73,6 +67,12 @@ void LiveConfig::validate() const {
 }
 
 struct LiveRoadmap::State {
+  /// What follows the map.
+  struct Live {
+    LiveField field;
+    LiveRidges ridges;
+  };
+
   explicit State(const LiveConfig& given) : config(given), fusion(undoable(given)) {}
 
   static FusionConfig undoable(const LiveConfig& given) {
