@@ -58,9 +58,7 @@ void BuildConfig::validate() const {
 namespace detail {
 
 GvdConfig ridges_of(const BuildConfig& config) {
-  return {
-      .theta = config.theta,
-      .least_apart = config.simplify && !config.paper_diagram ? 2.0 * config.min_clearance : 0.0};
+  return {.theta = config.theta, .least_apart = config.least_apart};
 }
 
 void require_suits(const BuildConfig& config, double voxel_size) {
