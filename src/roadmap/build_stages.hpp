@@ -30,8 +30,7 @@ class StageClock {
   double start_ = detail::seconds_now();
 };
 
-/// What compute_gvd takes of the whole configuration: ridges between what no robot passes between are
-/// left out with the rest that is not significant.
+/// What compute_gvd takes of the whole configuration.
 GvdConfig ridges_of(const BuildConfig& config);
 
 /// Throws InputError where a valid configuration does not suit maps of a voxel size.
