@@ -14,7 +14,7 @@
 namespace ridgeway::cli {
 namespace {
 
-struct Options {
+struct BenchLiveOptions {
   ScanOptions scan;  // of which the volume is not asked for
   std::string output;
   LiveFlightConfig config;
@@ -83,7 +83,7 @@ void add_times(BenchTable& table, const std::vector<LiveScan>& scans) {
   add("from scan to snapshot", [](const LiveScan& s) { return s.update.seconds; });
 }
 
-int run(const Options& options, const Globals& globals) {
+int run(const BenchLiveOptions& options, const Globals& globals) {
   LiveFlightConfig config = options.config;
   config.scans = options.scan.scans;
   const World world = options.scan.load();
@@ -110,7 +110,7 @@ int run(const Options& options, const Globals& globals) {
 }  // namespace
 
 void add_bench_live(Command& bench) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BenchLiveOptions>();
   LiveFlightConfig& config = options->config;
   Command command = bench.add(
       "live", "What a scan changes on a flight, and what an update costs against a batch build");

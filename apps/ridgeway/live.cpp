@@ -24,7 +24,7 @@
 namespace ridgeway::cli {
 namespace {
 
-struct Options {
+struct LiveOptions {
   std::string folder, output, csv;
   std::string unknown = "obstacle";
   int verify = 0;
@@ -49,8 +49,8 @@ bool have_same_file(const Roadmap& a, const Roadmap& b, const std::string& outpu
 }
 
 /// Builds the map in batch; throws where that gives another roadmap.
-void verify(const LiveRoadmap& live, const Options& options, const std::string& frame,
-            Replay& replay) {
+void verify_by_batch(const LiveRoadmap& live, const LiveOptions& options, const std::string& frame,
+                     Replay& replay) {
   const std::shared_ptr<const Roadmap> snapshot = live.snapshot();
   if (!snapshot) return;
   const Stopwatch watch;
@@ -63,18 +63,18 @@ void verify(const LiveRoadmap& live, const Options& options, const std::string& 
 
 /// Runs one update; complaints name the file.
 template <typename Update>
-void take(const LiveRoadmap& live, const Options& options, const std::filesystem::path& frame,
-          Replay& replay, const Update& update) {
+void replay_frame(const LiveRoadmap& live, const LiveOptions& options,
+                  const std::filesystem::path& frame, Replay& replay, const Update& update) {
   try {
     replay.updates.push_back(update());
   } catch (const InputError& error) {
     throw error.within(frame.string());
   }
   if (options.verify > 0 && replay.updates.size() % static_cast<std::size_t>(options.verify) == 0)
-    verify(live, options, frame.string(), replay);
+    verify_by_batch(live, options, frame.string(), replay);
 }
 
-void replay_images(const Options& options, const Globals& globals, LiveRoadmap& live,
+void replay_images(const LiveOptions& options, const Globals& globals, LiveRoadmap& live,
                    Replay& replay) {
   const DepthSequence sequence = open_sequence(options.folder, {});
   replay.without_pose = sequence.without_pose;
@@ -89,12 +89,12 @@ void replay_images(const Options& options, const Globals& globals, LiveRoadmap& 
       ++replay.unreadable;
       continue;
     }
-    take(live, options, frame.image, replay,
-         [&] { return live.integrate(*image, sequence.camera, frame.T_world_camera); });
+    replay_frame(live, options, frame.image, replay,
+                 [&] { return live.integrate(*image, sequence.camera, frame.T_world_camera); });
   }
 }
 
-void replay_scans(const Options& options, const Globals& globals, LiveRoadmap& live,
+void replay_scans(const LiveOptions& options, const Globals& globals, LiveRoadmap& live,
                   Replay& replay) {
   const ScanSequence sequence = open_scans(options.folder);
   replay.without_pose = sequence.without_pose;
@@ -103,8 +103,8 @@ void replay_scans(const Options& options, const Globals& globals, LiveRoadmap& l
     bar.show("live", static_cast<double>(replay.updates.size()) /
                          static_cast<double>(sequence.scans.size()));
     const PointCloud cloud = read_scan(scan);
-    take(live, options, scan.cloud, replay,
-         [&] { return live.integrate(cloud.points, scan.T_world_sensor); });
+    replay_frame(live, options, scan.cloud, replay,
+                 [&] { return live.integrate(cloud.points, scan.T_world_sensor); });
   }
 }
 
@@ -148,7 +148,7 @@ Spread spread_of_column(const Replay& replay, const Column& column) {
   return spread_of(std::move(values));
 }
 
-void print(const Options& options, const Replay& replay, const Roadmap& roadmap,
+void print(const LiveOptions& options, const Replay& replay, const Roadmap& roadmap,
            const Globals& globals) {
   if (globals.json) {
     nlohmann::ordered_json json = {{"file", options.output},
@@ -179,7 +179,7 @@ void print(const Options& options, const Replay& replay, const Roadmap& roadmap,
   print_row("file", options.output);
 }
 
-int run(const Options& options, const Globals& globals) {
+int run(const LiveOptions& options, const Globals& globals) {
   const RecordingKind kind = kind_of_recording(options.folder);
   LiveConfig config = options.live;
   if (options.unknown == "ignore") config.build.unknown = UnknownPolicy::kIgnore;
@@ -187,7 +187,7 @@ int run(const Options& options, const Globals& globals) {
   require_outside(options.output, options.folder);
   require_writable({options.output}, {});
   require_extension(options.output, "a roadmap", {".ridge"});
-  Options all = options;
+  LiveOptions all = options;
   all.live = config;
   LiveRoadmap live(config);
   Replay replay;
@@ -210,7 +210,7 @@ int run(const Options& options, const Globals& globals) {
 }  // namespace
 
 void add_live_command(Command& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<LiveOptions>();
   FusionConfig& fusion = options->live.fusion;
   BuildConfig& build = options->live.build;
   Command command =

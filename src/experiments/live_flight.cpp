@@ -19,7 +19,7 @@ namespace ridgeway {
 namespace {
 
 /// Level poses along paths between random places, looking where they go.
-std::vector<Eigen::Isometry3d> fly(const World& world, const LiveFlightConfig& config) {
+std::vector<Eigen::Isometry3d> forward_flight(const World& world, const LiveFlightConfig& config) {
   constexpr double kTruth = 0.1, kBody = 0.4;
   constexpr int kMostLegs = 10000;
   const PoseSampling inside = sampling_inside(world);
@@ -56,13 +56,13 @@ std::vector<Eigen::Isometry3d> fly(const World& world, const LiveFlightConfig& c
 }
 
 /// What each stage makes of a field, as masks on its layout.
-struct Stages {
+struct StageMasks {
   VoxelMask traversable, gvd, thick_edges, edges, kernel, diagram;
 };
 
-Stages stages_of(const Roadmap& roadmap) {
+StageMasks masks_of(const Roadmap& roadmap) {
   const EsdfMap& esdf = roadmap.esdf;
-  Stages stages;
+  StageMasks stages;
   stages.traversable = traversable_voxels(esdf, roadmap.min_clearance);
   stages.gvd = compute_gvd(esdf, stages.traversable);
   stages.thick_edges = extract_edges(esdf, stages.gvd);
@@ -133,9 +133,9 @@ void run_live_flight(const World& world, const LiveFlightConfig& config, const P
       .fusion = {.voxel_size = config.voxel_size},
       .build = {.min_clearance = config.min_clearance, .max_distance = config.max_distance}};
   LiveRoadmap live(live_config);
-  Stages before;
+  StageMasks before;
   Random seeds(config.seed);
-  for (const Eigen::Isometry3d& pose : fly(world, config)) {
+  for (const Eigen::Isometry3d& pose : forward_flight(world, config)) {
     const auto done = static_cast<double>(results.size()) / static_cast<double>(config.scans);
     if (progress && !progress("fly", done)) throw Cancelled();
     LiveScan scan;
@@ -148,13 +148,13 @@ void run_live_flight(const World& world, const LiveFlightConfig& config, const P
       const BuildResult batch = build_roadmap(map, live_config.build);
       scan.batch = batch.report.seconds;
       scan.is_same = is_same(*now, batch.roadmap);
-      const Stages stages = stages_of(*now);
-      for (auto [change, mask] : {std::pair(&LiveScan::traversable, &Stages::traversable),
-                                  {&LiveScan::gvd, &Stages::gvd},
-                                  {&LiveScan::thick_edges, &Stages::thick_edges},
-                                  {&LiveScan::edges, &Stages::edges},
-                                  {&LiveScan::kernel, &Stages::kernel},
-                                  {&LiveScan::diagram, &Stages::diagram}})
+      const StageMasks stages = masks_of(*now);
+      for (auto [change, mask] : {std::pair(&LiveScan::traversable, &StageMasks::traversable),
+                                  {&LiveScan::gvd, &StageMasks::gvd},
+                                  {&LiveScan::thick_edges, &StageMasks::thick_edges},
+                                  {&LiveScan::edges, &StageMasks::edges},
+                                  {&LiveScan::kernel, &StageMasks::kernel},
+                                  {&LiveScan::diagram, &StageMasks::diagram}})
         scan.*change = change_of(before.*mask, stages.*mask);
       before = stages;
     }

@@ -24,7 +24,7 @@ void clear_around(const Point& place, const TsdfBlocks& tsdf, const FusionConfig
 }
 
 /// Brings what was said of a block up to date; the voxels of which it was something else.
-VoxelMask::Block update(const TsdfBlock& tsdf, AcceptedStates::Block& said) {
+VoxelMask::Block restate(const TsdfBlock& tsdf, AcceptedStates::Block& said) {
   const auto at = [](int v) { return static_cast<std::size_t>(v); };
   const VoxelMask::Block known = block_where([&](int v) { return tsdf.weight[at(v)] > 0.0f; });
   const VoxelMask::Block before = block_where([&](int v) { return tsdf.distance[at(v)] > 0.0f; });
@@ -57,7 +57,7 @@ std::vector<VoxelChange> AcceptedStates::find(const TsdfBlocks& tsdf, const Voxe
   places_now = all_places.size();
   std::vector<VoxelMask::Block> changed(found.size());
   parallel_for_each_index(
-      found.size(), [&](std::size_t i) { changed[i] = update(tsdf.block(found[i]), now[i]); }, 16);
+      found.size(), [&](std::size_t i) { changed[i] = restate(tsdf.block(found[i]), now[i]); }, 16);
   std::vector<VoxelChange> changes;
   for (std::size_t i = 0; i < found.size(); ++i)
     for (std::size_t z = 0; z < kBlockSide; ++z)

@@ -51,7 +51,7 @@ class LiveFieldOf : public ::testing::TestWithParam<Case> {};
 TEST_P(LiveFieldOf, RandomChangesIsThatOfABatchBuild) {
   const EsdfConfig config{GetParam().unknown, GetParam().max_distance};
   const bool is_slow = config.unknown == UnknownPolicy::kIgnore;  // the batch build
-  for (unsigned seed = 0; seed < (is_slow ? 15u : 100u); ++seed) {
+  for (unsigned seed = 0; seed < (is_slow ? 10u : 60u); ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
     LiveField field(0.1, {}, config);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <limits>
 #include <random>
 
@@ -43,6 +44,12 @@ BuildConfig small_build(UnknownPolicy unknown, double max_distance) {
       .min_clearance = 0.1, .unknown = unknown, .max_distance = max_distance, .tangent_pairs = 40};
 }
 
+/// How many change sets: RIDGEWAY_CHANGE_SETS asks for another number.
+unsigned sets(unsigned usual) {
+  const char* asked = std::getenv("RIDGEWAY_CHANGE_SETS");
+  return asked != nullptr ? static_cast<unsigned>(std::strtoul(asked, nullptr, 10)) : usual;
+}
+
 struct Sets {
   UnknownPolicy unknown;
   double max_distance;
@@ -76,11 +83,12 @@ TEST_P(LiveRoadmapAfter, RandomChangeSetsHasTheBytesOfABatchBuild) {
   EXPECT_GT(removed, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Policies, LiveRoadmapAfter,
-    ::testing::Values(Sets{UnknownPolicy::kObstacle, std::numeric_limits<double>::infinity(), 1000},
-                      Sets{UnknownPolicy::kObstacle, 0.45, 1000},
-                      Sets{UnknownPolicy::kIgnore, std::numeric_limits<double>::infinity(), 100}));
+INSTANTIATE_TEST_SUITE_P(Policies, LiveRoadmapAfter,
+                         ::testing::Values(Sets{UnknownPolicy::kObstacle,
+                                                std::numeric_limits<double>::infinity(), sets(400)},
+                                           Sets{UnknownPolicy::kObstacle, 0.45, sets(400)},
+                                           Sets{UnknownPolicy::kIgnore,
+                                                std::numeric_limits<double>::infinity(), 60}));
 
 TEST(LiveRoadmap, DoesNotDependOnOrderAndGroupingOfChanges) {
   const BuildConfig build = small_build(UnknownPolicy::kObstacle, 1.0);
