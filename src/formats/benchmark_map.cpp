@@ -27,7 +27,8 @@ bool is_benchmark_map(std::string_view bytes) { return bytes.starts_with("voxel 
 OccupancyMap read_benchmark_map(std::string_view bytes, const std::string& name, double voxel_size,
                                 const VoxelPlacement& placement) {
   ByteReader reader(bytes, name);
-  const auto size = take_cell(reader.take_line().substr(5));
+  std::string_view first = reader.take_line();
+  const auto size = take_word(first) == "voxel" ? take_cell(first) : std::nullopt;
   if (!size || size->x == 0 || size->y == 0 || size->z == 0)
     throw InputError(name, "line 1 is not \"voxel X Y Z\"", "give the size of the map in cells");
   const VoxelRange all = {{0, 0, 0}, *size - VoxelIndex{1, 1, 1}};

@@ -64,6 +64,13 @@ TEST(BenchmarkScenarios, NamesTheLineThatIsBad) {
   }
 }
 
+TEST(BenchmarkMaps, RefuseWhatDoesNotBeginAsOne) {
+  for (const std::string_view bytes :
+       {std::string_view(""), std::string_view("\1\0v\177", 4), std::string_view("voxel"),
+        std::string_view("voxels 2 2 2\n"), std::string_view("voxel 2 2\n")})
+    EXPECT_THROW(benchmark_esdf(bytes), InputError) << bytes;
+}
+
 TEST(BenchmarkScenarios, MovesCutNoCornersAndStayOnTheGrid) {
   // One blocked cell beside a diagonal; a column of cells at the very edge.
   const EsdfMap esdf = benchmark_esdf("voxel 3 3 3\n1 0 0\n1 1 1\n");
