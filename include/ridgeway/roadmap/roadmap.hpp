@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ridgeway/esdf/esdf.hpp"
+#include "ridgeway/roadmap/cell_graph.hpp"
 #include "ridgeway/roadmap/sparse_graph.hpp"
 #include "ridgeway/roadmap/tangent_graph.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
@@ -46,6 +47,7 @@ struct Roadmap {
   AttachField attach;
   ClearanceTree tree;
   Landmarks landmarks;    ///< of the graph; not in the file, placed when it is loaded
+  CellGraph cells;        ///< of the field; not in the file, found when it is loaded
   TangentGraph tangents;  ///< ways close around corners; may be empty
   std::string source;     ///< the map it was built from, for people
   std::string config;     ///< the configuration it was built with, as JSON text, for people
