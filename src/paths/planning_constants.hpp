@@ -35,7 +35,7 @@ struct PlanningConstants {
 
   // Pulling tight (paths/shorten.cpp).
   int tight_rounds = 6;       ///< over all corners, at most
-  int tight_bisections = 5;   ///< of a move
+  int tight_bisections = 6;   ///< of a move
   double tight_gain = 2e-3;   ///< of the path's length: what a move must gain
   double corner_gain = 1e-2;  ///< the same between corners that were learnt tight
   double skip_step = 30.0;    ///< radii between the places that skipping may choose from
