@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
-#include "ridgeway/roadmap/cell_graph.hpp"
+#include "ridgeway/roadmap/roadmap.hpp"
 #include "ridgeway/voxel/neighbourhood.hpp"
 
 namespace ridgeway::detail {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/roadmap/cell_graph.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
+#include "ridgeway/roadmap/roadmap.hpp"
 #include "roadmap/cell_neighbours.hpp"
 #include "roadmap/cell_search.hpp"
 #include "support/pillars.hpp"
