@@ -92,7 +92,7 @@ TEST_F(CliInterruption, LeavesNothingBehindWheneverItComes) {
       {"world", "maze", "-o", path("new.yaml")},
       {"simulate", house(), "-o", path("new"), "--frames", "2000"},
       {"fuse", path("run"), "-o", path("new.ridge"), "--voxel-size", "0.05"},
-      {"bench", "maze", "--pairs", "5", "--cells", "4"},
+      {"bench", "maze", "--pairs", "5", "--cells", "4", "--long-pairs", "0"},
       {"bench", "hall", "--voxel-sizes", "0.28", "--repeat", "2"}};
   std::mt19937_64 random(18);
   for (int round = 0; round < 4; ++round) {

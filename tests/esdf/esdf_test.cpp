@@ -15,13 +15,49 @@ namespace {
 using testing::all_obstacles;
 using testing::random_map;
 
+/// Obstacles that share y and z, by x.
+struct Row {
+  int y, z;
+  std::vector<int> xs;
+};
+std::vector<Row> rows_of(const std::vector<VoxelIndex>& obstacles) {  // in (z, y, x) order
+  std::vector<Row> rows;
+  for (const VoxelIndex& o : obstacles) {
+    if (rows.empty() || rows.back().y != o.y || rows.back().z != o.z)
+      rows.push_back({o.y, o.z, {}});
+    rows.back().xs.push_back(o.x);
+  }
+  return rows;
+}
+
+std::int64_t squared_along(int k) {
+  const std::int64_t twice = std::max(2 * std::abs(k) - 1, 0);
+  return twice * twice;
+}
+
+/// detail::plain_nearest, but that rows farther away than `claimed` are passed over: the result
+/// equals the claim where it is right, and differs from it where it is not.
+detail::PlainNearest nearest_within(const VoxelIndex& v, const std::vector<Row>& rows,
+                                    std::int64_t claimed) {
+  detail::PlainNearest nearest;
+  for (const Row& row : rows) {
+    const std::int64_t across = squared_along(row.y - v.y) + squared_along(row.z - v.z);
+    if (across > claimed) continue;
+    for (const int x : row.xs) {
+      const std::int64_t squared = across + squared_along(x - v.x);
+      if (squared < nearest.squared) nearest = {squared, {x, row.y, row.z}};
+    }
+  }
+  return nearest;
+}
+
 void expect_equal_to_brute_force(const OccupancyMap& map, const EsdfConfig& config,
                                  const EsdfMap& esdf) {
-  const std::vector<VoxelIndex> obstacles = all_obstacles(map, config.unknown);
+  const std::vector<Row> rows = rows_of(all_obstacles(map, config.unknown));
   const double limit = config.max_distance / map.voxel_size * (1 + 1e-9);
   for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id) {
     const VoxelIndex v = esdf.layout.index_of(id);
-    const detail::PlainNearest nearest = detail::plain_nearest(v, obstacles);
+    const detail::PlainNearest nearest = nearest_within(v, rows, esdf.squared[id]);
     if (nearest.squared == kNoSite ||
         std::sqrt(0.25 * static_cast<double>(nearest.squared)) > limit) {
       ASSERT_EQ(esdf.squared[id], kNoSite);
