@@ -12,8 +12,10 @@
 #include "arguments.hpp"
 #include "bench.hpp"
 #include "bench_table.hpp"
+#include "common/number_text.hpp"
 #include "console.hpp"
 #include "experiments/hall.hpp"
+#include "experiments/tunnels.hpp"
 #include "files/temporary.hpp"
 #include "interruption.hpp"
 #include "pictures/scatter.hpp"
@@ -32,8 +34,16 @@ constexpr const char* kHall = "hall";  // as run_hall names it
 struct BenchHallOptions {
   std::vector<std::string> maps;
   std::string output;
+  std::vector<double> tunnels;  // kilometres
   HallExperimentConfig config;
 };
+
+/// A mine of so many kilometres, at 0.1 m.
+HallMap tunnels_of(double kilometres, std::uint64_t seed) {
+  const TunnelConfig config{.length = 1000.0 * kilometres, .seed = seed};
+  return {"tunnels of " + number_text(kilometres) + " km",
+          [config] { return make_tunnels(config); }};
+}
 
 /// One number for each stage, by the member of StageNumbers that holds it.
 template <typename Number>
@@ -156,6 +166,8 @@ int run(const BenchHallOptions& options, const Globals& globals) {
     const fs::path name = path.stem() == kHall ? path.filename() : path.stem();
     maps.push_back({name.string(), [file] { return load_map(file); }});
   }
+  for (const double kilometres : options.tunnels)
+    maps.push_back(tunnels_of(kilometres, config.seed));
   const fs::path place =
       options.output.empty() ? fs::temp_directory_path() : fs::path(options.output);
   const Temporary folder(place / kHall, Temporary::Kind::kFolder);
@@ -188,6 +200,8 @@ void add_bench_hall(Command& bench) {
       "hall", "How long does a map take? Each stage, memory and first answer, by voxel size");
   command.paths("maps", options->maps, "Maps to build beside the hall, as build takes them");
   command.numbers("--voxel-sizes", config.voxel_sizes, kLengths, "Of the hall, metres");
+  command.numbers("--tunnels", options->tunnels, {.least = 1e-3, .most = 1000.0},
+                  "Kilometres of seeded mines to build beside the hall, at 0.1 m");
   command.wholes("--threads-list", config.threads, {1, 1024},
                  "Numbers of threads; the first is what the others are compared with");
   command.whole("--repeat", config.repeat, {1, 10'000}, "Builds of which medians are taken");
@@ -196,7 +210,7 @@ void add_bench_hall(Command& bench) {
   command.whole("--queries", config.queries, {1, 1'000'000}, "Of the batch that runs in parallel");
   command.path("-o,--output", options->output,
                "Folder for hall.json, hall.csv and the figure (PNG, SVG)");
-  command.seed(config.seed, "Of hall, starts and goals");
+  command.seed(config.seed, "Of hall, mines, starts and goals");
   command.footer("Example:\n  ridgeway bench hall data/fr_079.bt -o results");
   command.runs(options, run);
 }

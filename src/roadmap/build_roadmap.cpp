@@ -41,6 +41,12 @@ SimplifyConfig simplification_of(const BuildConfig& config) {
 
 TangentConfig corners_of(const BuildConfig& config) { return {.most_pairs = config.tangent_pairs}; }
 
+/// Of the stages that follow, which take so much for each of these voxels.
+void require_memory_for(const VoxelMask& voxels, int bytes_each) {
+  require_memory(static_cast<double>(voxels.count()) * bytes_each, "map",
+                 "use larger voxels, or cut the map down to a smaller box");
+}
+
 }  // namespace
 
 void BuildConfig::validate() const {
@@ -108,6 +114,7 @@ void build_on_edges(VoxelMask traversable, VoxelMask edges, const BuildConfig& c
   BuildReport& report = result.report;
 
   clock.begin("kernel");
+  require_memory_for(edges, kKernelBytesPerEdgeVoxel);
   Basins basins = find_basins(esdf, traversable, config.min_clearance);
   report.traversable_components = basins.components();
   join_background(esdf, traversable,
@@ -121,6 +128,7 @@ void build_on_edges(VoxelMask traversable, VoxelMask edges, const BuildConfig& c
 
   clock.begin("graph");
   if (config.paper_diagram) diagram = std::move(edges);
+  require_memory_for(diagram, kGraphBytesPerDiagramVoxel);
   const detail::DiagramCurves curves = detail::index_diagram(esdf, diagram, config.min_clearance);
   roadmap.graph = detail::build_graph(esdf, curves, graph_of(config));
   if (config.simplify)

@@ -4,9 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
+#include "mapping/memory_limit.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/mapping/world_map.hpp"
 #include "sensing/poses.hpp"
+#include "support/random_maps.hpp"
 
 namespace ridgeway {
 namespace {
@@ -84,6 +88,32 @@ TEST(Hall, PeakMemoryIsThatOfOneMapAlone) {
   const std::vector<HallRow> rows = run_hall(config);
   ASSERT_TRUE(rows[0].peak_memory && rows[1].peak_memory);
   EXPECT_LT(*rows[1].peak_memory, *rows[0].peak_memory / 2);
+}
+
+/// 1,000 to 50,000 single voxels in a million, between which ridges are everywhere.
+TEST(Hall, PeakMemoryIsNoMoreThanIsReckonedWith) {
+  HallExperimentConfig config = small_config();
+  config.voxel_sizes = {0.06};
+  config.min_clearance = 0.12;
+  config.threads = {2};
+  std::vector<HallMap> maps;
+  for (const int in_thousand : {1, 10, 50})
+    maps.push_back(
+        {"salt", [in_thousand] {
+           std::mt19937 random(7);
+           return testing::make_map(0.06, {0, 0, 0}, {103, 103, 103}, [&](const VoxelIndex&) {
+             return static_cast<int>(random() % 1000) < in_thousand ? VoxelState::kOccupied
+                                                                    : VoxelState::kFree;
+           });
+         }});
+  constexpr double kProgram = 3e7;  // bytes, whatever the map
+  for (const HallRow& row : run_hall(config, maps)) {
+    ASSERT_TRUE(row.peak_memory);
+    const double reckoned =
+        static_cast<double>(row.counts.allocated_voxels) * kPipelineBytesPerVoxel +
+        static_cast<double>(row.counts.diagram_voxels) * kGraphBytesPerDiagramVoxel;
+    EXPECT_LT(static_cast<double>(*row.peak_memory), kProgram + reckoned) << row.map;
+  }
 }
 
 TEST(Hall, MapsThatCannotBeBuiltAreRefusedBeforeTheWork) {

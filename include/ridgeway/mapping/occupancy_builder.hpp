@@ -12,8 +12,9 @@
 
 namespace ridgeway {
 
-/// What an allocated voxel costs at the peak, bytes, in the whole pipeline from map to roadmap.
-inline constexpr int kPipelineBytesPerVoxel = 40;
+/// What an allocated voxel costs at the peak, bytes, from map to roadmap, in any map. Diagram and
+/// graph cost more where space is full of small things; that is reckoned with once it is known.
+inline constexpr int kPipelineBytesPerVoxel = 18;
 
 /// Makes an OccupancyMap from voxels and boxes of voxels of the lattice that come in any order.
 /// Where they overlap, occupied wins over free, free over unknown, so the order does not matter.
