@@ -13,7 +13,7 @@ namespace ridgeway {
 struct TunnelConfig {
   double length = 1000.0;   ///< of all galleries together, at least; at most 1e6
   double voxel_size = 0.1;  ///< at most a fifth of the radius
-  double radius = 3.0;      ///< of a gallery, give or take a third; at most 10
+  double radius = 5.0;      ///< of a gallery, give or take a third; at most 10
   double roughness = 0.25;  ///< by which the rock stands out at most; below a third of the radius
   std::uint64_t seed = 1;
 

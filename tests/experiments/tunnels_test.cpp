@@ -15,7 +15,8 @@ namespace {
 
 TEST(Tunnels, AreOneConnectedMineClosedByRock) {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
-    const OccupancyMap map = make_tunnels({.length = 500.0, .voxel_size = 0.5, .seed = seed});
+    const OccupancyMap map =
+        make_tunnels({.length = 500.0, .voxel_size = 0.5, .radius = 3.0, .seed = seed});
     const VoxelCounts counts = count_voxels(map);
     // 500 m of 3 m radius, a third more or less.
     const double volume = 0.125 * static_cast<double>(counts.free);
@@ -46,8 +47,8 @@ TEST(Tunnels, AreTheSameForAnyNumberOfThreads) {
 
 TEST(Tunnels, RefuseWhatIsNoMine) {
   for (const TunnelConfig& bad : {TunnelConfig{.length = 0.0}, TunnelConfig{.length = std::nan("")},
-                                  TunnelConfig{.voxel_size = 0.0}, TunnelConfig{.voxel_size = 1.0},
-                                  TunnelConfig{.radius = -1.0}, TunnelConfig{.roughness = 1.0}})
+                                  TunnelConfig{.voxel_size = 0.0}, TunnelConfig{.voxel_size = 1.1},
+                                  TunnelConfig{.radius = -1.0}, TunnelConfig{.roughness = 2.0}})
     EXPECT_THROW(make_tunnels(bad), InputError);
   EXPECT_THROW(make_tunnels({.length = 1e6, .voxel_size = 0.01}), InputError);  // memory
 }
