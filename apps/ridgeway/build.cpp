@@ -238,8 +238,9 @@ void add_build_command(Command& program) {
                  "Unknown space is an obstacle, or is kept out of without a distance to it");
   command.number("--theta", build.theta, {0.0, std::numbers::pi},
                  "Least angle between the directions to two obstacles, radians");
-  command.number("--prune-radius", build.prune_radius, kLengthsFromZero,
-                 "Vertices nearer than this along the diagram become one, metres");
+  command.number(
+      "--prune-radius", build.prune_radius, kLengthsFromZero,
+      "Vertices nearer than this along the diagram become one, metres; at least two voxels");
   command.number("--split-deviation", build.split_deviation, kLengthsFromZero,
                  "Greatest distance of an edge from its diagram, metres; 0 for two voxels");
   command.number("--significance", build.significance, kLengthsFromZero,

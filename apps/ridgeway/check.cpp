@@ -102,7 +102,8 @@ int run(const CheckOptions& options, const Globals& globals) {
 
 void add_check_command(Command& program) {
   const auto options = std::make_shared<CheckOptions>();
-  Command command = program.add("check", "Verify the contract of a roadmap against the map itself");
+  Command command =
+      program.add("check", "Verify the contract of a roadmap against the distances it holds");
   command.path("roadmap", options->file, "Roadmap, .ridge").required();
   command.whole("--queries", options->check.queries, {0, kMostQueries},
                 "Random queries to compare with A*");

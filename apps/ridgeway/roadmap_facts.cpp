@@ -33,7 +33,7 @@ std::string explain_collision(const Roadmap& roadmap, const Query& query, const 
 
 std::string part_text(const BlockedRoute& blocked, bool is_start) {
   const Component& part = is_start ? blocked.start_component : blocked.goal_component;
-  return count_text(is_start ? blocked.start_number : blocked.goal_number) + ", " +
+  return count_text(1 + (is_start ? blocked.start_number : blocked.goal_number)) + ", " +
          text_of(part.volume) + " m^3";
 }
 
@@ -70,8 +70,8 @@ std::string AnswerFacts::explain_no_route(const Query& query) {
       "start and goal are not connected at a radius of " + metres(query.radius);
   const std::optional<BlockedRoute> blocked = this->blocked(query, PlanStatus::kNoRoute);
   if (!blocked) return text;
-  const std::string parts = " (the start is in part " + part_text(*blocked, true) +
-                            ", the goal in part " + part_text(*blocked, false) + ")";
+  const std::string parts = " (the start is in component " + part_text(*blocked, true) +
+                            ", the goal in component " + part_text(*blocked, false) + ")";
   const char* what = blocked->by == Blocker::kUnknown ? "unknown space" : "an obstacle";
   if (blocked->radius == 0.0)
     return text + ", nor at any other" + parts + ": " +

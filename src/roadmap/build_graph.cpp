@@ -101,8 +101,8 @@ SparseGraph detail::build_graph(const EsdfMap& esdf, const DiagramCurves& curves
                                 const GraphConfig& config) {
   const double s = esdf.voxel_size;
   // On a coarse lattice a junction is a clump of a few voxels, however small the radius.
-  const double prune_radius = std::max(config.prune_radius / s, 2.0);
-  const std::vector<DiagramNumber> vertices = detail::select_vertices(curves, prune_radius);
+  const double prune_voxels = std::max(config.prune_radius / s, 2.0);
+  const std::vector<DiagramNumber> vertices = detail::select_vertices(curves, prune_voxels);
   const detail::DiagramFlood flood = detail::flood_from(curves, vertices);
   // A loop round even the thinnest obstacle is longer than this.
   const double shortest_loop = 4.0 * config.min_clearance / s;

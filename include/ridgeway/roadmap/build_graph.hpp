@@ -12,7 +12,8 @@ namespace ridgeway {
 /// Lengths in metres.
 struct GraphConfig {
   double min_clearance = 0.4;
-  double prune_radius = 0.35;    ///< vertices nearer than this along the diagram become one
+  double prune_radius = 0.35;    ///< vertices nearer than this along the diagram become one;
+                                 ///< at least two voxels
   double split_deviation = 0.0;  ///< edge's greatest distance from its curve; 0: two voxels
   double widest_kept = 0.0;      ///< up to this clearance edges are as wide as their curves, so
                                  ///< that the graph connects what the diagram does at larger

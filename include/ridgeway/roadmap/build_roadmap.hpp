@@ -16,7 +16,7 @@ struct BuildConfig {
   double max_distance = std::numeric_limits<double>::infinity();  ///< distances stop here
   double theta = 0.785;          ///< GVD: least angle between the directions to two sites
   double least_apart = 0.0;      ///< GVD: least distance between two sites; see GvdConfig
-  double prune_radius = 0.35;    ///< vertices closer than this along the diagram become one
+  double prune_radius = 0.35;    ///< vertices closer than this, or two voxels, become one
   double split_deviation = 0.0;  ///< edge's greatest distance from its diagram; 0: two voxels
   double significance = 0.35;    ///< dead ends of the graph that reach less far go
   bool simplify = true;          ///< leave out of the graph what noise and voxels put into it
