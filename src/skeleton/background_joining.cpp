@@ -31,7 +31,7 @@ std::vector<Contact> find_contacts(const EsdfMap& esdf, const VoxelMask& voxels,
   parallel_for_each_index(
       ids.size(),
       [&](std::size_t i) {
-        const Cube27 later = detail::look_around(esdf, voxels, ids[i]).later(ids[i]);
+        const Cube27 later = detail::neighbours_by_level(esdf, voxels, ids[i]).later(ids[i]);
         if (background_parts(later) > 1) contacts[i] = {ids[i], later};
       },
       64);
@@ -183,7 +183,7 @@ void update_not_simple(const EsdfMap& esdf, const VoxelMask& voxels,
     for (Cube27 cube = cube_around(esdf.layout, voxels, id) & kCells26; cube != 0;
          cube &= cube - 1) {
       const VoxelId beside = esdf.layout.neighbour(id, std::countr_zero(cube));
-      if (!is_simple(detail::look_around(esdf, voxels, beside).later(beside)))
+      if (!is_simple(detail::neighbours_by_level(esdf, voxels, beside).later(beside)))
         not_simple.set(beside);
     }
 }

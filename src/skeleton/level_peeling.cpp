@@ -20,11 +20,11 @@
 namespace ridgeway::detail {
 namespace {
 
-/// Surroundings of the voxels that the peeling is likely to ask, gathered in parallel before: a
+/// LevelNeighbours of the voxels that the peeling is likely to ask, gathered in parallel before: a
 /// look at all levels around one voxel waits a dozen times for memory.
-class KnownSurroundings {
+class KnownNeighbours {
  public:
-  KnownSurroundings(const EsdfMap& esdf, const VoxelMask& traversable, const VoxelMask& not_simple)
+  KnownNeighbours(const EsdfMap& esdf, const VoxelMask& traversable, const VoxelMask& not_simple)
       : esdf_(esdf),
         traversable_(traversable),
         known_(esdf.layout),
@@ -44,8 +44,8 @@ class KnownSurroundings {
         64);
   }
 
-  Surroundings of(VoxelId id) const {
-    if (!known_.test(id)) return look_around(esdf_, traversable_, id);
+  LevelNeighbours of(VoxelId id) const {
+    if (!known_.test(id)) return neighbours_by_level(esdf_, traversable_, id);
     const std::uint32_t slot = id / kBlockVoxels;
     const std::uint32_t layer = id / 64 % kBlockSide;
     const std::uint64_t before = known_.block(slot)[layer] & ((std::uint64_t{1} << id % 64) - 1);
@@ -80,9 +80,9 @@ class KnownSurroundings {
     });
   }
 
-  /// Surroundings of a block's known voxels, ascending, and the first of each layer.
+  /// LevelNeighbours of a block's known voxels, ascending, and the first of each layer.
   struct InBlock {
-    std::vector<Surroundings> around;
+    std::vector<LevelNeighbours> around;
     std::array<std::uint16_t, kBlockSide> first;
   };
 
@@ -161,7 +161,7 @@ class LevelPeeling {
     }
     std::vector<VoxelId> work = neighbours_of(esdf_.layout, left_, deleted);
     for (const VoxelId id : stayed)  // a neighbour that went unseen
-      if ((around_.of(id).level & ~cube_around(esdf_.layout, left_, id)) != 0) work.push_back(id);
+      if ((around_.of(id).equal & ~cube_around(esdf_.layout, left_, id)) != 0) work.push_back(id);
     while (!work.empty()) {
       ask_again(work, level, deleted);
       work = neighbours_of(esdf_.layout, left_, deleted);
@@ -209,7 +209,7 @@ class LevelPeeling {
 
   const EsdfMap& esdf_;
   const VoxelMask& keep_;
-  const KnownSurroundings around_;
+  const KnownNeighbours around_;
   VoxelMask queued_;  // those whose turn is, or has been, played
   VoxelMask left_;    // those whose first turn is over and that are still there
   std::vector<std::uint64_t> first_turns_;  // ascending; of voxels not simple at their first turn
