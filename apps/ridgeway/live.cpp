@@ -49,9 +49,9 @@ bool have_same_file(const Roadmap& a, const Roadmap& b, const std::string& outpu
 }
 
 /// Builds the map in batch; throws where that gives another roadmap.
-void verify_by_batch(const LiveRoadmap& live, const LiveOptions& options, const std::string& frame,
+void verify_by_batch(LiveRoadmap& live, const LiveOptions& options, const std::string& frame,
                      Replay& replay) {
-  const std::shared_ptr<const Roadmap> snapshot = live.snapshot();
+  const std::shared_ptr<const Roadmap> snapshot = live.settled();
   if (!snapshot) return;
   const Stopwatch watch;
   const BuildResult batch = build_roadmap(live.map(), options.live.build);
@@ -63,7 +63,7 @@ void verify_by_batch(const LiveRoadmap& live, const LiveOptions& options, const 
 
 /// Runs one update; complaints name the file.
 template <typename Update>
-void replay_frame(const LiveRoadmap& live, const LiveOptions& options,
+void replay_frame(LiveRoadmap& live, const LiveOptions& options,
                   const std::filesystem::path& frame, Replay& replay, const Update& update) {
   try {
     replay.updates.push_back(update());
@@ -195,7 +195,7 @@ int run(const LiveOptions& options, const Globals& globals) {
     replay_scans(all, globals, live, replay);
   else
     replay_images(all, globals, live, replay);
-  const std::shared_ptr<const Roadmap> snapshot = live.snapshot();
+  const std::shared_ptr<const Roadmap> snapshot = live.settled();
   if (!snapshot)
     throw InputError(options.folder, "shows no place that the robot fits",
                      "give a smaller --min-clearance, or --unknown ignore");

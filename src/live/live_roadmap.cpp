@@ -9,14 +9,17 @@
 #include <vector>
 
 #include "common/clock.hpp"
+#include "live_basins.hpp"
 #include "live_ridges.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/mapping/occupancy_map.hpp"
 #include "roadmap/build_stages.hpp"
+#include "shared_memory.hpp"
 
 namespace ridgeway {
 namespace {
 
+using detail::LiveBasins;
 using detail::LiveField;
 using detail::LiveRidges;
 using detail::seconds_now;
@@ -71,6 +74,8 @@ struct LiveRoadmap::State {
   struct Live {
     LiveField field;
     LiveRidges ridges;
+    LiveBasins basins;
+    detail::LiveAttach attach;
   };
 
   explicit State(const LiveConfig& given) : config(given), fusion(undoable(given)) {}
@@ -175,7 +180,9 @@ struct LiveRoadmap::State {
   Live nothing(const VoxelIndex& origin) const {
     return {LiveField(config.fusion.voxel_size, origin,
                       {config.build.unknown, config.build.max_distance}),
-            {.radius = config.build.min_clearance, .config = detail::ridges_of(config.build)}};
+            {.radius = config.build.min_clearance, .config = detail::ridges_of(config.build)},
+            {},
+            {}};
   }
 
   /// The same map in fields of their own, to which it is one change.
@@ -184,13 +191,14 @@ struct LiveRoadmap::State {
     apply_changes(other.field, all_of(map_of(now->field)));
     update_distances(other.field);
     update_ridges(other.ridges, other.field);
+    update_basins(other.basins, other.field, other.ridges);
     return other;
   }
 
   /// The stages that follow once the distances are right.
   std::shared_ptr<const Roadmap> built_on(Live& live, Lap& lap, UpdateReport& report) const {
     BuildReport& build = report.build;
-    const LiveField& field = live.field;
+    LiveField& field = live.field;
     report.changed_distances = field.changed.count();
     report.changed_blocks = field.changed.slots.size();
     build.allocated_voxels = field.esdf.layout.voxel_count();
@@ -200,17 +208,30 @@ struct LiveRoadmap::State {
     build.gvd_voxels = live.ridges.gvd_count;
     build.edge_voxels = live.ridges.thick_count;
     build.seconds.gvd = lap.seconds();
+    update_basins(live.basins, field, live.ridges);
+    build.seconds.kernel = lap.seconds();
     if (build.traversable_voxels == 0) return nullptr;
     BuildResult result;
     result.report = build;
-    result.roadmap.esdf = field.esdf;
+    result.roadmap.esdf = share(field);
     result.roadmap.min_clearance = live.ridges.radius;
-    VoxelMask edges = live.ridges.edges;
     report.copy_seconds = lap.seconds();
+    Basins basins = basins_of(live.basins, field, live.ridges);
+    result.report.seconds.kernel += lap.seconds();
     const Progress none;
     detail::StageClock clock(none);
-    detail::build_on_edges(live.ridges.traversable, std::move(edges), config.build, result, clock);
-    build = result.report;
+    detail::build_on_basins(live.ridges.traversable, live.ridges.edges, std::move(basins),
+                            config.build, result, clock);
+    result.roadmap.attach = share(live.attach, field.esdf.layout, result.roadmap.attach);
+    return published(std::move(result), build);
+  }
+
+  /// A roadmap that is complete but for what is learnt.
+  std::shared_ptr<const Roadmap> published(BuildResult result, BuildReport& report) const {
+    BuildSeconds& s = result.report.seconds;
+    s.total = s.esdf + s.gvd + s.edges + s.thin + s.kernel + s.graph + s.attach;
+    report = result.report;
+    result.roadmap.is_settled = config.build.tangent_pairs == 0;
     return std::make_shared<const Roadmap>(std::move(result.roadmap));
   }
 
@@ -227,10 +248,31 @@ struct LiveRoadmap::State {
     result.report.seconds.esdf = lap.seconds();
     const Progress none;
     detail::StageClock clock(none);
-    const bool has_any = result.report.traversable_voxels > 0;
-    if (has_any) detail::build_on_distances(std::move(traversable), config.build, result, clock);
-    report.build = result.report;
-    return has_any ? std::make_shared<const Roadmap>(std::move(result.roadmap)) : nullptr;
+    if (result.report.traversable_voxels == 0) {
+      report.build = result.report;
+      return nullptr;
+    }
+    detail::build_on_distances(std::move(traversable), config.build, result, clock);
+    return published(std::move(result), report.build);
+  }
+
+  /// The last snapshot with what is learnt. For any thread: what takes long is done without the
+  /// lock, on a snapshot that stays as it is.
+  std::shared_ptr<const Roadmap> settled() {
+    const std::shared_ptr<const Roadmap> last = [&] {
+      const std::lock_guard lock(mutex);
+      return snapshot;
+    }();
+    if (!last || last->is_settled) return last;
+    BuildResult result;
+    result.roadmap = detail::in_same_memory(*last);
+    const Progress none;
+    detail::StageClock clock(none);
+    detail::build_what_is_learnt(config.build, result, clock);
+    auto all = std::make_shared<const Roadmap>(std::move(result.roadmap));
+    const std::lock_guard lock(mutex);
+    if (snapshot == last) snapshot = all;
+    return all;
   }
 };
 
@@ -264,6 +306,8 @@ std::shared_ptr<const Roadmap> LiveRoadmap::snapshot() const {
   const std::lock_guard lock(state_->mutex);
   return state_->snapshot;
 }
+
+std::shared_ptr<const Roadmap> LiveRoadmap::settled() { return state_->settled(); }
 
 OccupancyMap LiveRoadmap::map() const {
   const State& s = *state_;

@@ -98,17 +98,20 @@ void build_on_distances(VoxelMask traversable, const BuildConfig& config, BuildR
   thin(esdf.layout, edges);
   clock.end(report.seconds.thin);
 
-  build_on_edges(std::move(traversable), std::move(edges), config, result, clock);
+  clock.begin("kernel");
+  Basins basins = find_basins(esdf, traversable, config.min_clearance);
+  clock.end(report.seconds.kernel);
+  build_on_basins(std::move(traversable), std::move(edges), std::move(basins), config, result,
+                  clock);
 }
 
-void build_on_edges(VoxelMask traversable, VoxelMask edges, const BuildConfig& config,
-                    BuildResult& result, StageClock& clock) {
+void build_on_basins(VoxelMask traversable, VoxelMask edges, Basins basins,
+                     const BuildConfig& config, BuildResult& result, StageClock& clock) {
   Roadmap& roadmap = result.roadmap;
   const EsdfMap& esdf = roadmap.esdf;
   BuildReport& report = result.report;
 
-  clock.begin("kernel");
-  Basins basins = find_basins(esdf, traversable, config.min_clearance);
+  clock.start();
   report.traversable_components = basins.components();
   join_background(esdf, traversable,
                   basins.not_simple_at_first_turn);  // fewer voxels of it from here on
@@ -136,9 +139,12 @@ void build_on_edges(VoxelMask traversable, VoxelMask edges, const BuildConfig& c
   roadmap.diagram.complete = !config.paper_diagram;
   report.diagram_voxels = roadmap.diagram.voxels.count();
   clock.end(report.seconds.attach);
+}
 
+void build_what_is_learnt(const BuildConfig& config, BuildResult& result, StageClock& clock) {
+  BuildReport& report = result.report;
   clock.begin("tangents");
-  roadmap.tangents = build_tangent_graph(roadmap, corners_of(config));
+  result.roadmap.tangents = build_tangent_graph(result.roadmap, corners_of(config));
   clock.end(report.seconds.tangents);
 
   const BuildSeconds& s = report.seconds;
@@ -178,6 +184,7 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
                      "give a smaller min_clearance, or ignore the unknown");
 
   detail::build_on_distances(std::move(traversable), config, result, clock);
+  detail::build_what_is_learnt(config, result, clock);
   if (progress && !progress("done", 1.0)) throw Cancelled();
   return result;
 }

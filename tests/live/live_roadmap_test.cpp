@@ -71,7 +71,7 @@ TEST_P(LiveRoadmapAfter, RandomChangeSetsHasTheBytesOfABatchBuild) {
       const auto changes = testing::random_changes(random, {-12, -9, -11}, {14, 12, 9});
       UpdateReport report;
       with_threads(1 + step % 2, [&] { report = live.set_voxels(changes); });
-      const auto snapshot = live.snapshot();
+      const auto snapshot = live.settled();
       EXPECT_EQ(report.has_roadmap, snapshot != nullptr);
       EXPECT_TRUE(bytes_of(snapshot.get()) == batch_bytes(live.map(), build));
       with_roadmap += snapshot != nullptr;
@@ -102,14 +102,14 @@ TEST(LiveRoadmap, DoesNotDependOnOrderAndGroupingOfChanges) {
   at_once.set_voxels(changes);
   ASSERT_NE(at_once.snapshot(), nullptr);
   const std::vector<VoxelChange> all = testing::changes_to(at_once.map());
-  const std::string expected = bytes_of(at_once.snapshot().get());
+  const std::string expected = bytes_of(at_once.settled().get());
   for (const std::size_t group : {std::size_t{97}, changes.size() / 3}) {
     LiveRoadmap live({.build = build});
     std::vector<VoxelChange> shuffled = all;
     std::shuffle(shuffled.begin(), shuffled.end(), random);
     for (std::size_t i = 0; i < shuffled.size(); i += group)
       live.set_voxels(std::span(shuffled).subspan(i, std::min(group, shuffled.size() - i)));
-    EXPECT_TRUE(bytes_of(live.snapshot().get()) == expected) << group;
+    EXPECT_TRUE(bytes_of(live.settled().get()) == expected) << group;
   }
 }
 
@@ -150,7 +150,7 @@ TEST(LiveRoadmap, OfEveryScanOfAFlightHasTheBytesOfABatchBuild) {
     EXPECT_FALSE(report.in_batch);
     EXPECT_GT(report.changed_voxels, 0u);
     const OccupancyMap map = live.map();
-    EXPECT_TRUE(bytes_of(live.snapshot().get()) == batch_bytes(map, config.build));
+    EXPECT_TRUE(bytes_of(live.settled().get()) == batch_bytes(map, config.build));
     // And the map is that of fusion, counted from another voxel.
     const OccupancyMap fused = occupancy_of(fusion.map());
     EXPECT_EQ(count_voxels(fused).free, count_voxels(map).free);
@@ -220,7 +220,7 @@ TEST(LiveRoadmap, RefusesBadInputByNameAndStaysAsItWas) {
   live.integrate(scans[1].image, camera, scans[1].T_world_camera);
   LiveRoadmap other(house_config());
   for (const Scan& scan : scans) other.integrate(scan.image, camera, scan.T_world_camera);
-  EXPECT_TRUE(bytes_of(live.snapshot().get()) == bytes_of(other.snapshot().get()));
+  EXPECT_TRUE(bytes_of(live.settled().get()) == bytes_of(other.settled().get()));
 }
 
 }  // namespace
