@@ -12,13 +12,11 @@ void update_basins(LiveBasins& basins, const LiveField& field, const LiveRidges&
                  basins.ways);
 }
 
-Basins basins_of(const LiveBasins& basins, const LiveField& field, const LiveRidges& ridges) {
+Watershed watershed_of(const LiveBasins& basins, const LiveField& field, const LiveRidges& ridges) {
   Basins local;
   local.next = basins.ways.next;
   local.not_simple_at_first_turn = basins.ways.not_simple_at_first_turn;
-  return find_passes(
-      field.esdf, ridges.traversable, ridges.radius,
-      watershed_of(field.esdf, ridges.traversable, basins.ways.blocks, std::move(local)));
+  return watershed_of(field.esdf, ridges.traversable, basins.ways.blocks, std::move(local));
 }
 
 }  // namespace ridgeway::detail

@@ -3,12 +3,11 @@
 #pragma once
 
 #include "live_ridges.hpp"
-#include "ridgeway/skeleton/basins.hpp"
 #include "skeleton/watershed.hpp"
 
 namespace ridgeway::detail {
 
-/// What find_basins learns of each block by itself, of a field that changes.
+/// What find_watershed learns of each block by itself, of a field that changes.
 struct LiveBasins {
   LocalWays ways = {};
 };
@@ -17,7 +16,7 @@ struct LiveBasins {
 /// those beside it.
 void update_basins(LiveBasins& basins, const LiveField& field, const LiveRidges& ridges);
 
-/// What find_basins gives for the field. At least one voxel is traversable.
-Basins basins_of(const LiveBasins& basins, const LiveField& field, const LiveRidges& ridges);
+/// What find_watershed gives for the field. At least one voxel is traversable.
+Watershed watershed_of(const LiveBasins& basins, const LiveField& field, const LiveRidges& ridges);
 
 }  // namespace ridgeway::detail

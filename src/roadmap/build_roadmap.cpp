@@ -13,6 +13,7 @@
 #include "graph_of_curves.hpp"
 #include "mapping/memory_limit.hpp"
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/mapping/map_edits.hpp"
 #include "ridgeway/skeleton/diagram.hpp"
@@ -99,22 +100,31 @@ void build_on_distances(VoxelMask traversable, const BuildConfig& config, BuildR
   clock.end(report.seconds.thin);
 
   clock.begin("kernel");
-  Basins basins = find_basins(esdf, traversable, config.min_clearance);
+  Watershed watershed = find_watershed(esdf, traversable);
   clock.end(report.seconds.kernel);
-  build_on_basins(std::move(traversable), std::move(edges), std::move(basins), config, result,
-                  clock);
+  build_on_watershed(std::move(traversable), std::move(edges), std::move(watershed), config, result,
+                     clock);
 }
 
-void build_on_basins(VoxelMask traversable, VoxelMask edges, Basins basins,
-                     const BuildConfig& config, BuildResult& result, StageClock& clock) {
+void build_on_watershed(VoxelMask traversable, VoxelMask edges, Watershed watershed,
+                        const BuildConfig& config, BuildResult& result, StageClock& clock) {
   Roadmap& roadmap = result.roadmap;
   const EsdfMap& esdf = roadmap.esdf;
   BuildReport& report = result.report;
 
   clock.start();
+  VoxelMask joined = traversable;  // to have fewer voxels of it
+  VoxelMask not_simple = std::move(watershed.basins.not_simple_at_first_turn);
+  Basins basins;
+  parallel_for_each_index(2, [&](std::size_t task) {  // neither of which knows of the other
+    if (task == 0)
+      basins = find_passes(esdf, traversable, config.min_clearance, std::move(watershed));
+    else
+      join_background(esdf, joined, not_simple);
+  });
+  basins.not_simple_at_first_turn = std::move(not_simple);
+  traversable = std::move(joined);
   report.traversable_components = basins.components();
-  join_background(esdf, traversable,
-                  basins.not_simple_at_first_turn);  // fewer voxels of it from here on
   VoxelMask kernel = compute_kernel(esdf, traversable, basins);
   traversable = {};
   report.kernel_voxels = kernel.count();

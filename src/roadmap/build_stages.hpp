@@ -7,8 +7,8 @@
 #include "common/clock.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
-#include "ridgeway/skeleton/basins.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
+#include "skeleton/watershed.hpp"
 
 /// Parts of build_roadmap, for those who have the results of its first stages already.
 namespace ridgeway::detail {
@@ -48,9 +48,9 @@ EsdfMap distances_of(OccupancyMap map, const BuildConfig& config);
 void build_on_distances(VoxelMask traversable, const BuildConfig& config, BuildResult& result,
                         StageClock& clock);
 
-/// And from the edges of the diagram, thinned, and the basins of what is traversable.
-void build_on_basins(VoxelMask traversable, VoxelMask edges, Basins basins,
-                     const BuildConfig& config, BuildResult& result, StageClock& clock);
+/// And from the edges of the diagram, thinned, and the watershed of what is traversable.
+void build_on_watershed(VoxelMask traversable, VoxelMask edges, Watershed watershed,
+                        const BuildConfig& config, BuildResult& result, StageClock& clock);
 
 /// What is learnt of a roadmap that is complete but for this, and the total of all seconds. Queries
 /// do without, slower.
