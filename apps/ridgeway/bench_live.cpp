@@ -32,7 +32,8 @@ void run_recording(const BenchLiveOptions& options, const Progress& progress,
   const bool of_scans = kind_of_recording(options.recording) == RecordingKind::kScans;
   LiveConfig config = {.fusion = {.voxel_size = options.config.voxel_size},
                        .build = {.min_clearance = options.config.min_clearance,
-                                 .max_distance = options.config.max_distance}};
+                                 .max_distance = options.config.max_distance,
+                                 .tangent_pairs = options.config.tangent_pairs}};
   if (of_scans) config.fusion.integrator = Integrator::kRayCasting;
   LiveRoadmap live(config);
   LiveJudge judge(config.build, options.config.verify_every);
@@ -84,7 +85,7 @@ void add_queries(const LiveQueries& queries, BenchTable::Json& facts) {
 }
 
 int report_scans(const std::vector<LiveScan>& scans, BenchTable::Json facts,
-           const BenchLiveOptions& options, const Globals& globals, bool complete) {
+                 const BenchLiveOptions& options, const Globals& globals, bool complete) {
   const auto count = [&](bool LiveScan::*what) {
     return std::count_if(scans.begin(), scans.end(),
                          [&](const LiveScan& s) { return s.is_judged && s.*what; });
@@ -95,8 +96,7 @@ int report_scans(const std::vector<LiveScan>& scans, BenchTable::Json facts,
   facts["voxel_size"] = options.config.voxel_size;
   facts["threads"] = globals.threads;
   if (complete) write_scans(scans, options.output);
-  const int code =
-      live_table(scans).report(globals, options.output, "live", facts, complete);
+  const int code = live_table(scans).report(globals, options.output, "live", facts, complete);
   if (!globals.json)
     for (const auto& [key, value] : facts.items()) print_row(key, value.dump());
   return code;
@@ -156,8 +156,11 @@ void add_bench_live(Command& bench) {
   command.whole("--scans", options->scan.scans, {1, 100'000}, "Depth images to fuse");
   command.whole("--verify", config.verify_every, {0, 1'000'000},
                 "Build in batch after every so many scans and compare; 0: never");
-  command.whole("--copies", config.copies, {0, 1000},
-                "Of the exact world, which the map has from the first, beside what is flown through");
+  command.whole(
+      "--copies", config.copies, {0, 1000},
+      "Of the exact world, which the map has from the first, beside what is flown through");
+  command.whole("--tangent-pairs", config.tangent_pairs, {0, 1'000'000},
+                "Of places that batch builds learn the tangent graph from; 0: none");
   command.flag("--queries", config.queries, "Plan in another thread while the map is updated");
   command.number("--voxel-size", config.voxel_size, kLengths, "Metres");
   command.number("--clearance", config.min_clearance, kLengths, "Of the roadmap, metres");

@@ -70,8 +70,8 @@ void verify_by_batch(LiveRoadmap& live, const LiveOptions& options, const std::s
 
 /// Runs one update; complaints name the file.
 template <typename Update>
-void replay_frame(LiveRoadmap& live, const LiveOptions& options,
-                  const std::filesystem::path& frame, Replay& replay, const Update& update) {
+void replay_frame(LiveRoadmap& live, const LiveOptions& options, const std::filesystem::path& frame,
+                  Replay& replay, const Update& update) {
   try {
     replay.updates.push_back(update());
   } catch (const InputError& error) {
@@ -143,9 +143,8 @@ void replay_images(const LiveOptions& options, const Globals& globals, LiveRoadm
                            static_cast<double>(sequence.frames.size()));
       const std::optional<DepthImage> image = read_when_whole(sequence, frame, options.follow);
       if (image)
-        replay_frame(live, options, frame.image, replay, [&] {
-          return live.integrate(*image, sequence.camera, frame.T_world_camera);
-        });
+        replay_frame(live, options, frame.image, replay,
+                     [&] { return live.integrate(*image, sequence.camera, frame.T_world_camera); });
       replay.unreadable += !image;
       if (frames.is_last(frame)) return;
     }

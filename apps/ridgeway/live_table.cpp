@@ -21,8 +21,13 @@ void add_row(BenchTable& table, const std::vector<LiveScan>& scans, const std::s
   std::vector<double> values;
   for (std::size_t i = std::min(kFirst, scans.size()); i < scans.size(); ++i)
     if (scans[i].is_judged || !of_judged) values.push_back(static_cast<double>(value(scans[i])));
+  if (values.empty()) return;
   const Spread spread = spread_of(std::move(values));
-  table.add({{"what", what}, {"median", spread.median}, {"p95", spread.p95}, {"p99", spread.p99}, {"max", spread.max}});
+  table.add({{"what", what},
+             {"median", spread.median},
+             {"p95", spread.p95},
+             {"p99", spread.p99},
+             {"max", spread.max}});
 }
 
 void add_counts(BenchTable& table, const std::vector<LiveScan>& scans) {
@@ -62,7 +67,8 @@ void add_times(BenchTable& table, const std::vector<LiveScan>& scans) {
   add("copy", [](const LiveScan& s) { return s.update.copy_seconds; });
   const auto add_stage = [&](const std::string& what, double BuildSeconds::*stage) {
     add(what, [stage](const LiveScan& s) { return s.update.build.seconds.*stage; });
-    add(what + ", batch", [stage](const LiveScan& s) { return s.batch.*stage; }, true);
+    add(
+        what + ", batch", [stage](const LiveScan& s) { return s.batch.*stage; }, true);
   };
   add_stage("field", &BuildSeconds::esdf);
   add("ridges", [](const LiveScan& s) {
@@ -70,12 +76,13 @@ void add_times(BenchTable& table, const std::vector<LiveScan>& scans) {
     return t.gvd + t.edges + t.thin;
   });
   add(
-      "ridges, batch",
-      [](const LiveScan& s) { return s.batch.gvd + s.batch.edges + s.batch.thin; }, true);
+      "ridges, batch", [](const LiveScan& s) { return s.batch.gvd + s.batch.edges + s.batch.thin; },
+      true);
   add_stage("kernel", &BuildSeconds::kernel);
   add_stage("graph", &BuildSeconds::graph);
   add_stage("attach", &BuildSeconds::attach);
-  add("tangents, batch", [](const LiveScan& s) { return s.batch.tangents; }, true);
+  add(
+      "tangents, batch", [](const LiveScan& s) { return s.batch.tangents; }, true);
   add_stage("all stages", &BuildSeconds::total);
   add("from scan to snapshot", [](const LiveScan& s) { return s.update.seconds; });
 }
@@ -114,8 +121,8 @@ std::string csv_of(const std::vector<LiveScan>& scans) {
     const LiveScan& scan = scans[i];
     text.append("\n").append(std::to_string(i + 1));
     for (const std::size_t count :
-         {scan.update.changed_voxels, scan.update.changed_distances,
-          std::size_t{scan.is_judged}, std::size_t{scan.is_judged && scan.is_same}})
+         {scan.update.changed_voxels, scan.update.changed_distances, std::size_t{scan.is_judged},
+          std::size_t{scan.is_judged && scan.is_same}})
       text.append(",").append(std::to_string(count));
     for (const Time& time : kTimes)
       text.append(",").append(nlohmann::json(1e3 * time.seconds(scan)).dump());

@@ -15,10 +15,10 @@
 namespace ridgeway {
 namespace {
 
-constexpr double kWall = 0.2;                    // metres thick
-constexpr int kLook = 16;                        // scans in each room before anything happens
-constexpr int kClosed = 2 * kLook + 8;           // the first scan of the closed door
-constexpr int kOpen = kClosed + 40;              // and of the door that is open again
+constexpr double kWall = 0.2;           // metres thick
+constexpr int kLook = 16;               // scans in each room before anything happens
+constexpr int kClosed = 2 * kLook + 8;  // the first scan of the closed door
+constexpr int kOpen = kClosed + 40;     // and of the door that is open again
 constexpr int kScans = kOpen + 40;
 const Point kHere(2.5, 2.5, 1.25), kThere(7.5, 2.5, 1.25);
 
@@ -112,11 +112,10 @@ void run_change_sets(std::size_t count, std::uint64_t seed, const Progress& prog
   results = {};
   for (std::size_t map = 0; results.done < count; ++map) {
     Random random(seed, map);
-    const BuildConfig build = {.min_clearance = 0.1,
-                               .max_distance = map % 2 == 0
-                                                   ? std::numeric_limits<double>::infinity()
-                                                   : 0.45,
-                               .tangent_pairs = 0};
+    const BuildConfig build = {
+        .min_clearance = 0.1,
+        .max_distance = map % 2 == 0 ? std::numeric_limits<double>::infinity() : 0.45,
+        .tangent_pairs = 0};
     LiveRoadmap live({.build = build});
     LiveJudge judge(build, 1);
     for (std::size_t i = 0; i < kOfOneMap && results.done < count; ++i) {
@@ -125,9 +124,8 @@ void run_change_sets(std::size_t count, std::uint64_t seed, const Progress& prog
         throw Cancelled();
       const std::vector<VoxelChange> changes = random_set(random);
       bool is_same = false;
-      with_threads(static_cast<int>(1 + i % 2), [&] {
-        is_same = judge.judge(live, live.set_voxels(changes)).is_same;
-      });
+      with_threads(static_cast<int>(1 + i % 2),
+                   [&] { is_same = judge.judge(live, live.set_voxels(changes)).is_same; });
       ++results.done;
       results.same += is_same;
     }

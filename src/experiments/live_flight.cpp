@@ -83,7 +83,6 @@ void LiveFlightConfig::validate() const {
   sensor.validate();
 }
 
-
 void run_live_flight(const World& world, const LiveFlightConfig& config, const Progress& progress,
                      LiveFlight& results) {
   results = {};

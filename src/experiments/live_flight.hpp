@@ -19,10 +19,10 @@ struct LiveFlightConfig {
   double spacing = 0.3;  ///< way between scans
   double sigma = 0.01;   ///< noise of every range
   std::size_t scans = 100;
-  std::uint64_t seed = 1;            ///< of places and noise
-  std::size_t verify_every = 1;      ///< scans to a batch build that it is held against; 0: none
-  std::size_t copies = 0;            ///< of the exact world that are known from the first, beside it
-  bool queries = false;              ///< plan in another thread meanwhile
+  std::uint64_t seed = 1;        ///< of places and noise
+  std::size_t verify_every = 1;  ///< scans to a batch build that it is held against; 0: none
+  std::size_t copies = 0;        ///< of the exact world that are known from the first, beside it
+  bool queries = false;          ///< plan in another thread meanwhile
   std::size_t tangent_pairs = 2000;  ///< of the batch builds
 
   /// Throws InputError naming the bad field.
@@ -33,9 +33,9 @@ struct LiveFlightConfig {
 /// that time, and again when nothing else ran.
 struct LiveQueries {
   std::size_t asked = 0, solved = 0;
-  std::size_t wrong = 0;             ///< paths that are not free in the snapshot they were asked of
-  std::vector<double> meanwhile;     ///< seconds of that thread, by query
-  std::vector<double> alone;         ///< and of the same queries afterwards
+  std::size_t wrong = 0;          ///< paths that are not free in the snapshot they were asked of
+  std::vector<double> meanwhile;  ///< seconds of that thread, by query
+  std::vector<double> alone;      ///< and of the same queries afterwards
 };
 
 struct LiveFlight {

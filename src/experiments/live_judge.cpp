@@ -21,7 +21,7 @@ struct LiveJudge::Stages {
 
 LiveJudge::Stages::Stages(const Roadmap& roadmap) {
   const EsdfMap& esdf = roadmap.esdf;
-  
+
   traversable = traversable_voxels(esdf, roadmap.min_clearance);
   gvd = compute_gvd(esdf, traversable);
   thick_edges = extract_edges(esdf, gvd);

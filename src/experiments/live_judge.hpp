@@ -18,8 +18,8 @@ struct StageChange {
 /// One scan.
 struct LiveScan {
   UpdateReport update;
-  BuildSeconds batch;    ///< of build_roadmap of the same map
-  bool is_same = true;   ///< whether that gave the same roadmap, the tangent graph apart
+  BuildSeconds batch;      ///< of build_roadmap of the same map
+  bool is_same = true;     ///< whether that gave the same roadmap, the tangent graph apart
   bool is_judged = false;  ///< whether it was asked
   std::size_t known_voxels = 0, map_blocks = 0;
   StageChange traversable, gvd, thick_edges, edges, kernel, diagram;

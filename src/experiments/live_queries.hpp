@@ -11,8 +11,8 @@
 
 namespace ridgeway {
 
-/// Plans on the snapshots of a live roadmap in a thread of its own until it goes, then asks the same
-/// again; `results` must outlive it.
+/// Plans on the snapshots of a live roadmap in a thread of its own until it goes, then asks the
+/// same again; `results` must outlive it.
 class LiveQueryLoad {
  public:
   LiveQueryLoad(const LiveRoadmap& live, bool asks, std::uint64_t seed, LiveQueries& results);

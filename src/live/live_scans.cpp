@@ -157,8 +157,7 @@ UpdateReport LiveRoadmap::State::correct_poses(std::span<const PoseCorrection> c
   }
   std::sort(needed.begin(), needed.end());
   needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
-  TsdfFusion part =
-      fusion.within_blocks(std::vector<BlockIndex>(redone.begin(), redone.end()));
+  TsdfFusion part = fusion.within_blocks(std::vector<BlockIndex>(redone.begin(), redone.end()));
   for (const std::uint32_t frame : needed) fuse_logged(part, frame, poses[frame]);
   std::vector<Point> places;
   for (const Eigen::Isometry3d& pose : poses) places.emplace_back(pose.translation());

@@ -38,7 +38,7 @@ class Lap {
 
 /// Which frames reached which blocks of the fusion, from which poses. Frames are counted from 0.
 struct FrameIndex {
-  std::vector<Eigen::Isometry3d> poses;  ///< by frame
+  std::vector<Eigen::Isometry3d> poses;                                            ///< by frame
   std::unordered_map<BlockIndex, std::vector<std::uint32_t>, BlockHash> of_block;  ///< ascending
 
   void add(const Eigen::Isometry3d& pose, std::span<const BlockIndex> reached);

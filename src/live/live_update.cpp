@@ -48,7 +48,8 @@ void LiveRoadmap::State::update(std::span<const VoxelChange> changes, const Voxe
   report.seconds = report.fusion_seconds + all.seconds();
 }
 
-void LiveRoadmap::State::bring_up_to_date(std::span<const VoxelChange> changes, UpdateReport& report) {
+void LiveRoadmap::State::bring_up_to_date(std::span<const VoxelChange> changes,
+                                          UpdateReport& report) {
   detail::Lap lap;
   LiveField& field = now->field;
   const std::uint32_t blocks = field.esdf.layout.block_count();
@@ -100,7 +101,8 @@ LiveRoadmap::State::Live LiveRoadmap::State::remade() const {
 }
 
 /// The stages that follow once the distances are right.
-std::shared_ptr<const Roadmap> LiveRoadmap::State::built_on(Live& live, detail::Lap& lap, UpdateReport& report) const {
+std::shared_ptr<const Roadmap> LiveRoadmap::State::built_on(Live& live, detail::Lap& lap,
+                                                            UpdateReport& report) const {
   BuildReport& build = report.build;
   LiveField& field = live.field;
   report.changed_distances = field.changed.count();
@@ -131,7 +133,8 @@ std::shared_ptr<const Roadmap> LiveRoadmap::State::built_on(Live& live, detail::
 }
 
 /// A roadmap that is complete but for what is learnt.
-std::shared_ptr<const Roadmap> LiveRoadmap::State::published(BuildResult result, BuildReport& report) const {
+std::shared_ptr<const Roadmap> LiveRoadmap::State::published(BuildResult result,
+                                                             BuildReport& report) const {
   BuildSeconds& s = result.report.seconds;
   s.total = s.esdf + s.gvd + s.edges + s.thin + s.kernel + s.graph + s.attach;
   report = result.report;
@@ -142,7 +145,7 @@ std::shared_ptr<const Roadmap> LiveRoadmap::State::published(BuildResult result,
 /// Where unknown space is ignored, pockets of free space are filled: whether one is small enough
 /// may change from far away.
 std::shared_ptr<const Roadmap> LiveRoadmap::State::built_in_batch(detail::Lap& lap,
-                                                                          UpdateReport& report) const {
+                                                                  UpdateReport& report) const {
   BuildResult result;
   result.roadmap.esdf = detail::distances_of(map_of(now->field), config.build);
   result.roadmap.min_clearance = config.build.min_clearance;

@@ -65,10 +65,12 @@ TEST_F(CliLive, FollowsAFolderThatIsStillWrittenTo) {
       add_frames(growing, first, first + 4);
     }
   });
-  const std::vector<std::string> how = {"--voxel-size", "0.2", "--min-clearance", "0.3",
-                                        "--max-distance", "2", "--window", "4", "--json"};
-  std::vector<std::string> follow = {"live", growing.string(), "-o", path("followed.ridge"),
-                                     "--follow", "60", "--until", "000011.png"};
+  const std::vector<std::string> how = {"--voxel-size",   "0.2", "--min-clearance", "0.3",
+                                        "--max-distance", "2",   "--window",        "4",
+                                        "--json"};
+  std::vector<std::string> follow = {
+      "live", growing.string(), "-o",        path("followed.ridge"), "--follow",
+      "60",   "--until",        "000011.png"};
   follow.insert(follow.end(), how.begin(), how.end());
   const Outcome followed = run(follow);
   writer.join();

@@ -56,8 +56,7 @@ TEST(Snapshots, ShareTheMemoryOfBlocksThatAreTheSame) {
 }
 
 TEST(Snapshots, AThousandThatAreTakenAndDroppedLeaveNothing) {
-  LiveRoadmap live(
-      {.build = {.min_clearance = 0.1, .max_distance = 0.6, .tangent_pairs = 0}});
+  LiveRoadmap live({.build = {.min_clearance = 0.1, .max_distance = 0.6, .tangent_pairs = 0}});
   std::mt19937 random(4);
   for (int i = 0; i < 12; ++i)
     live.set_voxels(testing::random_changes(random, {-12, -9, -11}, {14, 12, 9}));

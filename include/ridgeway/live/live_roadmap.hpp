@@ -24,8 +24,8 @@ struct LiveConfig {
   /// Metres: blocks farther than this from the sensor, along any axis, do not follow what is fused
   /// until it comes nearer, or catch_up() is called.
   double window = std::numeric_limits<double>::infinity();
-  /// Folder, new or empty, in which scans are kept for correct_poses; empty: none are. It is used by
-  /// one roadmap alone, and emptied with it.
+  /// Folder, new or empty, in which scans are kept for correct_poses; empty: none are. It is used
+  /// by one roadmap alone, and emptied with it.
   std::filesystem::path log_folder = {};
   std::uint64_t log_bytes = std::uint64_t{4} << 30;  ///< of all scans that are kept: the newest
 
@@ -87,10 +87,10 @@ class LiveRoadmap {
 
   /// Takes other poses for some frames, of which the last of each counts: the blocks that those
   /// frames reached, or reach now, are forgotten and fused again, from the log. After it all is as
-  /// if every frame had been fused with its corrected pose, by a roadmap with the same origins, both
-  /// its own and the fusion's; what was set by set_voxels stays where nothing fused speaks against
-  /// it. Planners go on with the last snapshot meanwhile. Throws InputError where there is no log,
-  /// no such frame, or a frame that is needed has left the log.
+  /// if every frame had been fused with its corrected pose, by a roadmap with the same origins,
+  /// both its own and the fusion's; what was set by set_voxels stays where nothing fused speaks
+  /// against it. Planners go on with the last snapshot meanwhile. Throws InputError where there is
+  /// no log, no such frame, or a frame that is needed has left the log.
   UpdateReport correct_poses(std::span<const PoseCorrection> corrections);
 
   /// Follows what waits outside of the window.

@@ -70,8 +70,8 @@ struct World {
 World world_at(const World& world, double time);
 
 /// Throws InputError naming the first solid without a size (a mesh without triangles), with a
-/// number that is not finite, or a normal that is not of length one, and timed solids that are never
-/// there.
+/// number that is not finite, or a normal that is not of length one, and timed solids that are
+/// never there.
 void validate_world(const World& world);
 
 /// Signed distance to the nearest surface and its gradient. Exact outside, and inside a single
