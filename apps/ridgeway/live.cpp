@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "arguments.hpp"
@@ -28,6 +33,8 @@ struct LiveOptions {
   std::string folder, output, csv;
   std::string unknown = "obstacle";
   int verify = 0;
+  double follow = 0.0;  // seconds
+  std::string until;
   LiveConfig live;
 };
 
@@ -49,9 +56,9 @@ bool have_same_file(const Roadmap& a, const Roadmap& b, const std::string& outpu
 }
 
 /// Builds the map in batch; throws where that gives another roadmap.
-void verify_by_batch(const LiveRoadmap& live, const LiveOptions& options, const std::string& frame,
+void verify_by_batch(LiveRoadmap& live, const LiveOptions& options, const std::string& frame,
                      Replay& replay) {
-  const std::shared_ptr<const Roadmap> snapshot = live.snapshot();
+  const std::shared_ptr<const Roadmap> snapshot = live.settled();
   if (!snapshot) return;
   const Stopwatch watch;
   const BuildResult batch = build_roadmap(live.map(), options.live.build);
@@ -63,8 +70,8 @@ void verify_by_batch(const LiveRoadmap& live, const LiveOptions& options, const 
 
 /// Runs one update; complaints name the file.
 template <typename Update>
-void replay_frame(const LiveRoadmap& live, const LiveOptions& options,
-                  const std::filesystem::path& frame, Replay& replay, const Update& update) {
+void replay_frame(LiveRoadmap& live, const LiveOptions& options, const std::filesystem::path& frame,
+                  Replay& replay, const Update& update) {
   try {
     replay.updates.push_back(update());
   } catch (const InputError& error) {
@@ -74,23 +81,74 @@ void replay_frame(const LiveRoadmap& live, const LiveOptions& options,
     verify_by_batch(live, options, frame.string(), replay);
 }
 
+/// Frames of a folder that may still be written to: each once, those first that come first.
+class Frames {
+ public:
+  explicit Frames(const LiveOptions& options) : options_(options) {}
+
+  /// The next frames; false where none came for as long as the user waits.
+  bool find(DepthSequence& sequence, std::vector<DepthFrame>& next) {
+    const Stopwatch idle;
+    for (;;) {
+      next.clear();
+      try {
+        sequence = open_sequence(options_.folder, {});
+        for (const DepthFrame& frame : sequence.frames)
+          if (!done_.contains(frame.image.string())) next.push_back(frame);
+      } catch (const InputError&) {  // nothing yet, or a line that is not whole
+        if (idle.seconds() >= options_.follow) throw;
+      }
+      if (!next.empty()) return true;
+      if (idle.seconds() >= options_.follow) return false;
+      std::this_thread::sleep_for(kPause);
+    }
+  }
+  void done(const DepthFrame& frame) { done_.insert(frame.image.string()); }
+  bool is_last(const DepthFrame& frame) const {
+    return !options_.until.empty() && frame.image.filename() == options_.until;
+  }
+
+ private:
+  static constexpr std::chrono::milliseconds kPause{100};
+
+  const LiveOptions& options_;
+  std::set<std::string> done_;
+};
+
+/// Of an image that is still being written, once it is whole; nothing for one that never is.
+std::optional<DepthImage> read_when_whole(const DepthSequence& sequence, const DepthFrame& frame,
+                                          double longest) {
+  const Stopwatch watch;
+  for (;;) {
+    try {
+      return read_frame(sequence, frame);
+    } catch (const InputError&) {  // real recordings have damaged ones
+      if (watch.seconds() >= std::min(longest, 1.0)) return std::nullopt;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+}
+
 void replay_images(const LiveOptions& options, const Globals& globals, LiveRoadmap& live,
                    Replay& replay) {
-  const DepthSequence sequence = open_sequence(options.folder, {});
-  replay.without_pose = sequence.without_pose;
+  DepthSequence sequence;
+  std::vector<DepthFrame> next;
+  Frames frames(options);
   ProgressBar bar(globals);
-  for (const DepthFrame& frame : sequence.frames) {
-    bar.show("live", static_cast<double>(replay.updates.size()) /
-                         static_cast<double>(sequence.frames.size()));
-    std::optional<DepthImage> image;
-    try {
-      image = read_frame(sequence, frame);
-    } catch (const InputError&) {  // real recordings have damaged ones
-      ++replay.unreadable;
-      continue;
+  while (frames.find(sequence, next)) {
+    replay.without_pose = sequence.without_pose;
+    for (const DepthFrame& frame : next) {
+      frames.done(frame);
+      bar.show("live", static_cast<double>(replay.updates.size()) /
+                           static_cast<double>(sequence.frames.size()));
+      const std::optional<DepthImage> image = read_when_whole(sequence, frame, options.follow);
+      if (image)
+        replay_frame(live, options, frame.image, replay,
+                     [&] { return live.integrate(*image, sequence.camera, frame.T_world_camera); });
+      replay.unreadable += !image;
+      if (frames.is_last(frame)) return;
     }
-    replay_frame(live, options, frame.image, replay,
-                 [&] { return live.integrate(*image, sequence.camera, frame.T_world_camera); });
+    if (options.follow == 0.0) return;
   }
 }
 
@@ -128,7 +186,7 @@ constexpr Column kColumns[] = {
     {"kernel_ms", [](const UpdateReport& r) { return 1e3 * r.build.seconds.kernel; }},
     {"graph_ms", [](const UpdateReport& r) { return 1e3 * r.build.seconds.graph; }},
     {"attach_ms", [](const UpdateReport& r) { return 1e3 * r.build.seconds.attach; }},
-    {"tangents_ms", [](const UpdateReport& r) { return 1e3 * r.build.seconds.tangents; }},
+    {"waiting_voxels", [](const UpdateReport& r) { return static_cast<double>(r.waiting_voxels); }},
     {"total_ms", [](const UpdateReport& r) { return 1e3 * r.seconds; }}};
 
 std::string csv_of(const Replay& replay) {
@@ -180,7 +238,8 @@ void print(const LiveOptions& options, const Replay& replay, const Roadmap& road
 }
 
 int run(const LiveOptions& options, const Globals& globals) {
-  const RecordingKind kind = kind_of_recording(options.folder);
+  const RecordingKind kind =
+      options.follow > 0.0 ? RecordingKind::kImages : kind_of_recording(options.folder);
   LiveConfig config = options.live;
   if (options.unknown == "ignore") config.build.unknown = UnknownPolicy::kIgnore;
   if (kind == RecordingKind::kScans) config.fusion.integrator = Integrator::kRayCasting;
@@ -195,7 +254,8 @@ int run(const LiveOptions& options, const Globals& globals) {
     replay_scans(all, globals, live, replay);
   else
     replay_images(all, globals, live, replay);
-  const std::shared_ptr<const Roadmap> snapshot = live.snapshot();
+  if (std::isfinite(config.window)) live.catch_up();
+  const std::shared_ptr<const Roadmap> snapshot = live.settled();
   if (!snapshot)
     throw InputError(options.folder, "shows no place that the robot fits",
                      "give a smaller --min-clearance, or --unknown ignore");
@@ -232,6 +292,12 @@ void add_live_command(Command& program) {
   command.choice("--unknown", options->unknown, {"obstacle", "ignore"},
                  "Unknown space is an obstacle, or is kept out of without a distance to it (then "
                  "every scan builds anew)");
+  command.number("--window", options->live.window, kReaches,
+                 "What lies farther from the sensor along any axis follows when it comes nearer, "
+                 "and in the end, metres");
+  command.number("--follow", options->follow, {0.0, 1e6},
+                 "The folder is still written to: wait so long for the next image, seconds");
+  command.path("--until", options->until, "Stop after the image of this name");
   command.whole("--verify", options->verify, {0, 1'000'000},
                 "Build in batch after every so many scans and compare the bytes; 0: never");
   command.path("--csv", options->csv, "Table to write, a row a scan");

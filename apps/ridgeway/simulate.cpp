@@ -22,7 +22,7 @@ struct SimulateOptions {
   std::string world, output, camera = "pinhole";
   std::optional<Box> volume;
   int frames = 200, width = 320;
-  double sigma = 0.0, clearance = 0.5, max_range = 10.0;
+  double sigma = 0.0, clearance = 0.5, max_range = 10.0, rate = 10.0;
   std::uint64_t seed = 1;
 };
 
@@ -64,7 +64,8 @@ int run(const SimulateOptions& options, const Globals& globals) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
     bar.show("simulate", static_cast<double>(i) / static_cast<double>(poses.size()));
     // A frame's noise is its own, whatever the number of frames.
-    writer.add(render_depth(world, sensor, poses[i], options.seed * kMostFrames + i), poses[i]);
+    const World now = world_at(world, static_cast<double>(i) / options.rate);
+    writer.add(render_depth(now, sensor, poses[i], options.seed * kMostFrames + i), poses[i]);
   }
   writer.finish();
   bar.clear();
@@ -106,6 +107,8 @@ void add_simulate_command(Command& program) {
               "Where the camera may be, x0,y0,z0,x1,y1,z1 (default: the whole world)");
   command.number("--clearance", options->clearance, kLengthsFromZero,
                  "Of the camera to all surfaces, metres");
+  command.number("--rate", options->rate, {1e-3, 1e6},
+                 "Images a second, for solids of the world that come and go");
   command.seed(options->seed, "Of poses and noise");
   command.footer(
       "Example:\n"

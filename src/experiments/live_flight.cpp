@@ -2,17 +2,16 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "live_flight.hpp"
 
-#include <bit>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "common/random.hpp"
 #include "common/require.hpp"
+#include "live_queries.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/mapping/world_map.hpp"
 #include "ridgeway/planning/plan.hpp"
-#include "ridgeway/skeleton/diagram.hpp"
-#include "ridgeway/skeleton/gvd.hpp"
 #include "sensing/poses.hpp"
 
 namespace ridgeway {
@@ -55,54 +54,22 @@ std::vector<Eigen::Isometry3d> forward_flight(const World& world, const LiveFlig
   return poses;
 }
 
-/// What each stage makes of a field, as masks on its layout.
-struct StageMasks {
-  VoxelMask traversable, gvd, thick_edges, edges, kernel, diagram;
-};
-
-StageMasks masks_of(const Roadmap& roadmap) {
-  const EsdfMap& esdf = roadmap.esdf;
-  StageMasks stages;
-  stages.traversable = traversable_voxels(esdf, roadmap.min_clearance);
-  stages.gvd = compute_gvd(esdf, stages.traversable);
-  stages.thick_edges = extract_edges(esdf, stages.gvd);
-  stages.edges = stages.thick_edges;
-  thin(esdf.layout, stages.edges);
-  const Basins basins = find_basins(esdf, stages.traversable, roadmap.min_clearance);
-  stages.kernel = compute_kernel(esdf, stages.traversable, basins);
-  stages.diagram = roadmap.diagram.voxels;
-  return stages;
-}
-
-/// `before` is of a layout to which blocks were added since.
-StageChange change_of(const VoxelMask& before, const VoxelMask& now) {
-  StageChange change;
-  for (std::uint32_t slot = 0; slot < now.block_count(); ++slot) {
-    std::size_t changed = 0;
-    for (std::size_t z = 0; z < kBlockSide; ++z) {
-      const std::uint64_t old = slot < before.block_count() ? before.block(slot)[z] : 0;
-      change.voxels += static_cast<std::size_t>(std::popcount(now.block(slot)[z]));
-      changed += static_cast<std::size_t>(std::popcount(old ^ now.block(slot)[z]));
-    }
-    change.changed += changed;
-    change.blocks += changed > 0;
-  }
-  return change;
-}
-
-bool is_same(const Roadmap& a, const Roadmap& b) {
-  if (a.graph.edges.size() != b.graph.edges.size() ||
-      a.graph.vertices.size() != b.graph.vertices.size())
-    return false;
-  for (VoxelId id = 0; id < a.esdf.layout.voxel_count(); ++id) {
-    const VoxelId same = b.esdf.layout.find(a.esdf.layout.index_of(id));
-    if (same == kNoVoxel || a.esdf.squared[id] != b.esdf.squared[same] ||
-        a.esdf.site[id] != b.esdf.site[same] || a.esdf.state[id] != b.esdf.state[same] ||
-        a.diagram.voxels.test(id) != b.diagram.voxels.test(same) ||
-        a.attach.next[id] != b.attach.next[same])
-      return false;
-  }
-  return a.esdf.layout.block_count() == b.esdf.layout.block_count();
+/// Copies of the world's exact map, one behind the other along x, none of them near it.
+std::vector<VoxelChange> copies_of(const World& world, const LiveFlightConfig& config) {
+  std::vector<VoxelChange> changes;
+  if (config.copies == 0) return changes;
+  const PoseSampling inside = sampling_inside(world);
+  const OccupancyMap map = occupancy_of(world, config.voxel_size, {inside.low, inside.high});
+  const VoxelRange known = known_range(map);
+  const int step = known.max.x - known.min.x + 8 * kBlockSide;
+  for (std::size_t copy = 1; copy <= config.copies; ++copy)
+    for (VoxelId id = 0; id < map.layout.voxel_count(); ++id)
+      if (map.state[id] != VoxelState::kUnknown) {
+        VoxelIndex voxel = map.origin + map.layout.index_of(id);
+        voxel.x += step * static_cast<int>(copy);
+        changes.push_back({voxel, map.state[id]});
+      }
+  return changes;
 }
 
 }  // namespace
@@ -116,49 +83,33 @@ void LiveFlightConfig::validate() const {
   sensor.validate();
 }
 
-std::vector<LiveScan> run_live_flight(const World& world, const LiveFlightConfig& config,
-                                      const Progress& progress) {
-  std::vector<LiveScan> results;
-  run_live_flight(world, config, progress, results);
-  return results;
-}
-
 void run_live_flight(const World& world, const LiveFlightConfig& config, const Progress& progress,
-                     std::vector<LiveScan>& results) {
-  results.clear();
+                     LiveFlight& results) {
+  results = {};
   config.validate();
   DepthSensor sensor;
   sensor.range_sigma = config.sigma;
+  const std::vector<Eigen::Isometry3d> poses = forward_flight(world, config);
   const LiveConfig live_config = {
       .fusion = {.voxel_size = config.voxel_size},
-      .build = {.min_clearance = config.min_clearance, .max_distance = config.max_distance}};
+      .build = {.min_clearance = config.min_clearance,
+                .max_distance = config.max_distance,
+                .tangent_pairs = config.tangent_pairs},
+      .origin = voxel_at(poses.front().translation(), config.voxel_size)};
   LiveRoadmap live(live_config);
-  StageMasks before;
+  if (const std::vector<VoxelChange> copies = copies_of(world, config); !copies.empty())
+    live.set_voxels(copies);
+  LiveJudge judge(live_config.build, config.verify_every);
   Random seeds(config.seed);
-  for (const Eigen::Isometry3d& pose : forward_flight(world, config)) {
-    const auto done = static_cast<double>(results.size()) / static_cast<double>(config.scans);
-    if (progress && !progress("fly", done)) throw Cancelled();
-    LiveScan scan;
-    scan.update =
-        live.integrate(render_depth(world, sensor, pose, seeds.bits()), sensor.camera, pose);
-    if (const auto now = live.snapshot()) {
-      const OccupancyMap map = live.map();
-      scan.known_voxels = count_voxels(map).known();
-      scan.map_blocks = map.layout.block_count();
-      const BuildResult batch = build_roadmap(map, live_config.build);
-      scan.batch = batch.report.seconds;
-      scan.is_same = is_same(*now, batch.roadmap);
-      const StageMasks stages = masks_of(*now);
-      for (auto [change, mask] : {std::pair(&LiveScan::traversable, &StageMasks::traversable),
-                                  {&LiveScan::gvd, &StageMasks::gvd},
-                                  {&LiveScan::thick_edges, &StageMasks::thick_edges},
-                                  {&LiveScan::edges, &StageMasks::edges},
-                                  {&LiveScan::kernel, &StageMasks::kernel},
-                                  {&LiveScan::diagram, &StageMasks::diagram}})
-        scan.*change = change_of(before.*mask, stages.*mask);
-      before = stages;
+  {
+    const LiveQueryLoad load(live, config.queries, config.seed, results.queries);
+    for (const Eigen::Isometry3d& pose : poses) {
+      const auto done =
+          static_cast<double>(results.scans.size()) / static_cast<double>(config.scans);
+      if (progress && !progress("fly", done)) throw Cancelled();
+      const DepthImage image = render_depth(world, sensor, pose, seeds.bits());
+      results.scans.push_back(judge.judge(live, live.integrate(image, sensor.camera, pose)));
     }
-    results.push_back(scan);
   }
 }
 

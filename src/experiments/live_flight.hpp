@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "live_judge.hpp"
 #include "ridgeway/common/progress.hpp"
-#include "ridgeway/live/live_roadmap.hpp"
 #include "ridgeway/sensing/world.hpp"
 
 namespace ridgeway {
@@ -19,33 +19,60 @@ struct LiveFlightConfig {
   double spacing = 0.3;  ///< way between scans
   double sigma = 0.01;   ///< noise of every range
   std::size_t scans = 100;
-  std::uint64_t seed = 1;  ///< of places and noise
+  std::uint64_t seed = 1;        ///< of places and noise
+  std::size_t verify_every = 1;  ///< scans to a batch build that it is held against; 0: none
+  std::size_t copies = 0;        ///< of the exact world that are known from the first, beside it
+  bool queries = false;          ///< plan in another thread meanwhile
+  std::size_t tangent_pairs = 2000;  ///< of the batch builds
 
   /// Throws InputError naming the bad field.
   void validate() const;
 };
 
-/// How many voxels of a stage's result there are, and how many came or went with a scan.
-struct StageChange {
-  std::size_t voxels = 0, changed = 0;
-  std::size_t blocks = 0;  ///< that hold changed ones
+/// Paths that were planned in another thread while the map was updated, each on the snapshot of
+/// that time, and again when nothing else ran.
+struct LiveQueries {
+  std::size_t asked = 0, solved = 0;
+  std::size_t wrong = 0;          ///< paths that are not free in the snapshot they were asked of
+  std::vector<double> meanwhile;  ///< seconds of that thread, by query
+  std::vector<double> alone;      ///< and of the same queries afterwards
 };
 
-/// One scan.
-struct LiveScan {
-  UpdateReport update;
-  BuildSeconds batch;   ///< of build_roadmap of the same map
-  bool is_same = true;  ///< whether that gave the same diagram, graph and distances
-  std::size_t known_voxels = 0, map_blocks = 0;
-  StageChange traversable, gvd, thick_edges, edges, kernel, diagram;
+struct LiveFlight {
+  std::vector<LiveScan> scans;
+  LiveQueries queries;
 };
 
 /// A forward camera flies between random places of a world, along paths planned on its exact map,
-/// and all it sees goes into a live roadmap.
-std::vector<LiveScan> run_live_flight(const World& world, const LiveFlightConfig& config,
-                                      const Progress& progress = {});
-/// The same; where it is cancelled the results are those that were done.
+/// and all it sees goes into a live roadmap. Where it is cancelled the results are those that were
+/// done.
 void run_live_flight(const World& world, const LiveFlightConfig& config, const Progress& progress,
-                     std::vector<LiveScan>& results);
+                     LiveFlight& results);
+
+/// A door between two rooms is closed in front of a camera, and opened again.
+struct DoorConfig {
+  double voxel_size = 0.1;
+  double sigma = 0.01;
+  int forget_after = 8;  ///< see FusionConfig
+  std::uint64_t seed = 1;
+
+  /// Throws InputError naming the bad field.
+  void validate() const;
+};
+struct DoorResult {
+  std::vector<LiveScan> scans;
+  int until_no_path = -1;  ///< scans from the first of the closed door on; -1: never
+  int until_path = -1;     ///< and from the first of the door that is open again
+  bool has_path_first = false;
+};
+DoorResult run_door(const DoorConfig& config, const Progress& progress = {});
+
+/// Random changes of a small map, boxes and specks that come and go; how many of them left the
+/// roadmap that a batch build gives. With one thread and with more in turn.
+struct ChangeSets {
+  std::size_t done = 0, same = 0;
+};
+void run_change_sets(std::size_t count, std::uint64_t seed, const Progress& progress,
+                     ChangeSets& results);
 
 }  // namespace ridgeway

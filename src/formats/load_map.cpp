@@ -52,8 +52,7 @@ OccupancyMap finished(OccupancyMap map, const LoadConfig& config, const std::str
   if (config.bounds) map = crop(std::move(map), *config.bounds);
   require_memory_for_blocks(map.layout.block_count(), kPipelineBytesPerVoxel, name);
   map = add_no_fly(std::move(map), config.exclude);
-  const auto& states = map.state.values();
-  if (std::find(states.begin(), states.end(), VoxelState::kFree) != states.end()) return map;
+  if (count_voxels(map).free > 0) return map;
   throw InputError(name, "has no free voxel left within the bounds and outside the no-fly boxes",
                    "check bounds, exclude and voxel_size");
 }

@@ -132,8 +132,26 @@ PlacedMesh read_mesh(const YAML::Node& node, const WorldReader& reader, Meshes& 
   return placed;
 }
 
+/// Boxes, spheres and cylinders, of a world or of solids that are timed.
+template <typename Solids>
+void read_round_and_square(const YAML::Node& map, const WorldReader& reader, Solids& solids) {
+  reader.for_each(map, "boxes", [&](const YAML::Node& node) {
+    reader.require_keys(node, {"centre", "size"});
+    solids.boxes.push_back({reader.vector(node, "centre"), reader.vector(node, "size")});
+  });
+  reader.for_each(map, "spheres", [&](const YAML::Node& node) {
+    reader.require_keys(node, {"centre", "radius"});
+    solids.spheres.push_back({reader.vector(node, "centre"), reader.number(node, "radius")});
+  });
+  reader.for_each(map, "cylinders", [&](const YAML::Node& node) {
+    reader.require_keys(node, {"centre", "radius", "height"});
+    solids.cylinders.push_back({reader.vector(node, "centre"), reader.number(node, "radius"),
+                                reader.number(node, "height")});
+  });
+}
+
 World read_world(const YAML::Node& root, const WorldReader& reader) {
-  reader.require_keys(root, {"name", "planes", "boxes", "spheres", "cylinders", "meshes"});
+  reader.require_keys(root, {"name", "planes", "boxes", "spheres", "cylinders", "meshes", "timed"});
   World world;
   if (const YAML::Node name = root["name"]; name && name.IsScalar()) world.name = name.Scalar();
   reader.for_each(root, "planes", [&](const YAML::Node& node) {
@@ -144,18 +162,14 @@ World read_world(const YAML::Node& root, const WorldReader& reader) {
     const Eigen::Vector3d normal = direction.normalized();
     world.planes.push_back({normal, normal.dot(reader.vector(node, "point"))});
   });
-  reader.for_each(root, "boxes", [&](const YAML::Node& node) {
-    reader.require_keys(node, {"centre", "size"});
-    world.boxes.push_back({reader.vector(node, "centre"), reader.vector(node, "size")});
-  });
-  reader.for_each(root, "spheres", [&](const YAML::Node& node) {
-    reader.require_keys(node, {"centre", "radius"});
-    world.spheres.push_back({reader.vector(node, "centre"), reader.number(node, "radius")});
-  });
-  reader.for_each(root, "cylinders", [&](const YAML::Node& node) {
-    reader.require_keys(node, {"centre", "radius", "height"});
-    world.cylinders.push_back({reader.vector(node, "centre"), reader.number(node, "radius"),
-                               reader.number(node, "height")});
+  read_round_and_square(root, reader, world);
+  reader.for_each(root, "timed", [&](const YAML::Node& node) {
+    reader.require_keys(node, {"from", "until", "boxes", "spheres", "cylinders"});
+    TimedSolids timed;
+    if (node["from"]) timed.from = reader.number(node, "from");
+    if (node["until"]) timed.until = reader.number(node, "until");
+    read_round_and_square(node, reader, timed);
+    world.timed.push_back(std::move(timed));
   });
   Meshes meshes;
   reader.for_each(root, "meshes", [&](const YAML::Node& node) {
@@ -175,11 +189,40 @@ std::string quoted(const std::string& text) {
 }
 
 template <typename Solids, typename Line>
-std::string list_of(const char* key, const Solids& solids, const Line& line) {
+std::string list_of(const std::string& key, const Solids& solids, const Line& line) {
   if (solids.empty()) return {};
-  std::string text = std::string(key) + ":\n";
-  for (const auto& solid : solids) text += "  - {" + line(solid) + "}\n";
+  const std::string indent(key.find_first_not_of(' '), ' ');
+  std::string text = key + ":\n";
+  for (const auto& solid : solids) text += indent + "  - {" + line(solid) + "}\n";
   return text;
+}
+
+template <typename Solids>
+std::string round_and_square(const std::string& indent, const Solids& solids) {
+  return list_of(indent + "boxes", solids.boxes,
+                 [](const SolidBox& box) {
+                   return "centre: " + text_of(box.centre) + ", size: " + text_of(box.size);
+                 }) +
+         list_of(indent + "spheres", solids.spheres,
+                 [](const SolidSphere& sphere) {
+                   return "centre: " + text_of(sphere.centre) +
+                          ", radius: " + number_text(sphere.radius);
+                 }) +
+         list_of(indent + "cylinders", solids.cylinders, [](const SolidCylinder& cylinder) {
+           return "centre: " + text_of(cylinder.centre) +
+                  ", radius: " + number_text(cylinder.radius) +
+                  ", height: " + number_text(cylinder.height);
+         });
+}
+
+/// As a list entry, of which keys follow below each other.
+std::string text_of(const TimedSolids& timed) {
+  std::string text;
+  if (std::isfinite(timed.from)) text += "    from: " + number_text(timed.from) + "\n";
+  if (std::isfinite(timed.until)) text += "    until: " + number_text(timed.until) + "\n";
+  text += round_and_square("    ", timed);
+  if (text.empty()) return "  - {}\n";
+  return "  - " + text.substr(4);
 }
 
 }  // namespace
@@ -204,16 +247,9 @@ std::string world_yaml(const World& world) {
   text += list_of("planes", world.planes, [](const SolidPlane& plane) {
     return "point: " + text_of(plane.normal * plane.offset) + ", normal: " + text_of(plane.normal);
   });
-  text += list_of("boxes", world.boxes, [](const SolidBox& box) {
-    return "centre: " + text_of(box.centre) + ", size: " + text_of(box.size);
-  });
-  text += list_of("spheres", world.spheres, [](const SolidSphere& sphere) {
-    return "centre: " + text_of(sphere.centre) + ", radius: " + number_text(sphere.radius);
-  });
-  text += list_of("cylinders", world.cylinders, [](const SolidCylinder& cylinder) {
-    return "centre: " + text_of(cylinder.centre) + ", radius: " + number_text(cylinder.radius) +
-           ", height: " + number_text(cylinder.height);
-  });
+  text += round_and_square("", world);
+  if (!world.timed.empty()) text += "timed:\n";
+  for (const TimedSolids& timed : world.timed) text += text_of(timed);
   text += list_of("meshes", world.meshes, [](const PlacedMesh& placed) {
     if (placed.file.empty())
       throw InputError("mesh", "comes from no file", "save its triangles to one and read that");

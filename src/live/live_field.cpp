@@ -73,9 +73,12 @@ struct AlongZ {
 
  private:
   Put put(VoxelId id, const SiteOffset& site, std::uint32_t squared) const {
-    const std::uint32_t before = std::exchange(field.esdf.squared[id], squared);
-    const bool is_same = std::exchange(field.esdf.site[id], site) == site && before == squared;
-    return is_same ? Put::kSame : compared(before, squared);
+    const std::uint32_t before = field.esdf.squared[id];
+    if (before == squared && field.esdf.site[id] == site) return Put::kSame;
+    own_distances(field, id / kBlockVoxels);
+    field.esdf.squared[id] = squared;
+    field.esdf.site[id] = site;
+    return compared(before, squared);
   }
 };
 

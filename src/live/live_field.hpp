@@ -41,6 +41,9 @@ struct LiveField {
   VoxelField<PlaneOffset> in_plane;
   std::vector<std::uint16_t> known;  ///< voxels whose state is known, by block
 
+  /// By block: 0 where a snapshot has the same memory, which is not to be written to.
+  std::vector<std::uint8_t> owns_state, owns_distances;
+
   // Of the last update, and what it worked with.
   std::vector<std::pair<VoxelId, VoxelState>>
       before;                   ///< voxels whose state changed, and from what
@@ -54,6 +57,14 @@ struct LiveField {
 
   bool solid_outside() const { return esdf.unknown == UnknownPolicy::kObstacle; }
 };
+
+/// Before states, or distances and sites, of a block are written: gives them memory of their own
+/// where a snapshot has it. For one thread a block.
+void own_state(LiveField& field, std::uint32_t slot);
+void own_distances(LiveField& field, std::uint32_t slot);
+
+/// The field for a snapshot, in the same memory, which is copied from now on before it is written.
+EsdfMap share(LiveField& field);
 
 /// The map alone: the blocks in which something is known.
 OccupancyMap map_of(const LiveField& field);

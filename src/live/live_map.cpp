@@ -5,6 +5,7 @@
 
 #include "live_field.hpp"
 #include "mapping/memory_limit.hpp"
+#include "shared_memory.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -55,6 +56,8 @@ void add_blocks(LiveField& field, std::span<const BlockIndex> blocks) {
   esdf.layout.add(blocks);
   const bool solid = field.solid_outside();
   field.known.resize(esdf.layout.block_count());
+  field.owns_state.resize(esdf.layout.block_count(), 1);
+  field.owns_distances.resize(esdf.layout.block_count(), 1);
   esdf.state.grow(esdf.layout, VoxelState::kUnknown);
   esdf.obstacle.grow(esdf.layout);
   if (solid)
@@ -66,6 +69,26 @@ void add_blocks(LiveField& field, std::span<const BlockIndex> blocks) {
   esdf.site.grow(esdf.layout, SiteOffset{});
   for (MarkedVoxels* marked : {&field.flipped, &field.changed, &field.due, &field.passed})
     marked->grow(esdf.layout);
+}
+
+void own_state(LiveField& field, std::uint32_t slot) {
+  if (field.owns_state[slot] != 0) return;
+  field.esdf.state.own_block(slot);
+  field.owns_state[slot] = 1;
+}
+
+void own_distances(LiveField& field, std::uint32_t slot) {
+  if (field.owns_distances[slot] != 0) return;
+  field.esdf.squared.own_block(slot);
+  field.esdf.site.own_block(slot);
+  field.owns_distances[slot] = 1;
+}
+
+EsdfMap share(LiveField& field) {
+  EsdfMap same = in_same_memory(field.esdf);
+  std::fill(field.owns_state.begin(), field.owns_state.end(), 0);
+  std::fill(field.owns_distances.begin(), field.owns_distances.end(), 0);
+  return same;
 }
 
 void apply_changes(LiveField& field, std::span<const VoxelChange> changes) {
@@ -81,6 +104,7 @@ void apply_changes(LiveField& field, std::span<const VoxelChange> changes) {
   for (const VoxelChange& change : changes) {
     const VoxelId id = finder.find(change.voxel - field.esdf.origin);
     if (id == kNoVoxel || field.esdf.state[id] == change.state) continue;
+    own_state(field, id / kBlockVoxels);
     const VoxelState before = field.esdf.state[id];
     field.before.emplace_back(id, before);
     set_state(field, id, change.state);

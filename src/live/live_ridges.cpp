@@ -27,19 +27,6 @@ bool has_member_towards(const VoxelMask::Block& block, const VoxelIndex& directi
   return (any & cells) != 0;
 }
 
-/// The blocks of marked voxels and of their 26-neighbours.
-std::vector<std::uint32_t> blocks_around(const BlockLayout& layout, const MarkedVoxels& marked) {
-  MarkedVoxels around;
-  std::vector<std::uint32_t> slots;
-  for (const std::uint32_t slot : marked.slots)
-    for (int d = 0; d < 27; ++d)
-      if (const std::uint32_t n = layout.neighbour_block(slot, d);
-          n != BlockLayout::kNoBlock && has_member_towards(marked.voxels.block(slot), offset_of(d)))
-        slots.push_back(n);
-  around.name(slots);
-  return std::move(around.slots);
-}
-
 std::size_t count_of(const VoxelMask::Block& block) {
   std::size_t count = 0;
   for (const std::uint64_t layer : block) count += static_cast<std::size_t>(std::popcount(layer));
@@ -126,6 +113,18 @@ void thin_again(LiveRidges& ridges, const BlockLayout& layout) {
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> blocks_around(const BlockLayout& layout, const MarkedVoxels& marked) {
+  MarkedVoxels around;
+  std::vector<std::uint32_t> slots;
+  for (const std::uint32_t slot : marked.slots)
+    for (int d = 0; d < 27; ++d)
+      if (const std::uint32_t n = layout.neighbour_block(slot, d);
+          n != BlockLayout::kNoBlock && has_member_towards(marked.voxels.block(slot), offset_of(d)))
+        slots.push_back(n);
+  around.name(slots);
+  return std::move(around.slots);
+}
 
 void update_ridges(LiveRidges& ridges, const LiveField& field) {
   const EsdfMap& esdf = field.esdf;

@@ -2,6 +2,9 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "live_field.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
 
@@ -17,6 +20,9 @@ struct LiveRidges {
   MarkedVoxels changed_space = {}, changed_gvd = {}, changed_thick = {};
   MarkedVoxels seen = {};  ///< for updates
 };
+
+/// The blocks of marked voxels and of their 26-neighbours, ascending.
+std::vector<std::uint32_t> blocks_around(const BlockLayout& layout, const MarkedVoxels& marked);
 
 /// Follows a field after update_distances: blocks in which something has changed, and those beside
 /// it; of the edges whole components, which thinning does not look beyond. Where unknown space is

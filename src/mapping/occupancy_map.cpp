@@ -7,12 +7,17 @@
 namespace ridgeway {
 
 VoxelCounts count_voxels(const OccupancyMap& map) {
-  const auto& states = map.state.values();
-  const auto count = [&states](VoxelState state) {
-    return static_cast<std::size_t>(std::count(states.begin(), states.end(), state));
-  };
-  const std::size_t free = count(VoxelState::kFree), occupied = count(VoxelState::kOccupied);
-  return {.free = free, .occupied = occupied, .unknown = states.size() - free - occupied};
+  VoxelCounts counts;
+  for (std::uint32_t slot = 0; slot < map.layout.block_count(); ++slot) {
+    const VoxelState* states = map.state.block(slot);
+    const auto count = [states](VoxelState state) {
+      return static_cast<std::size_t>(std::count(states, states + kBlockVoxels, state));
+    };
+    counts.free += count(VoxelState::kFree);
+    counts.occupied += count(VoxelState::kOccupied);
+  }
+  counts.unknown = map.state.size() - counts.free - counts.occupied;
+  return counts;
 }
 
 VoxelRange known_range(const OccupancyMap& map) {

@@ -224,7 +224,8 @@ void integrate_projective(const DepthSurfaces& surfaces, const PinholeCamera& ca
     throw InputError("voxel_size " + number_text(config.voxel_size),
                      "is too small for images that reach so far",
                      "use a larger voxel size or a smaller max_range");
-  const std::vector<BlockIndex> seen = blocks_in(view);
+  std::vector<BlockIndex> seen = blocks_in(view);
+  std::erase_if(seen, [&](const BlockIndex& block) { return !blocks.takes(block); });
   require_room(blocks, static_cast<double>(seen.size()));
   std::vector<TsdfBlock*> targets;
   targets.reserve(seen.size());

@@ -128,8 +128,8 @@ Passages find_passages(const std::vector<Ray>& rays, const Point& sensor,
       const auto [near, far] = stretch_of(rays[i], config);
       walk((sensor + near * rays[i].along) / side, (sensor + far * rays[i].along) / side,
            [&](const VoxelIndex& cell) {
-             parts[part].emplace_back(BlockIndex{cell.x, cell.y, cell.z},
-                                      static_cast<std::uint32_t>(i));
+             if (const BlockIndex block{cell.x, cell.y, cell.z}; blocks.takes(block))
+               parts[part].emplace_back(block, static_cast<std::uint32_t>(i));
            });
     }
   });

@@ -10,13 +10,14 @@
 namespace ridgeway::detail {
 namespace {
 
-/// Marks where the robot was; the blocks around are among those found.
+/// Marks where the robot was, in the blocks that are looked at.
 void clear_around(const Point& place, const TsdfBlocks& tsdf, const FusionConfig& config,
                   AcceptedStates& states) {
   for_each_in_sphere(place, config.clear_radius, config.voxel_size, [&](const VoxelIndex& v) {
     const auto found = std::lower_bound(
         states.found.begin(), states.found.end(), block_of(v),
         [&](std::uint32_t number, const BlockIndex& b) { return tsdf.index(number) < b; });
+    if (found == states.found.end() || tsdf.index(*found) != block_of(v)) return;
     const int local = local_of(v);
     states.now[static_cast<std::size_t>(found - states.found.begin())]
         .cleared[static_cast<std::size_t>(local / 64)] |= 1ull << (local % 64);
@@ -51,8 +52,10 @@ std::vector<VoxelChange> AcceptedStates::find(const TsdfBlocks& tsdf, const Voxe
             [&](std::uint32_t a, std::uint32_t b) { return tsdf.index(a) < tsdf.index(b); });
   now.clear();
   for (const std::uint32_t number : found) now.push_back(blocks[number]);
+  if (places_moved)
+    for (Block& block : now) block.cleared = {};
   if (config.clear_radius > 0.0)
-    for (std::size_t i = places; i < all_places.size(); ++i)
+    for (std::size_t i = places_moved ? 0 : places; i < all_places.size(); ++i)
       clear_around(all_places[i], tsdf, config, *this);
   places_now = all_places.size();
   std::vector<VoxelMask::Block> changed(found.size());
@@ -76,6 +79,7 @@ void AcceptedStates::accept(TsdfBlocks& tsdf) noexcept {
   for (std::size_t i = 0; i < found.size(); ++i) blocks[found[i]] = now[i];
   found.clear();
   places = places_now;
+  places_moved = false;
   tsdf.forget_touched();
 }
 

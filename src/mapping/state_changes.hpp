@@ -34,6 +34,8 @@ struct AcceptedStates {
   std::vector<std::uint32_t> found;  ///< blocks that were looked at, by index, and what they are
   std::vector<Block> now;
   std::size_t places_now = 0;
+  bool places_moved =
+      false;  ///< where the robot has been is to be found anew, in what is looked at
 
   /// See TsdfFusion::find_changes; `all_places`: of the sensor.
   std::vector<VoxelChange> find(const TsdfBlocks& tsdf, const VoxelIndex& origin,

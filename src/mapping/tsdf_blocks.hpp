@@ -7,6 +7,7 @@
 #include <cmath>
 #include <deque>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "memory_limit.hpp"
@@ -72,6 +73,10 @@ class TsdfBlocks {
     }
     return blocks_[number];
   }
+  /// Only these blocks are to be fused into; `only` must outlive this. Nullptr: any.
+  void take_only(const std::unordered_set<BlockIndex, BlockHash>* only) { only_ = only; }
+  bool takes(const BlockIndex& index) const { return only_ == nullptr || only_->contains(index); }
+
   std::size_t size() const { return blocks_.size(); }
   const BlockIndex& index(std::uint32_t number) const { return indices_[number]; }
   const TsdfBlock& block(std::uint32_t number) const { return blocks_[number]; }
@@ -95,6 +100,16 @@ class TsdfBlocks {
     drop_kept();
   }
   void drop_kept() noexcept { kept_numbers_.clear(); }
+
+  /// Writes over a block that is touched and kept.
+  void write_over(const BlockIndex& index, const TsdfBlock& block) noexcept {
+    blocks_[table_.find(index)->second] = block;
+  }
+  /// A block, or nullptr.
+  const TsdfBlock* find(const BlockIndex& index) const {
+    const auto place = table_.find(index);
+    return place == table_.end() ? nullptr : &blocks_[place->second];
+  }
 
   /// Copies all into a map, on a layout of its own.
   void copy_to(TsdfMap& map) const {
@@ -129,6 +144,7 @@ class TsdfBlocks {
   std::vector<std::uint32_t> touched_;
   std::vector<TsdfBlock> kept_;
   std::vector<std::uint32_t> kept_numbers_;
+  const std::unordered_set<BlockIndex, BlockHash>* only_ = nullptr;
 };
 
 /// Throws InputError unless there is memory for more blocks, here and in the map made of them.

@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <unordered_set>
 #include <utility>
 
 #include "common/require.hpp"
@@ -98,6 +100,7 @@ void FusionConfig::validate() const {
   require(max_weight > 0.0, "max_weight", max_weight, "give a number above 0");
   require(forget_after >= 0 && forget_after <= 255, "forget_after", forget_after,
           "give 1 to 255 measurements, or 0 for never");
+  if (origin) require_within_reach({*origin, *origin}, "origin");
   require(clear_radius >= 0.0 && clear_radius <= max_range, "clear_radius", clear_radius,
           "give metres, 0 for none");
 }
@@ -109,7 +112,9 @@ struct TsdfFusion::State {
   detail::TsdfBlocks blocks;
   std::vector<Point> places;  // of the sensor
   detail::AcceptedStates accepted;
-  bool is_undoable = false;
+  std::vector<Point> places_before;  // of the last take_over
+  bool is_undoable = false, took_over = false;
+  std::unordered_set<BlockIndex, BlockHash> only;  // where it is a part of another fusion
 
   /// A pose is recorded only once its measurements are in: what throws on the way leaves no trace
   /// of it, nor of the origin that the first pose gives. `measure` adds the measurements from a
@@ -119,17 +124,19 @@ struct TsdfFusion::State {
     const Point place_world = T_world_sensor.translation();
     require_reach(place_world, kMaxVoxelIndex,
                   "lies farther than 1e9 voxels from the origin of its coordinates");
-    const VoxelIndex first = origin.value_or(voxel_at(place_world, config.voxel_size));
+    const VoxelIndex first =
+        origin.value_or(config.origin.value_or(voxel_at(place_world, config.voxel_size)));
     const Point place = moved(place_world, VoxelIndex{} - first, config.voxel_size);
     require_reach(place, kFarthestVoxel, "lies farther than 5e8 voxels from the first");
     const std::vector<BlockIndex> around = blocks_to_clear(place);
     if (places.size() == places.capacity()) places.reserve(2 * places.size() + 1);
     Eigen::Isometry3d T_map_sensor = T_world_sensor;
     T_map_sensor.translation() = place;
-    is_undoable = false;
+    is_undoable = took_over = false;
     blocks.drop_kept();
     measure(T_map_sensor);
-    for (const BlockIndex& block : around) blocks.find_or_add(block);
+    for (const BlockIndex& block : around)
+      if (blocks.takes(block)) blocks.find_or_add(block);
     places.push_back(place);
     origin = first;
     is_undoable = config.can_undo;
@@ -215,15 +222,55 @@ std::vector<VoxelChange> TsdfFusion::find_changes() {
 void TsdfFusion::accept_changes() noexcept {
   State& s = *state_;
   s.accepted.accept(s.blocks);
-  s.is_undoable = false;
+  s.is_undoable = s.took_over = false;
 }
 
 void TsdfFusion::undo() noexcept {
   State& s = *state_;
   if (!std::exchange(s.is_undoable, false)) return;
   s.blocks.restore();
+  if (std::exchange(s.took_over, false)) {
+    s.places.swap(s.places_before);
+    s.accepted.places_moved = false;
+    return;
+  }
   s.places.pop_back();
   if (s.places.empty()) s.origin.reset();
+}
+
+std::vector<BlockIndex> TsdfFusion::reached_blocks() const {
+  std::vector<BlockIndex> reached;
+  for (const std::uint32_t number : state_->blocks.touched())
+    reached.push_back(state_->blocks.index(number));
+  return reached;
+}
+
+TsdfFusion TsdfFusion::within_blocks(std::span<const BlockIndex> blocks) const {
+  if (!state_->origin) throw std::logic_error("nothing was fused yet");
+  TsdfFusion part;
+  State& s = *part.state_;
+  s.config = state_->config;
+  s.config.origin = state_->origin;
+  s.config.can_undo = false;
+  s.only.insert(blocks.begin(), blocks.end());
+  s.blocks.take_only(&s.only);
+  return part;
+}
+
+void TsdfFusion::take_over(const TsdfFusion& part, std::span<const Point> places_world) {
+  State& s = *state_;
+  std::vector<Point> places;
+  for (const Point& place : places_world)
+    places.push_back(moved(place, VoxelIndex{} - *s.origin, s.config.voxel_size));
+  for (const BlockIndex& block : part.state_->only) s.blocks.find_or_add(block);
+  s.blocks.keep_touched();
+  const detail::TsdfBlock nothing{};
+  for (const BlockIndex& block : part.state_->only) {
+    const detail::TsdfBlock* fused = part.state_->blocks.find(block);
+    s.blocks.write_over(block, fused != nullptr ? *fused : nothing);
+  }
+  s.places_before = std::exchange(s.places, std::move(places));
+  s.accepted.places_moved = s.is_undoable = s.took_over = true;
 }
 
 OccupancyMap occupancy_of(const TsdfMap& tsdf) {

@@ -13,6 +13,7 @@
 #include "graph_of_curves.hpp"
 #include "mapping/memory_limit.hpp"
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/mapping/map_edits.hpp"
 #include "ridgeway/skeleton/diagram.hpp"
@@ -104,21 +105,33 @@ void build_on_distances(VoxelMask traversable, const BuildConfig& config, BuildR
   thin(esdf.layout, edges);
   clock.end(report.seconds.thin);
 
-  build_on_edges(std::move(traversable), std::move(edges), config, result, clock);
+  clock.begin("kernel");
+  Watershed watershed = find_watershed(esdf, traversable);
+  clock.end(report.seconds.kernel);
+  build_on_watershed(std::move(traversable), std::move(edges), std::move(watershed), config, result,
+                     clock);
 }
 
-void build_on_edges(VoxelMask traversable, VoxelMask edges, const BuildConfig& config,
-                    BuildResult& result, StageClock& clock) {
+void build_on_watershed(VoxelMask traversable, VoxelMask edges, Watershed watershed,
+                        const BuildConfig& config, BuildResult& result, StageClock& clock) {
   Roadmap& roadmap = result.roadmap;
   const EsdfMap& esdf = roadmap.esdf;
   BuildReport& report = result.report;
 
-  clock.begin("kernel");
   require_memory_for(edges, kKernelBytesPerEdgeVoxel);
-  Basins basins = find_basins(esdf, traversable, config.min_clearance);
+  clock.start();
+  VoxelMask joined = traversable;  // to have fewer voxels of it
+  VoxelMask not_simple = std::move(watershed.basins.not_simple_at_first_turn);
+  Basins basins;
+  parallel_for_each_index(2, [&](std::size_t task) {  // neither of which knows of the other
+    if (task == 0)
+      basins = find_passes(esdf, traversable, config.min_clearance, std::move(watershed));
+    else
+      join_background(esdf, joined, not_simple);
+  });
+  basins.not_simple_at_first_turn = std::move(not_simple);
+  traversable = std::move(joined);
   report.traversable_components = basins.components();
-  join_background(esdf, traversable,
-                  basins.not_simple_at_first_turn);  // fewer voxels of it from here on
   VoxelMask kernel = compute_kernel(esdf, traversable, basins);
   traversable = {};
   report.kernel_voxels = kernel.count();
@@ -144,9 +157,12 @@ void build_on_edges(VoxelMask traversable, VoxelMask edges, const BuildConfig& c
   roadmap.diagram.complete = !config.paper_diagram;
   report.diagram_voxels = roadmap.diagram.voxels.count();
   clock.end(report.seconds.attach);
+}
 
+void build_what_is_learnt(const BuildConfig& config, BuildResult& result, StageClock& clock) {
+  BuildReport& report = result.report;
   clock.begin("tangents");
-  roadmap.tangents = build_tangent_graph(roadmap, corners_of(config));
+  result.roadmap.tangents = build_tangent_graph(result.roadmap, corners_of(config));
   clock.end(report.seconds.tangents);
 
   const BuildSeconds& s = report.seconds;
@@ -186,6 +202,7 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
                      "give a smaller min_clearance, or ignore the unknown");
 
   detail::build_on_distances(std::move(traversable), config, result, clock);
+  detail::build_what_is_learnt(config, result, clock);
   if (progress && !progress("done", 1.0)) throw Cancelled();
   return result;
 }

@@ -8,6 +8,7 @@
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
+#include "skeleton/watershed.hpp"
 
 /// Parts of build_roadmap, for those who have the results of its first stages already.
 namespace ridgeway::detail {
@@ -19,8 +20,10 @@ class StageClock {
 
   void begin(std::string_view stage) {
     if (progress_ && !progress_(stage, static_cast<double>(done_++) / kStages)) throw Cancelled();
-    start_ = detail::seconds_now();
+    start();
   }
+  /// Goes on with a stage that was ended.
+  void start() { start_ = detail::seconds_now(); }
   void end(double& seconds) const { seconds += detail::seconds_now() - start_; }
 
  private:
@@ -40,13 +43,17 @@ void require_suits(const BuildConfig& config, double voxel_size);
 /// ignored. Consumes the map.
 EsdfMap distances_of(OccupancyMap map, const BuildConfig& config);
 
-/// All that follows from the distances, which `result.roadmap` holds, with its min_clearance.
-/// `traversable`: the voxels free at that, at least one.
+/// All that follows from the distances, which `result.roadmap` holds, with its min_clearance, but
+/// for what is learnt. `traversable`: the voxels free at that, at least one.
 void build_on_distances(VoxelMask traversable, const BuildConfig& config, BuildResult& result,
                         StageClock& clock);
 
-/// And from the edges of the diagram, thinned.
-void build_on_edges(VoxelMask traversable, VoxelMask edges, const BuildConfig& config,
-                    BuildResult& result, StageClock& clock);
+/// And from the edges of the diagram, thinned, and the watershed of what is traversable.
+void build_on_watershed(VoxelMask traversable, VoxelMask edges, Watershed watershed,
+                        const BuildConfig& config, BuildResult& result, StageClock& clock);
+
+/// What is learnt of a roadmap that is complete but for this, and the total of all seconds. Queries
+/// do without, slower.
+void build_what_is_learnt(const BuildConfig& config, BuildResult& result, StageClock& clock);
 
 }  // namespace ridgeway::detail

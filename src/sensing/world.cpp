@@ -168,6 +168,24 @@ bool is_placement(const Eigen::Isometry3d& T) {
 
 bool is_length(double value) { return value > 0.0 && std::isfinite(value); }
 
+/// Boxes, spheres and cylinders of a world, or of some that are timed.
+template <typename Solids>
+void validate_round_and_square(const Solids& solids) {
+  validate_all(solids.boxes, "box", [](const SolidBox& box) {
+    return is_length(box.size.x()) && is_length(box.size.y()) && is_length(box.size.z());
+  });
+  validate_all(solids.spheres, "sphere",
+               [](const SolidSphere& sphere) { return is_length(sphere.radius); });
+  validate_all(solids.cylinders, "cylinder", [](const SolidCylinder& cylinder) {
+    return is_length(cylinder.radius) && is_length(cylinder.height);
+  });
+}
+
+template <typename Solid>
+void append(std::vector<Solid>& to, const std::vector<Solid>& more) {
+  to.insert(to.end(), more.begin(), more.end());
+}
+
 }  // namespace
 
 void validate_world(const World& world) {
@@ -178,14 +196,7 @@ void validate_world(const World& world) {
     require(std::isfinite(plane.offset), "plane", i, "has an offset that is not finite",
             "give metres along the normal");
   }
-  validate_all(world.boxes, "box", [](const SolidBox& box) {
-    return is_length(box.size.x()) && is_length(box.size.y()) && is_length(box.size.z());
-  });
-  validate_all(world.spheres, "sphere",
-               [](const SolidSphere& sphere) { return is_length(sphere.radius); });
-  validate_all(world.cylinders, "cylinder", [](const SolidCylinder& cylinder) {
-    return is_length(cylinder.radius) && is_length(cylinder.height);
-  });
+  validate_round_and_square(world);
   for (std::size_t i = 0; i < world.meshes.size(); ++i) {
     const PlacedMesh& placed = world.meshes[i];
     require(placed.mesh != nullptr, "mesh", i, "has no triangles", "read or make some");
@@ -193,6 +204,28 @@ void validate_world(const World& world) {
     require(is_placement(placed.T_world_mesh), "mesh", i, "has no place",
             "give a rotation and finite metres");
   }
+  for (std::size_t i = 0; i < world.timed.size(); ++i) {
+    const TimedSolids& timed = world.timed[i];
+    require(timed.from < timed.until, "timed solids", i, "are never there",
+            "give seconds from and until, the first less than the second");
+    try {
+      validate_round_and_square(timed);
+    } catch (const InputError& error) {
+      throw error.within("timed solids " + std::to_string(i + 1));
+    }
+  }
+}
+
+World world_at(const World& world, double time) {
+  World now = world;
+  now.timed.clear();
+  for (const TimedSolids& timed : world.timed) {
+    if (time < timed.from || time >= timed.until) continue;
+    append(now.boxes, timed.boxes);
+    append(now.spheres, timed.spheres);
+    append(now.cylinders, timed.cylinders);
+  }
+  return now;
 }
 
 SurfaceDistance surface_distance(const World& world, const Point& point) {

@@ -153,12 +153,16 @@ class PassFinder {
 
 }  // namespace
 
-Basins find_basins(const EsdfMap& esdf, const VoxelMask& traversable, double radius) {
-  detail::Watershed watershed = detail::find_watershed(esdf, traversable);
+Basins detail::find_passes(const EsdfMap& esdf, const VoxelMask& traversable, double radius,
+                           Watershed watershed) {
   const SquaredHalves threshold = least_clearance(radius, esdf.voxel_size);
   PassFinder(esdf, threshold, watershed.basins)
       .run(order_critical(esdf, traversable, watershed.basins, watershed.critical));
   return std::move(watershed.basins);
+}
+
+Basins find_basins(const EsdfMap& esdf, const VoxelMask& traversable, double radius) {
+  return detail::find_passes(esdf, traversable, radius, detail::find_watershed(esdf, traversable));
 }
 
 }  // namespace ridgeway

@@ -69,7 +69,8 @@ inline std::vector<double> plain_dynamics(const EsdfMap& esdf, const VoxelMask& 
   std::vector<Move> moves;
   std::vector<double> dynamics;
   DisjointSets regions(esdf.layout.voxel_count());
-  std::vector<double> peak(esdf.squared.values().begin(), esdf.squared.values().end());
+  const std::vector<std::uint32_t> levels = esdf.squared.values();
+  std::vector<double> peak(levels.begin(), levels.end());
   for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
     if (traversable.test(id))
       plain_neighbours(esdf, traversable, id, [&](VoxelId n, int d) {

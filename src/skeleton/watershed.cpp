@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cassert>
 #include <iterator>
+#include <numeric>
 #include <utility>
 
 #include "cube_answers.hpp"
@@ -111,13 +112,6 @@ int block_direction(VoxelId place, Direction next) {
   const BlockIndex block = block_of(voxel_of({}, static_cast<int>(place)) + offset_of(next));
   return direction_of({block.x, block.y, block.z});
 }
-
-/// What a block's voxels are to its basins.
-struct BlockWays {
-  std::uint32_t top = 0;  // highest level
-  bool has_peak = false;
-  std::vector<VoxelId> critical;  // ascending
-};
 
 /// Where each place's way ends as long as it stays in the block.
 std::array<std::uint16_t, kBlockVoxels> ends_in_block(const VoxelMask& traversable,
@@ -239,23 +233,27 @@ class BasinFinder {
 
 }  // namespace
 
-Watershed find_watershed(const EsdfMap& esdf, const VoxelMask& traversable) {
+void LocalWays::grow(const BlockLayout& layout) {
+  next.grow(layout, kNotTraversable);
+  not_simple_at_first_turn.grow(layout);
+  blocks.resize(layout.block_count());
+}
+
+void look_at_blocks(const EsdfMap& esdf, const VoxelMask& traversable,
+                    std::span<const std::uint32_t> slots, LocalWays& ways) {
   assert(traversable.is_of(esdf.layout) && esdf.squared.is_of(esdf.layout));
-  Watershed watershed;
-  Basins& basins = watershed.basins;
-  basins.next = VoxelField<Direction>::unset(esdf.layout);
-  basins.not_simple_at_first_turn = VoxelMask(esdf.layout);
-  std::vector<BlockWays> ways(esdf.layout.block_count());
   CubeAnswers answers;
   parallel_for_each_index(
-      esdf.layout.block_count(),
-      [&](std::size_t block) {
-        const auto slot = static_cast<std::uint32_t>(block);
-        std::fill_n(basins.next.block(slot), kBlockVoxels, kNotTraversable);
+      slots.size(),
+      [&](std::size_t i) {
+        const std::uint32_t slot = slots[i];
+        std::fill_n(ways.next.block(slot), kBlockVoxels, kNotTraversable);
+        ways.not_simple_at_first_turn.block(slot) = {};
+        BlockWays& own = ways.blocks[slot];
+        own = {};
         if (traversable.block(slot) == VoxelMask::Block{}) return;
         const Levels levels = gather_levels(esdf, traversable, slot);
         const Bordered<float> heights = heights_of(levels);
-        BlockWays& own = ways[slot];
         for_each_four(traversable, slot, [&](VoxelId first, unsigned members) {
           const VoxelId place = first % kBlockVoxels;
           const LevelCubes cubes(levels, bordered_place(first));
@@ -265,24 +263,43 @@ Watershed find_watershed(const EsdfMap& esdf, const VoxelMask& traversable) {
           const Cubes steepest = steepest_ways(&heights[bordered_place(first)], higher);
           for (; members != 0; members &= members - 1) {
             const auto x = static_cast<VoxelId>(std::countr_zero(members));
-            basins.next[first + x] = static_cast<Direction>(steepest[x]);
+            ways.next[first + x] = static_cast<Direction>(steepest[x]);
             own.has_peak |= steepest[x] == kCentre;
             own.top = std::max(own.top, esdf.squared[first + x]);
             if (!answers.of(higher[x]).is_regular) own.critical.push_back(first + x);
-            if (!answers.of(later[x]).is_simple) basins.not_simple_at_first_turn.set(first + x);
+            if (!answers.of(later[x]).is_simple) ways.not_simple_at_first_turn.set(first + x);
           }
         });
       },
       16);
-  for (std::uint32_t rank = 0; rank < ways.size(); ++rank) {
-    const std::vector<VoxelId>& critical = ways[esdf.layout.slot_at(rank)].critical;
+}
+
+Watershed watershed_of(const EsdfMap& esdf, const VoxelMask& traversable,
+                       const std::vector<BlockWays>& blocks, Basins local) {
+  Watershed watershed{std::move(local), {}};
+  Basins& basins = watershed.basins;
+  for (std::uint32_t rank = 0; rank < blocks.size(); ++rank) {
+    const std::vector<VoxelId>& critical = blocks[esdf.layout.slot_at(rank)].critical;
     watershed.critical.insert(watershed.critical.end(), critical.begin(), critical.end());
   }
   std::copy_if(watershed.critical.begin(), watershed.critical.end(),
                std::back_inserter(basins.peaks),
                [&](VoxelId id) { return basins.next[id] == kCentre; });
-  BasinFinder(esdf, traversable, ways, basins).run();
+  BasinFinder(esdf, traversable, blocks, basins).run();
   return watershed;
+}
+
+Watershed find_watershed(const EsdfMap& esdf, const VoxelMask& traversable) {
+  const std::uint32_t count = esdf.layout.block_count();
+  LocalWays ways{VoxelField<Direction>::unset(esdf.layout), VoxelMask(esdf.layout),
+                 std::vector<BlockWays>(count)};
+  std::vector<std::uint32_t> slots(count);
+  std::iota(slots.begin(), slots.end(), 0u);
+  look_at_blocks(esdf, traversable, slots, ways);
+  Basins local;
+  local.next = std::move(ways.next);
+  local.not_simple_at_first_turn = std::move(ways.not_simple_at_first_turn);
+  return watershed_of(esdf, traversable, ways.blocks, std::move(local));
 }
 
 }  // namespace ridgeway::detail

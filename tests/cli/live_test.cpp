@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 #include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "program.hpp"
 
@@ -25,6 +31,58 @@ TEST_F(CliLive, ReplaysARecordingThatABatchBuildVerifies) {
   const std::string csv = read_whole(folder_ / "live.csv");
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), frames + 1);
   EXPECT_EQ(run({"check", path("live.ridge"), "--queries", "20"}).code, 0);
+}
+
+/// Appends what a recording's text file has of frames, and copies their images.
+void add_frames(const std::filesystem::path& to, std::size_t first, std::size_t last) {
+  namespace fs = std::filesystem;
+  for (const char* list : {"depth.txt", "groundtruth.txt"}) {
+    std::ifstream all(fs::path(kRecording) / list);
+    std::ofstream some(to / list, std::ios::app);
+    std::size_t frame = 0;
+    for (std::string line; std::getline(all, line);) {
+      const bool is_comment = line.starts_with('#');
+      if (is_comment ? first == 0 : frame >= first && frame < last) some << line << "\n";
+      if (is_comment || list[0] != 'd') {
+        frame += !is_comment;
+        continue;
+      }
+      const std::string image = line.substr(line.find(' ') + 1);
+      if (frame >= first && frame < last) fs::copy_file(fs::path(kRecording) / image, to / image);
+      ++frame;
+    }
+  }
+}
+
+TEST_F(CliLive, FollowsAFolderThatIsStillWrittenTo) {
+  namespace fs = std::filesystem;
+  const fs::path growing = folder_ / "growing";
+  fs::create_directories(growing / "depth");
+  fs::copy_file(fs::path(kRecording) / "camera-intrinsics.txt", growing / "camera-intrinsics.txt");
+  std::thread writer([&] {
+    for (std::size_t first = 0; first < 12; first += 4) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      add_frames(growing, first, first + 4);
+    }
+  });
+  const std::vector<std::string> how = {"--voxel-size",   "0.2", "--min-clearance", "0.3",
+                                        "--max-distance", "2",   "--window",        "4",
+                                        "--json"};
+  std::vector<std::string> follow = {
+      "live", growing.string(), "-o",        path("followed.ridge"), "--follow",
+      "60",   "--until",        "000011.png"};
+  follow.insert(follow.end(), how.begin(), how.end());
+  const Outcome followed = run(follow);
+  writer.join();
+  ASSERT_EQ(followed.code, 0) << followed.err;
+  EXPECT_EQ(followed.json()["frames"].get<int>(), 12);
+  std::vector<std::string> again = {"live", growing.string(), "-o", path("whole.ridge")};
+  again.insert(again.end(), how.begin(), how.end());
+  const Outcome whole = run(again);
+  ASSERT_EQ(whole.code, 0) << whole.err;
+  EXPECT_TRUE(read_whole(folder_ / "followed.ridge") == read_whole(folder_ / "whole.ridge"));
+  // What never comes is not waited for any longer than was said.
+  EXPECT_EQ(run({"live", path("nowhere"), "-o", path("live.ridge"), "--follow", "0.3"}).code, 1);
 }
 
 TEST_F(CliLive, RefusesWhatIsNoRecordingAndNamesTheFrame) {

@@ -9,35 +9,21 @@
 #include <limits>
 #include <random>
 
-#include "files/read_file.hpp"
+#include "house_flight.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/ridge/ridge_file.hpp"
-#include "sensing/poses.hpp"
-#include "sensing/world_generators.hpp"
 #include "support/random_changes.hpp"
 #include "support/refusal.hpp"
-#include "support/temporary_folder.hpp"
 
 namespace ridgeway {
 namespace {
 
-/// The bytes of a roadmap's file; none for no roadmap.
-std::string bytes_of(const Roadmap* roadmap) {
-  if (roadmap == nullptr) return {};
-  const TemporaryFolder folder;
-  save_roadmap(*roadmap, folder / "map.ridge");
-  return read_file(folder / "map.ridge");
-}
-
-std::string batch_bytes(const OccupancyMap& map, const BuildConfig& config) {
-  try {
-    const BuildResult result = build_roadmap(map, config);
-    return bytes_of(&result.roadmap);
-  } catch (const InputError&) {
-    return {};  // no voxel is traversable
-  }
-}
+using testing::batch_bytes;
+using testing::bytes_of;
+using testing::flight_through_house;
+using testing::house_config;
+using testing::Scan;
+using testing::sensor_of_flight;
 
 BuildConfig small_build(UnknownPolicy unknown, double max_distance) {
   return {
@@ -71,7 +57,7 @@ TEST_P(LiveRoadmapAfter, RandomChangeSetsHasTheBytesOfABatchBuild) {
       const auto changes = testing::random_changes(random, {-12, -9, -11}, {14, 12, 9});
       UpdateReport report;
       with_threads(1 + step % 2, [&] { report = live.set_voxels(changes); });
-      const auto snapshot = live.snapshot();
+      const auto snapshot = live.settled();
       EXPECT_EQ(report.has_roadmap, snapshot != nullptr);
       EXPECT_TRUE(bytes_of(snapshot.get()) == batch_bytes(live.map(), build));
       with_roadmap += snapshot != nullptr;
@@ -102,41 +88,15 @@ TEST(LiveRoadmap, DoesNotDependOnOrderAndGroupingOfChanges) {
   at_once.set_voxels(changes);
   ASSERT_NE(at_once.snapshot(), nullptr);
   const std::vector<VoxelChange> all = testing::changes_to(at_once.map());
-  const std::string expected = bytes_of(at_once.snapshot().get());
+  const std::string expected = bytes_of(at_once.settled().get());
   for (const std::size_t group : {std::size_t{97}, changes.size() / 3}) {
     LiveRoadmap live({.build = build});
     std::vector<VoxelChange> shuffled = all;
     std::shuffle(shuffled.begin(), shuffled.end(), random);
     for (std::size_t i = 0; i < shuffled.size(); i += group)
       live.set_voxels(std::span(shuffled).subspan(i, std::min(group, shuffled.size() - i)));
-    EXPECT_TRUE(bytes_of(live.snapshot().get()) == expected) << group;
+    EXPECT_TRUE(bytes_of(live.settled().get()) == expected) << group;
   }
-}
-
-struct Scan {
-  DepthImage image;
-  Eigen::Isometry3d T_world_camera;
-};
-
-DepthSensor sensor_of_flight() {
-  DepthSensor sensor;
-  sensor.camera = {.width = 160, .height = 120, .fx = 80.0, .fy = 80.0, .cx = 79.5, .cy = 59.5};
-  sensor.range_sigma = 0.01;
-  return sensor;
-}
-
-std::vector<Scan> flight_through_house(std::size_t count) {
-  const World world = make_house();
-  std::vector<Scan> scans;
-  for (const Eigen::Isometry3d& pose :
-       sample_poses(world, {.low = {1, 1, 1}, .high = {14, 10, 4}, .count = count, .seed = 1}))
-    scans.push_back({render_depth(world, sensor_of_flight(), pose, scans.size()), pose});
-  return scans;
-}
-
-LiveConfig house_config() {
-  return {.fusion = {.voxel_size = 0.2, .clear_radius = 0.4},
-          .build = {.min_clearance = 0.3, .max_distance = 2.0, .tangent_pairs = 200}};
 }
 
 TEST(LiveRoadmap, OfEveryScanOfAFlightHasTheBytesOfABatchBuild) {
@@ -150,7 +110,7 @@ TEST(LiveRoadmap, OfEveryScanOfAFlightHasTheBytesOfABatchBuild) {
     EXPECT_FALSE(report.in_batch);
     EXPECT_GT(report.changed_voxels, 0u);
     const OccupancyMap map = live.map();
-    EXPECT_TRUE(bytes_of(live.snapshot().get()) == batch_bytes(map, config.build));
+    EXPECT_TRUE(bytes_of(live.settled().get()) == batch_bytes(map, config.build));
     // And the map is that of fusion, counted from another voxel.
     const OccupancyMap fused = occupancy_of(fusion.map());
     EXPECT_EQ(count_voxels(fused).free, count_voxels(map).free);
@@ -220,7 +180,7 @@ TEST(LiveRoadmap, RefusesBadInputByNameAndStaysAsItWas) {
   live.integrate(scans[1].image, camera, scans[1].T_world_camera);
   LiveRoadmap other(house_config());
   for (const Scan& scan : scans) other.integrate(scan.image, camera, scan.T_world_camera);
-  EXPECT_TRUE(bytes_of(live.snapshot().get()) == bytes_of(other.snapshot().get()));
+  EXPECT_TRUE(bytes_of(live.settled().get()) == bytes_of(other.settled().get()));
 }
 
 }  // namespace

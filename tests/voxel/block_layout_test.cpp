@@ -165,6 +165,31 @@ TEST(BlockLayout, BlocksAddedInOrderLeaveItInOrder) {
   EXPECT_EQ(layout.stamp(), random.layout.stamp());
 }
 
+TEST(VoxelField, SharesBlocksUntilTheyAreOwned) {
+  BlockLayout layout = RandomLayout(7).layout;
+  VoxelField<int> field(layout, 5);
+  const VoxelField<int> copy = field;
+  layout.add(std::vector<BlockIndex>{{500, 0, 0}});
+  field.grow(layout, 6);
+  const VoxelField<int> shared = field.shared();
+  EXPECT_NE(copy.block(0), field.block(0));
+  EXPECT_TRUE(shared.is_of(layout));
+  for (std::uint32_t slot = 0; slot < layout.block_count(); ++slot)
+    EXPECT_EQ(shared.block(slot), field.block(slot));
+  field.own_block(1);
+  field[kBlockVoxels + 3] = 9;
+  EXPECT_NE(shared.block(1), field.block(1));
+  EXPECT_EQ(shared.block(2), field.block(2));
+  EXPECT_EQ(shared[kBlockVoxels + 3], 5);
+  EXPECT_EQ(field[kBlockVoxels + 3], 9);
+  EXPECT_EQ(field[kBlockVoxels + 2], 5);
+  EXPECT_EQ(field[static_cast<VoxelId>(layout.voxel_count() - 1)], 6);
+  VoxelField<int> other = shared;  // a copy is one of its own
+  other[0] = 1;
+  EXPECT_EQ(shared[0], 5);
+  EXPECT_TRUE(shared.values() == VoxelField<int>(shared).values());
+}
+
 TEST(BlockLayout, FieldsGrowWithItAndKeepTheirValues) {
   const Growth growth(5);
   BlockLayout layout;

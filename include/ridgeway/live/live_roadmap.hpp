@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -19,9 +21,22 @@ struct LiveConfig {
   /// The lattice's voxel that is the map's own (0, 0, 0). Left out: the voxel that holds the sensor
   /// at the first pose, or, where voxels are set before that, the lattice's zero.
   std::optional<VoxelIndex> origin = {};
+  /// Metres: blocks farther than this from the sensor, along any axis, do not follow what is fused
+  /// until it comes nearer, or catch_up() is called.
+  double window = std::numeric_limits<double>::infinity();
+  /// Folder, new or empty, in which scans are kept for correct_poses; empty: none are. It is used
+  /// by one roadmap alone, and emptied with it.
+  std::filesystem::path log_folder = {};
+  std::uint64_t log_bytes = std::uint64_t{4} << 30;  ///< of all scans that are kept: the newest
 
   /// Throws InputError naming the bad field.
   void validate() const;
+};
+
+/// Where the sensor was at a frame, counted from 1, as it is known now (sensor to world).
+struct PoseCorrection {
+  std::uint64_t frame = 0;
+  Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity();
 };
 
 /// What an update did, and how long that took.
@@ -32,6 +47,8 @@ struct UpdateReport {
   std::size_t changed_voxels = 0;     ///< that are in another state than before
   std::size_t flipped_voxels = 0;     ///< of them became obstacles or ceased to be
   std::size_t added_blocks = 0;       ///< of the map
+  std::size_t waiting_voxels = 0;     ///< changes outside of the window that do not count yet
+  std::size_t fused_again = 0;        ///< blocks, by correct_poses
   std::size_t changed_distances = 0;  ///< voxels with another distance or site than before
   std::size_t changed_blocks = 0;     ///< that hold such voxels
   BuildReport build;                  ///< counts of the stages; seconds.esdf is that of the update
@@ -44,8 +61,8 @@ struct UpdateReport {
 /// A roadmap that follows its map while the map is being made.
 ///
 /// Contract: after every update the snapshot has the same bytes as build_roadmap(map(), config),
-/// for any order and grouping of the changes and any number of threads, voxels that become free or
-/// unknown again included.
+/// the tangent graph apart, and settled() has the same with it, for any order and grouping of the
+/// changes and any number of threads, voxels that become free or unknown again included.
 ///
 /// One thread updates; any number may call snapshot() meanwhile and plan on what they get. An
 /// update that throws leaves map and snapshot as they were: InputError for bad input, naming the
@@ -68,11 +85,29 @@ class LiveRoadmap {
   /// that was set stays so until a measurement turns its fused state into another.
   UpdateReport set_voxels(std::span<const VoxelChange> changes);
 
+  /// Takes other poses for some frames, of which the last of each counts: the blocks that those
+  /// frames reached, or reach now, are forgotten and fused again, from the log. After it all is as
+  /// if every frame had been fused with its corrected pose, by a roadmap with the same origins,
+  /// both its own and the fusion's; what was set by set_voxels stays where nothing fused speaks
+  /// against it. Planners go on with the last snapshot meanwhile. Throws InputError where there is
+  /// no log, no such frame, or a frame that is needed has left the log.
+  UpdateReport correct_poses(std::span<const PoseCorrection> corrections);
+
+  /// Follows what waits outside of the window.
+  UpdateReport catch_up();
+
   /// The roadmap after the last update, which stays as it is; none as long as no voxel is
   /// traversable. Thread-safe.
   std::shared_ptr<const Roadmap> snapshot() const;
 
-  /// The map after the last update: the blocks in which something is known.
+  /// The same with the tangent graph, which is learnt from the whole map and takes as long as many
+  /// updates: snapshots come without it (Roadmap::is_settled), and queries on them are as right,
+  /// but slower. Learns it, unless that was done, in the thread that asks, while others go on; from
+  /// then on, until the next update, snapshot() has it too. Thread-safe.
+  std::shared_ptr<const Roadmap> settled();
+
+  /// The map after the last update: the blocks in which something is known, without what waits
+  /// outside of the window.
   OccupancyMap map() const;
 
  private:

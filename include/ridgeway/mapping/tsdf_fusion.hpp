@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -64,6 +65,9 @@ struct FusionConfig {
   int forget_after = 0;
   double clear_radius = 0.0;  ///< around every pose: the robot was there, so it is free; 0: none
   Integrator integrator = Integrator::kProjective;
+  /// The lattice's voxel that is the map's own (0, 0, 0); left out: that which holds the sensor at
+  /// the first pose.
+  std::optional<VoxelIndex> origin = {};
   bool can_undo = false;  ///< keeps what the last measurements overwrote, see TsdfFusion::undo
 
   /// Whether a measurement at a range, metres along the ray, is taken; none is that is no number.
@@ -105,6 +109,19 @@ class TsdfFusion {
   std::vector<VoxelChange> find_changes();
   /// Accepts what find_changes has found, if nothing was fused since.
   void accept_changes() noexcept;
+
+  /// The blocks that measurements have reached since changes were last accepted, those of the map
+  /// itself, in no order that means anything.
+  std::vector<BlockIndex> reached_blocks() const;
+
+  /// A fusion with the same configuration and origin that measurements reach in some blocks alone,
+  /// with nothing in it yet: for fusing these again. Throws std::logic_error where nothing was
+  /// fused yet.
+  TsdfFusion within_blocks(std::span<const BlockIndex> blocks) const;
+  /// Takes over the blocks of such a fusion, those with nothing in them too, and all places of the
+  /// sensor, metres, world frame, in order: what was fused into them before is forgotten. Can be
+  /// undone, as measurements can.
+  void take_over(const TsdfFusion& part, std::span<const Point> places_world);
 
   /// Takes back the last measurements, once, if they can be (FusionConfig::can_undo) and their
   /// changes were not accepted yet.

@@ -45,10 +45,11 @@ struct Roadmap {
   SparseGraph graph;
   AttachField attach;
   ClearanceTree tree;
-  Landmarks landmarks;    ///< of the graph; not in the file, placed when it is loaded
-  TangentGraph tangents;  ///< ways close around corners; may be empty
-  std::string source;     ///< the map it was built from, for people
-  std::string config;     ///< the configuration it was built with, as JSON text, for people
+  Landmarks landmarks;     ///< of the graph; not in the file, placed when it is loaded
+  TangentGraph tangents;   ///< ways close around corners; may be empty
+  bool is_settled = true;  ///< false: a LiveRoadmap's, its tangents not learnt yet
+  std::string source;      ///< the map it was built from, for people
+  std::string config;      ///< the configuration it was built with, as JSON text, for people
 };
 
 }  // namespace ridgeway

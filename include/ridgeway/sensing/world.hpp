@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -44,6 +45,15 @@ struct PlacedMesh {
   std::string file = {};  ///< where it was read; may be empty
 };
 
+/// Solids that are there for a while: a door that is closed, a crate until it is moved.
+struct TimedSolids {
+  double from = -std::numeric_limits<double>::infinity();  ///< seconds
+  double until = std::numeric_limits<double>::infinity();  ///< seconds; no longer there then
+  std::vector<SolidBox> boxes;
+  std::vector<SolidSphere> spheres;
+  std::vector<SolidCylinder> cylinders;
+};
+
 /// A simulated world: the union of solids, metres, z up. Plain data; thread-safe to read.
 struct World {
   std::string name;
@@ -52,10 +62,16 @@ struct World {
   std::vector<SolidSphere> spheres;
   std::vector<SolidCylinder> cylinders;
   std::vector<PlacedMesh> meshes;
+  std::vector<TimedSolids> timed;  ///< which only world_at() sees
 };
 
+/// The world as it is at a time, seconds: with the timed solids that are there then, and none that
+/// come or go.
+World world_at(const World& world, double time);
+
 /// Throws InputError naming the first solid without a size (a mesh without triangles), with a
-/// number that is not finite, or a normal that is not of length one.
+/// number that is not finite, or a normal that is not of length one, and timed solids that are
+/// never there.
 void validate_world(const World& world);
 
 /// Signed distance to the nearest surface and its gradient. Exact outside, and inside a single

@@ -22,18 +22,11 @@ namespace detail {
 /// read here and there waits less for addresses to be looked up. Only advice.
 void ask_for_large_pages(void* memory, std::size_t bytes);
 
-/// Leaves plain values as the system gives their memory, so that the thread that first writes a
-/// page is the one that waits for it.
-template <typename Value>
-struct UnsetAllocator : std::allocator<Value> {
-  void construct(Value* at) {
-    if constexpr (!std::is_trivially_copyable_v<Value>) ::new (static_cast<void*>(at)) Value();
-  }
-  template <typename... Arguments>
-  void construct(Value* at, Arguments&&... arguments) {
-    ::new (static_cast<void*>(at)) Value(std::forward<Arguments>(arguments)...);
-  }
-};
+/// Memory as the system gives it, so that the thread that first writes a page is the one that waits
+/// for it.
+inline std::shared_ptr<void> unset_memory(std::size_t bytes) {
+  return {::operator new(bytes), [](void* memory) { ::operator delete(memory); }};
+}
 
 }  // namespace detail
 
@@ -41,11 +34,14 @@ struct UnsetAllocator : std::allocator<Value> {
 enum class Pages { kUsual, kLarge };
 
 /// One value for every voxel of a layout's blocks, by handle.
+///
+/// A copy is a field of its own. Two fields may also share the memory of blocks that are the same
+/// in both: see shared() and own_block().
 template <typename Value>
 class VoxelField {
- public:
-  using Values = std::vector<Value, detail::UnsetAllocator<Value>>;
+  static_assert(std::is_trivially_destructible_v<Value>);
 
+ public:
   VoxelField() = default;
   explicit VoxelField(const BlockLayout& layout, Value initial = {}, Pages pages = Pages::kUsual)
       : VoxelField(unset(layout, pages)) {
@@ -60,39 +56,96 @@ class VoxelField {
   static VoxelField unset(const BlockLayout& layout, Pages pages = Pages::kUsual) {
     VoxelField field;
     field.stamp_ = layout.stamp();
-    field.values_.resize(layout.voxel_count());
-    if (pages == Pages::kLarge)
-      detail::ask_for_large_pages(field.values_.data(), field.memory_bytes());
+    field.take_memory(layout.block_count(), pages);
     return field;
   }
 
+  VoxelField(const VoxelField& other) : stamp_(other.stamp_) {
+    take_memory(other.blocks_.size(), Pages::kUsual);
+    for (std::size_t slot = 0; slot < blocks_.size(); ++slot)
+      std::copy_n(other.blocks_[slot], kBlockVoxels, blocks_[slot]);
+  }
+  VoxelField(VoxelField&&) noexcept = default;
+  VoxelField& operator=(const VoxelField& other) { return *this = VoxelField(other); }
+  VoxelField& operator=(VoxelField&&) noexcept = default;
+  ~VoxelField() = default;
+
+  /// A field with the same values in the same memory, in time that follows the number of blocks.
+  /// Neither of the two may be written to from then on but for blocks that were made its own.
+  VoxelField shared() const {
+    VoxelField field;
+    field.stamp_ = stamp_;
+    field.memory_ = memory_;
+    field.blocks_ = blocks_;
+    return field;
+  }
+  /// Gives a field that shares its memory a copy of a block of its own; other threads may do so
+  /// with other blocks. `grow` has to have been called before.
+  void own_block(std::uint32_t slot) {
+    std::shared_ptr<void> own = detail::unset_memory(kBlockVoxels * sizeof(Value));
+    std::copy_n(blocks_[slot], kBlockVoxels, static_cast<Value*>(own.get()));
+    blocks_[slot] = static_cast<Value*>(own.get());
+    memory_[slot] = std::move(own);
+  }
+
   /// Follows a layout to which blocks were added since; their voxels get a value, the others keep
-  /// theirs.
+  /// theirs. From then on each block has memory of its own.
   void grow(const BlockLayout& layout, Value initial = {}) {
-    assert(stamp_ == layout.stamp_of_first(static_cast<std::uint32_t>(size() / kBlockVoxels)));
-    values_.resize(layout.voxel_count(), initial);
+    assert(stamp_ == layout.stamp_of_first(static_cast<std::uint32_t>(blocks_.size())));
+    const std::size_t count = layout.block_count();
+    if (memory_.size() < blocks_.size()) memory_.resize(blocks_.size(), memory_.front());
+    while (blocks_.size() < count) {
+      std::shared_ptr<void> own = detail::unset_memory(kBlockVoxels * sizeof(Value));
+      if (memory_.size() == memory_.capacity()) memory_.reserve(2 * memory_.size() + 1);
+      blocks_.push_back(static_cast<Value*>(own.get()));
+      memory_.push_back(std::move(own));
+      std::fill_n(blocks_.back(), kBlockVoxels, initial);
+    }
     stamp_ = layout.stamp();
   }
   /// Whether this is a field of a layout, for assertions where both are handed in.
   bool is_of(const BlockLayout& layout) const {
-    return stamp_ == layout.stamp() && size() == layout.voxel_count();
+    return stamp_ == layout.stamp() && blocks_.size() == layout.block_count();
   }
 
-  Value& operator[](VoxelId id) { return values_[id]; }
-  const Value& operator[](VoxelId id) const { return values_[id]; }
-  std::size_t size() const { return values_.size(); }
-  /// The 512 values of a block, x fastest.
-  Value* block(std::uint32_t slot) { return values_.data() + std::size_t{slot} * kBlockVoxels; }
-  const Value* block(std::uint32_t slot) const {
-    return values_.data() + std::size_t{slot} * kBlockVoxels;
+  Value& operator[](VoxelId id) { return blocks_[id / kBlockVoxels][id % kBlockVoxels]; }
+  const Value& operator[](VoxelId id) const {
+    return blocks_[id / kBlockVoxels][id % kBlockVoxels];
   }
-  Values& values() { return values_; }
-  const Values& values() const { return values_; }
-  std::size_t memory_bytes() const { return values_.capacity() * sizeof(Value); }
+  std::size_t size() const { return blocks_.size() * kBlockVoxels; }
+  /// The 512 values of a block, x fastest.
+  Value* block(std::uint32_t slot) { return blocks_[slot]; }
+  const Value* block(std::uint32_t slot) const { return blocks_[slot]; }
+  /// All of them, by handle: a copy.
+  std::vector<Value> values() const {
+    std::vector<Value> all;
+    all.reserve(size());
+    for (const Value* block : blocks_) all.insert(all.end(), block, block + kBlockVoxels);
+    return all;
+  }
+  /// Counts what is shared too.
+  std::size_t memory_bytes() const {
+    return size() * sizeof(Value) + blocks_.capacity() * sizeof(Value*);
+  }
 
  private:
-  Values values_;
-  std::uint64_t stamp_ = 0;  // of the layout
+  /// All blocks in one piece. Pages are given to it when they are first written: by the threads
+  /// that do, so that none waits for all of them.
+  void take_memory(std::size_t blocks, Pages pages) {
+    if (blocks == 0) return;
+    memory_.push_back(detail::unset_memory(blocks * kBlockVoxels * sizeof(Value)));
+    auto* const first = static_cast<Value*>(memory_.front().get());
+    if constexpr (!std::is_trivially_copyable_v<Value>)
+      std::uninitialized_value_construct_n(first, blocks * kBlockVoxels);
+    blocks_.reserve(blocks);
+    for (std::size_t slot = 0; slot < blocks; ++slot)
+      blocks_.push_back(first + slot * kBlockVoxels);
+    if (pages == Pages::kLarge) detail::ask_for_large_pages(first, size() * sizeof(Value));
+  }
+
+  std::vector<std::shared_ptr<void>> memory_;  // of all blocks, or of each
+  std::vector<Value*> blocks_;                 // by slot
+  std::uint64_t stamp_ = 0;                    // of the layout
 };
 
 }  // namespace ridgeway

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "live_queries.hpp"
+
+#include <ctime>
+
+#include "common/random.hpp"
+#include "ridgeway/live/graph_delta.hpp"
+#include "ridgeway/planning/plan.hpp"
+
+namespace ridgeway {
+namespace {
+
+constexpr std::size_t kMostKept = 2000;  // queries that are asked again
+constexpr int kTries = 1000;             // to meet a traversable voxel
+
+/// Of the thread that asks: others may have taken its processor for a while.
+double own_seconds() {
+  timespec now{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+Point random_place(const Roadmap& roadmap, Random& random) {
+  const EsdfMap& esdf = roadmap.esdf;
+  VoxelId id = 0;
+  for (int i = 0; i < kTries; ++i) {
+    id = static_cast<VoxelId>(random.below(esdf.layout.voxel_count()));
+    if (roadmap.attach.next[id] != AttachField::kNotTraversable) break;
+  }
+  return to_world(esdf, centre_of(esdf.layout.index_of(id), esdf.voxel_size));
+}
+
+}  // namespace
+
+LiveQueryLoad::LiveQueryLoad(const LiveRoadmap& live, bool asks, std::uint64_t seed,
+                             LiveQueries& results)
+    : results_(results) {
+  if (asks) thread_ = std::thread([this, &live, seed] { run(live, seed); });
+}
+
+LiveQueryLoad::~LiveQueryLoad() {
+  is_over_ = true;
+  if (thread_.joinable()) thread_.join();
+  for (const Asked& asked : asked_) {
+    const double start = own_seconds();
+    plan(*asked.roadmap, asked.start, asked.goal);
+    results_.alone.push_back(own_seconds() - start);
+  }
+}
+
+void LiveQueryLoad::run(const LiveRoadmap& live, std::uint64_t seed) {
+  Random random(seed, 1);
+  while (!is_over_) {
+    const std::shared_ptr<const Roadmap> now = live.snapshot();
+    if (!now) {
+      std::this_thread::yield();
+      continue;
+    }
+    const Asked asked{now, random_place(*now, random), random_place(*now, random)};
+    const double start = own_seconds();
+    const PlanResult path = plan(*now, asked.start, asked.goal);
+    const double seconds = own_seconds() - start;
+    ++results_.asked;
+    results_.solved += path.ok();
+    results_.wrong += path.ok() && !still_safe(path.waypoints, now->min_clearance, *now);
+    if (asked_.size() == kMostKept) continue;
+    results_.meanwhile.push_back(seconds);
+    asked_.push_back(asked);
+  }
+}
+
+}  // namespace ridgeway

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "common/clock.hpp"
+#include "live_basins.hpp"
+#include "live_field.hpp"
+#include "live_ridges.hpp"
+#include "live_window.hpp"
+#include "ridgeway/live/live_roadmap.hpp"
+#include "scan_log.hpp"
+#include "shared_memory.hpp"
+
+namespace ridgeway {
+namespace detail {
+
+/// Times one step after the other.
+class Lap {
+ public:
+  double seconds() {
+    const double before = std::exchange(start_, seconds_now());
+    return start_ - before;
+  }
+
+ private:
+  double start_ = seconds_now();
+};
+
+/// Which frames reached which blocks of the fusion, from which poses. Frames are counted from 0.
+struct FrameIndex {
+  std::vector<Eigen::Isometry3d> poses;                                            ///< by frame
+  std::unordered_map<BlockIndex, std::vector<std::uint32_t>, BlockHash> of_block;  ///< ascending
+
+  void add(const Eigen::Isometry3d& pose, std::span<const BlockIndex> reached);
+  /// Takes back what add() has added, or a part of it.
+  void drop_last(std::span<const BlockIndex> reached, std::size_t frames) noexcept;
+};
+
+}  // namespace detail
+
+struct LiveRoadmap::State {
+  /// What follows the map.
+  struct Live {
+    detail::LiveField field;
+    detail::LiveRidges ridges;
+    detail::LiveBasins basins;
+    detail::LiveAttach attach;
+  };
+
+  explicit State(const LiveConfig& given);
+
+  const LiveConfig config;
+  TsdfFusion fusion;
+  detail::LiveWindow window;
+  std::unique_ptr<detail::ScanLog> log;  // none unless poses may be corrected
+  detail::FrameIndex frames_of_blocks;   // that of the log
+  std::uint64_t frames = 0;              // that were fused
+  std::optional<Live> now;               // none before the first update
+  bool is_stale = false;                 // the map is right, distances are not
+  std::uint64_t version = 0;
+  mutable std::mutex mutex;  // of what follows
+  std::shared_ptr<const Roadmap> snapshot;
+
+  // live_scans.cpp
+  UpdateReport integrate(const DepthImage& image, const PinholeCamera& camera,
+                         const Eigen::Isometry3d& T_world_camera);
+  UpdateReport integrate(std::span<const Point> points, const Eigen::Isometry3d& T_world_sensor);
+  UpdateReport correct_poses(std::span<const PoseCorrection> corrections);
+
+  // live_update.cpp
+  /// Brings all up to date; `first`: the map's origin if it has none.
+  void update(std::span<const VoxelChange> changes, const VoxelIndex& first, UpdateReport& report);
+  /// The last snapshot with what is learnt. For any thread.
+  std::shared_ptr<const Roadmap> settled();
+
+ private:
+  template <typename Fuse, typename Keep>
+  UpdateReport integrate_frame(const Eigen::Isometry3d& T_world_sensor, const Fuse& fuse,
+                               const Keep& keep);
+  std::vector<Eigen::Isometry3d> corrected(std::span<const PoseCorrection> corrections,
+                                           std::vector<std::uint32_t>& moved) const;
+  void fuse_logged(TsdfFusion& part, std::uint32_t frame, const Eigen::Isometry3d& pose) const;
+  detail::FrameIndex frames_after(const std::vector<Eigen::Isometry3d>& poses,
+                                  const std::vector<std::uint32_t>& moved,
+                                  std::unordered_set<BlockIndex, BlockHash>& redone) const;
+
+  void bring_up_to_date(std::span<const VoxelChange> changes, UpdateReport& report);
+  Live nothing(const VoxelIndex& origin) const;
+  Live remade() const;
+  std::shared_ptr<const Roadmap> built_on(Live& live, detail::Lap& lap, UpdateReport& report) const;
+  std::shared_ptr<const Roadmap> built_in_batch(detail::Lap& lap, UpdateReport& report) const;
+  std::shared_ptr<const Roadmap> published(BuildResult result, BuildReport& report) const;
+};
+
+}  // namespace ridgeway

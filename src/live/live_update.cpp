@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <algorithm>
+#include <utility>
+
+#include "live_state.hpp"
+#include "ridgeway/mapping/occupancy_map.hpp"
+#include "roadmap/build_stages.hpp"
+
+namespace ridgeway {
+namespace {
+
+using detail::LiveField;
+
+std::vector<VoxelChange> all_of(const OccupancyMap& map) {
+  std::vector<VoxelChange> changes;
+  for (VoxelId id = 0; id < map.layout.voxel_count(); ++id)
+    if (map.state[id] != VoxelState::kUnknown)
+      changes.push_back({map.origin + map.layout.index_of(id), map.state[id]});
+  return changes;
+}
+
+}  // namespace
+
+void LiveRoadmap::State::update(std::span<const VoxelChange> changes, const VoxelIndex& first,
+                                UpdateReport& report) {
+  detail::Lap all;
+  if (now && is_stale) {
+    now = remade();
+    is_stale = false;
+  }
+  const bool is_first = !now;
+  if (is_first) now = nothing(config.origin.value_or(first));
+  try {
+    bring_up_to_date(changes, report);
+  } catch (...) {
+    if (is_first) {
+      now.reset();
+    } else {
+      undo_changes(now->field);
+      is_stale = true;
+    }
+    throw;
+  }
+  report.version = version;
+  report.has_roadmap = snapshot != nullptr;
+  report.waiting_voxels = window.size();
+  report.seconds = report.fusion_seconds + all.seconds();
+}
+
+void LiveRoadmap::State::bring_up_to_date(std::span<const VoxelChange> changes,
+                                          UpdateReport& report) {
+  detail::Lap lap;
+  LiveField& field = now->field;
+  const std::uint32_t blocks = field.esdf.layout.block_count();
+  apply_changes(field, changes);
+  report.map_seconds = lap.seconds();
+  report.changed_voxels = field.before.size();
+  report.flipped_voxels = field.flipped.count();
+  report.added_blocks = field.esdf.layout.block_count() - blocks;
+  if (report.changed_voxels == 0) return;
+  const bool follows =
+      config.build.unknown == UnknownPolicy::kObstacle && !config.build.basis_point_edges;
+  // Blocks in which nothing is known any more are none of the map's.
+  report.in_batch =
+      !follows || std::find(field.known.begin(), field.known.end(), 0) != field.known.end();
+  std::optional<Live> other;
+  std::shared_ptr<const Roadmap> next;
+  if (!follows) {
+    next = built_in_batch(lap, report);
+  } else if (report.in_batch) {
+    other = remade();
+    next = built_on(*other, lap, report);
+  } else {
+    update_distances(field);
+    next = built_on(*now, lap, report);
+  }
+  const std::lock_guard lock(mutex);
+  snapshot = std::move(next);
+  ++version;
+  if (other) now = std::move(other);
+}
+
+/// A map without blocks.
+LiveRoadmap::State::Live LiveRoadmap::State::nothing(const VoxelIndex& origin) const {
+  return {LiveField(config.fusion.voxel_size, origin,
+                    {config.build.unknown, config.build.max_distance}),
+          {.radius = config.build.min_clearance, .config = detail::ridges_of(config.build)},
+          {},
+          {}};
+}
+
+/// The same map in fields of their own, to which it is one change.
+LiveRoadmap::State::Live LiveRoadmap::State::remade() const {
+  Live other = nothing(now->field.esdf.origin);
+  apply_changes(other.field, all_of(map_of(now->field)));
+  update_distances(other.field);
+  update_ridges(other.ridges, other.field);
+  update_basins(other.basins, other.field, other.ridges);
+  return other;
+}
+
+/// The stages that follow once the distances are right.
+std::shared_ptr<const Roadmap> LiveRoadmap::State::built_on(Live& live, detail::Lap& lap,
+                                                            UpdateReport& report) const {
+  BuildReport& build = report.build;
+  LiveField& field = live.field;
+  report.changed_distances = field.changed.count();
+  report.changed_blocks = field.changed.slots.size();
+  build.allocated_voxels = field.esdf.layout.voxel_count();
+  build.seconds.esdf = lap.seconds();
+  update_ridges(live.ridges, field);
+  build.traversable_voxels = live.ridges.traversable_count;
+  build.gvd_voxels = live.ridges.gvd_count;
+  build.edge_voxels = live.ridges.thick_count;
+  build.seconds.gvd = lap.seconds();
+  update_basins(live.basins, field, live.ridges);
+  build.seconds.kernel = lap.seconds();
+  if (build.traversable_voxels == 0) return nullptr;
+  BuildResult result;
+  result.report = build;
+  result.roadmap.esdf = share(field);
+  result.roadmap.min_clearance = live.ridges.radius;
+  report.copy_seconds = lap.seconds();
+  detail::Watershed watershed = watershed_of(live.basins, field, live.ridges);
+  result.report.seconds.kernel += lap.seconds();
+  const Progress none;
+  detail::StageClock clock(none);
+  detail::build_on_watershed(live.ridges.traversable, live.ridges.edges, std::move(watershed),
+                             config.build, result, clock);
+  result.roadmap.attach = share(live.attach, field.esdf.layout, result.roadmap.attach);
+  return published(std::move(result), build);
+}
+
+/// A roadmap that is complete but for what is learnt.
+std::shared_ptr<const Roadmap> LiveRoadmap::State::published(BuildResult result,
+                                                             BuildReport& report) const {
+  BuildSeconds& s = result.report.seconds;
+  s.total = s.esdf + s.gvd + s.edges + s.thin + s.kernel + s.graph + s.attach;
+  report = result.report;
+  result.roadmap.is_settled = config.build.tangent_pairs == 0;
+  return std::make_shared<const Roadmap>(std::move(result.roadmap));
+}
+
+/// Where unknown space is ignored, pockets of free space are filled: whether one is small enough
+/// may change from far away.
+std::shared_ptr<const Roadmap> LiveRoadmap::State::built_in_batch(detail::Lap& lap,
+                                                                  UpdateReport& report) const {
+  BuildResult result;
+  result.roadmap.esdf = detail::distances_of(map_of(now->field), config.build);
+  result.roadmap.min_clearance = config.build.min_clearance;
+  const EsdfMap& esdf = result.roadmap.esdf;
+  VoxelMask traversable = traversable_voxels(esdf, config.build.min_clearance);
+  result.report.traversable_voxels = traversable.count();
+  result.report.allocated_voxels = esdf.layout.voxel_count();
+  result.report.seconds.esdf = lap.seconds();
+  const Progress none;
+  detail::StageClock clock(none);
+  if (result.report.traversable_voxels == 0) {
+    report.build = result.report;
+    return nullptr;
+  }
+  detail::build_on_distances(std::move(traversable), config.build, result, clock);
+  return published(std::move(result), report.build);
+}
+
+/// The last snapshot with what is learnt. For any thread: what takes long is done without the
+/// lock, on a snapshot that stays as it is.
+std::shared_ptr<const Roadmap> LiveRoadmap::State::settled() {
+  const std::shared_ptr<const Roadmap> last = [&] {
+    const std::lock_guard lock(mutex);
+    return snapshot;
+  }();
+  if (!last || last->is_settled) return last;
+  BuildResult result;
+  result.roadmap = detail::in_same_memory(*last);
+  const Progress none;
+  detail::StageClock clock(none);
+  detail::build_what_is_learnt(config.build, result, clock);
+  auto all = std::make_shared<const Roadmap>(std::move(result.roadmap));
+  const std::lock_guard lock(mutex);
+  if (snapshot == last) snapshot = all;
+  return all;
+}
+
+}  // namespace ridgeway

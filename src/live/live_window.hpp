@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <map>
+#include <span>
+#include <vector>
+
+#include "ridgeway/mapping/occupancy_map.hpp"
+
+namespace ridgeway::detail {
+
+/// Changes that wait until the sensor comes near them.
+class LiveWindow {
+ public:
+  /// `reach`: metres along each axis.
+  LiveWindow(double reach, double voxel_size) : reach_(reach), voxel_size_(voxel_size) {}
+
+  /// Of new changes, those that count now, after what waited for the same blocks; the others are to
+  /// wait. Nothing waits for another block than before until keep() is called.
+  std::vector<VoxelChange> take_near(std::span<const VoxelChange> changes, const Point& sensor);
+  /// What waits for the blocks of some changes, and then these.
+  std::vector<VoxelChange> take_with(std::span<const VoxelChange> changes);
+  /// All that waits.
+  std::vector<VoxelChange> take_all();
+  /// What was taken last counts from now on.
+  void keep() noexcept;
+  /// Number of changes that wait.
+  std::size_t size() const;
+
+ private:
+  using ByBlock = std::map<BlockIndex, std::vector<VoxelChange>>;  // of the lattice
+
+  bool is_near(const BlockIndex& block, const Point& sensor) const;
+
+  const double reach_, voxel_size_;
+  ByBlock waiting_, next_;
+};
+
+}  // namespace ridgeway::detail

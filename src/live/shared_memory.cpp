@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "shared_memory.hpp"
+
+#include <algorithm>
+
+#include "ridgeway/common/parallel.hpp"
+
+namespace ridgeway::detail {
+
+EsdfMap in_same_memory(const EsdfMap& esdf) {
+  return {.voxel_size = esdf.voxel_size,
+          .origin = esdf.origin,
+          .unknown = esdf.unknown,
+          .max_distance = esdf.max_distance,
+          .layout = esdf.layout,
+          .state = esdf.state.shared(),
+          .squared = esdf.squared.shared(),
+          .site = esdf.site.shared(),
+          .obstacle = esdf.obstacle};
+}
+
+Roadmap in_same_memory(const Roadmap& roadmap) {
+  Roadmap same;
+  same.esdf = in_same_memory(roadmap.esdf);
+  same.min_clearance = roadmap.min_clearance;
+  same.diagram = roadmap.diagram;
+  same.graph = roadmap.graph;
+  same.attach = {roadmap.attach.next.shared()};
+  same.tree = roadmap.tree;
+  same.landmarks = roadmap.landmarks;
+  return same;
+}
+
+AttachField share(LiveAttach& attach, const BlockLayout& layout, const AttachField& now) {
+  attach.next.grow(layout, AttachField::kNotTraversable);
+  parallel_for_each_index(
+      layout.block_count(),
+      [&](std::size_t i) {
+        const auto slot = static_cast<std::uint32_t>(i);
+        const Direction* fresh = now.next.block(slot);
+        if (std::equal(fresh, fresh + kBlockVoxels, attach.next.block(slot))) return;
+        attach.next.own_block(slot);
+        std::copy_n(fresh, kBlockVoxels, attach.next.block(slot));
+      },
+      64);
+  return {attach.next.shared()};
+}
+
+}  // namespace ridgeway::detail

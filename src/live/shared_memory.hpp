@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include "ridgeway/roadmap/roadmap.hpp"
+
+/// What snapshots share: the memory of blocks that are the same in several of them.
+namespace ridgeway::detail {
+
+/// The same field in the same memory, which neither may write to from then on.
+EsdfMap in_same_memory(const EsdfMap& esdf);
+
+/// The same roadmap, without what is learnt, its fields in the same memory.
+Roadmap in_same_memory(const Roadmap& roadmap);
+
+/// The last attach field that was handed out.
+struct LiveAttach {
+  VoxelField<Direction> next = {};
+};
+
+/// The field for a snapshot: in the memory of the last one where a block is the same.
+AttachField share(LiveAttach& attach, const BlockLayout& layout, const AttachField& now);
+
+}  // namespace ridgeway::detail

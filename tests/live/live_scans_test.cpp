@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+// Poses that are corrected, worlds that change, windows: what comes of scans that were fused.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "house_flight.hpp"
+#include "ridgeway/common/parallel.hpp"
+#include "support/random_changes.hpp"
+#include "support/refusal.hpp"
+
+namespace ridgeway {
+namespace {
+
+using testing::batch_bytes;
+using testing::bytes_of;
+using testing::flight_through_house;
+using testing::house_config;
+using testing::Scan;
+using testing::sensor_of_flight;
+
+UpdateReport integrate(LiveRoadmap& live, const Scan& scan) {
+  return live.integrate(scan.image, sensor_of_flight().camera, scan.T_world_camera);
+}
+
+/// As a tracker that drifts has it.
+Eigen::Isometry3d drifted(const Eigen::Isometry3d& pose, double by) {
+  Eigen::Isometry3d off = pose;
+  off.translation() += Point(by, -0.5 * by, 0.2 * by);
+  off.rotate(Eigen::AngleAxisd(0.2 * by, Eigen::Vector3d::UnitY()));
+  return off;
+}
+
+LiveConfig with_log(const TemporaryFolder& folder) {
+  LiveConfig config = house_config();
+  config.log_folder = folder / "log";
+  return config;
+}
+
+TEST(CorrectPoses, GivesTheBytesOfFusingAllWithTheCorrectedPoses) {
+  const std::vector<Scan> scans = flight_through_house(9);
+  for (const int threads : {1, 2})
+    with_threads(threads, [&] {
+      const TemporaryFolder folder;
+      const LiveConfig config = with_log(folder);
+      LiveRoadmap live(config);
+      std::vector<Eigen::Isometry3d> first;
+      for (std::size_t i = 0; i < scans.size(); ++i) {
+        const double drift = i < 3 ? 0.0 : 0.15 * static_cast<double>(i);
+        first.push_back(drifted(scans[i].T_world_camera, drift));
+        integrate(live, {scans[i].image, first.back()});
+      }
+      const std::string before = bytes_of(live.settled().get());
+      // Some of them first, then all; the origin is that of the first pose as it was.
+      LiveConfig plain = house_config();
+      plain.fusion.origin = plain.origin =
+          voxel_at(first.front().translation(), plain.fusion.voxel_size);
+      std::vector<PoseCorrection> corrections;
+      for (const std::size_t last : {5u, 9u}) {
+        corrections.clear();
+        for (std::size_t i = 0; i < last; ++i)
+          corrections.push_back({i + 1, scans[i].T_world_camera});
+        const UpdateReport report = live.correct_poses(corrections);
+        EXPECT_GT(report.fused_again, 0u);
+        EXPECT_GT(report.changed_voxels, 0u);
+        LiveRoadmap fused(plain);
+        for (std::size_t i = 0; i < scans.size(); ++i)
+          integrate(fused, {scans[i].image, i < last ? scans[i].T_world_camera : first[i]});
+        EXPECT_TRUE(testing::changes_to(live.map()) == testing::changes_to(fused.map())) << last;
+        EXPECT_TRUE(bytes_of(live.settled().get()) == bytes_of(fused.settled().get())) << last;
+        EXPECT_TRUE(bytes_of(live.settled().get()) == batch_bytes(live.map(), config.build));
+      }
+      EXPECT_FALSE(bytes_of(live.settled().get()) == before);
+      EXPECT_EQ(live.correct_poses(corrections).fused_again, 0u);  // as they are already
+      // And goes on from there.
+      LiveRoadmap fused(plain);
+      for (const Scan& scan : scans) integrate(fused, scan);
+      const Scan next = flight_through_house(10).back();
+      integrate(live, next);
+      integrate(fused, next);
+      EXPECT_TRUE(bytes_of(live.settled().get()) == bytes_of(fused.settled().get()));
+    });
+}
+
+TEST(CorrectPoses, FusesAgainOnlyWhatMovedFramesReach) {
+  const std::vector<Scan> scans = flight_through_house(6);
+  const TemporaryFolder folder;
+  LiveRoadmap live(with_log(folder));
+  std::vector<Eigen::Isometry3d> live_poses;
+  for (const Scan& scan : scans) {
+    integrate(live, scan);
+    live_poses.push_back(scan.T_world_camera);
+  }
+  const auto fused_again = [&](std::size_t first) {
+    std::vector<PoseCorrection> corrections;
+    for (std::size_t i = first; i < scans.size(); ++i)
+      corrections.push_back({i + 1, drifted(live_poses[i], 0.1)});
+    for (const PoseCorrection& c : corrections) live_poses[c.frame - 1] = c.T_world_sensor;
+    return live.correct_poses(corrections).fused_again;
+  };
+  const std::size_t one = fused_again(5), all = fused_again(0);
+  EXPECT_GT(one, 0u);
+  EXPECT_LT(2 * one, all);
+}
+
+TEST(CorrectPoses, RefusesWhatItCannotDoAndStaysAsItWas) {
+  const std::vector<Scan> scans = flight_through_house(4);
+  LiveRoadmap without(house_config());
+  integrate(without, scans[0]);
+  const auto correction = [&](std::uint64_t frame) {
+    return std::vector<PoseCorrection>{{frame, drifted(scans[0].T_world_camera, 0.3)}};
+  };
+  EXPECT_THROW(without.correct_poses(correction(1)), InputError);  // no log
+
+  const TemporaryFolder folder;
+  LiveConfig config = with_log(folder);
+  config.log_bytes = 200'000;  // two images
+  LiveRoadmap live(config);
+  for (const Scan& scan : scans) integrate(live, scan);
+  std::uintmax_t kept = 0;
+  for (const auto& file : std::filesystem::directory_iterator(config.log_folder))
+    kept += file.file_size();
+  EXPECT_LE(kept, config.log_bytes);
+  EXPECT_GT(kept, 0u);
+  const auto snapshot = live.snapshot();
+  const auto refused = [&](const std::string& name, const std::vector<PoseCorrection>& wrong) {
+    try {
+      live.correct_poses(wrong);
+      ADD_FAILURE() << name << " was taken";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+    }
+    EXPECT_EQ(live.snapshot(), snapshot);
+  };
+  refused("frame 0", correction(0));
+  refused("frame 5", correction(5));
+  refused("frame 1", correction(1));  // has left the log
+  std::vector<PoseCorrection> sheared = correction(4);
+  sheared[0].T_world_sensor.linear() *= 1.1;
+  refused("frame 4", sheared);
+  EXPECT_GT(integrate(live, flight_through_house(5).back()).changed_voxels, 0u);
+  EXPECT_NE(live.snapshot(), snapshot);
+}
+
+TEST(CorrectPoses, WantsAFolderOfItsOwnAndLeavesNothingThere) {
+  const TemporaryFolder folder;
+  {
+    const LiveConfig config = with_log(folder);
+    LiveRoadmap live(config);
+    integrate(live, flight_through_house(1)[0]);
+    EXPECT_THROW(LiveRoadmap{config}, InputError);  // in use
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "log"));
+}
+
+TEST(LiveWindow, WhatIsFarWaitsAndIsNotLost) {
+  const std::vector<Scan> scans = flight_through_house(6);
+  LiveConfig near = house_config();
+  near.window = 3.0;
+  near.fusion.clear_radius = 0.0;
+  LiveConfig far = near;
+  far.window = std::numeric_limits<double>::infinity();
+  LiveRoadmap live(near), whole(far);
+  std::size_t waited = 0;
+  for (const Scan& scan : scans) {
+    const UpdateReport report = integrate(live, scan);
+    integrate(whole, scan);
+    waited += report.waiting_voxels > 0;
+    EXPECT_TRUE(bytes_of(live.settled().get()) == batch_bytes(live.map(), near.build));
+    EXPECT_LE(count_voxels(live.map()).known(), count_voxels(whole.map()).known());
+  }
+  EXPECT_GE(waited, 5u);  // the first of them shows a wall before the camera
+  EXPECT_LT(count_voxels(live.map()).known(), count_voxels(whole.map()).known());
+  EXPECT_EQ(live.catch_up().waiting_voxels, 0u);
+  EXPECT_TRUE(bytes_of(live.settled().get()) == bytes_of(whole.settled().get()));
+}
+
+TEST(LiveWindow, WhatIsSetComesAfterWhatWaitedForTheSameBlock) {
+  LiveConfig config = house_config();
+  config.window = 1.0;
+  LiveRoadmap live(config);
+  integrate(live, flight_through_house(1)[0]);
+  LiveRoadmap other(config);
+  integrate(other, flight_through_house(1)[0]);
+  other.catch_up();
+  std::vector<VoxelChange> set;
+  for (const VoxelChange& known : testing::changes_to(other.map()))
+    if (set.size() < 500) set.push_back({known.voxel, VoxelState::kOccupied});
+  live.set_voxels(set);
+  live.catch_up();
+  other.set_voxels(set);
+  EXPECT_TRUE(testing::changes_to(live.map()) == testing::changes_to(other.map()));
+}
+
+/// A corridor with a door that is closed for a while.
+World corridor() {
+  World world = make_house();
+  world.boxes.clear();
+  world.spheres.clear();
+  world.cylinders.clear();
+  TimedSolids door;
+  door.from = 6.0;
+  door.until = 14.0;
+  door.boxes.push_back({.centre = {7.5, 5.5, 2.5}, .size = {0.6, 11.0, 6.0}});
+  world.timed.push_back(door);
+  return world;
+}
+
+TEST(LiveRoadmap, OfAWorldThatChangesHasTheBytesOfABatchBuildAndForgets) {
+  const World world = corridor();
+  LiveConfig config = house_config();
+  config.fusion.forget_after = 3;
+  LiveRoadmap live(config);
+  const auto door_is = [&] {
+    const OccupancyMap map = live.map();
+    return map.at(voxel_at({7.3, 5.5, 2.0}, config.fusion.voxel_size) - map.origin);
+  };
+  const Eigen::Isometry3d pose = level_pose({6.0, 5.5, 2.0}, 0.0);
+  for (int time = 0; time < 20; ++time) {
+    SCOPED_TRACE(time);
+    integrate(live, {render_depth(world_at(world, time), sensor_of_flight(), pose,
+                                  static_cast<std::uint64_t>(time)),
+                     pose});
+    EXPECT_TRUE(bytes_of(live.settled().get()) == batch_bytes(live.map(), config.build));
+    if (time == 5 || time == 19) EXPECT_EQ(door_is(), VoxelState::kFree);
+    if (time >= 6 + 3 - 1 && time < 14) EXPECT_EQ(door_is(), VoxelState::kOccupied);
+    if (time >= 14 + 3 - 1) EXPECT_EQ(door_is(), VoxelState::kFree);
+  }
+}
+
+}  // namespace
+}  // namespace ridgeway
