@@ -13,6 +13,7 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "json.hpp"
+#include "limit_options.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/load_map.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
@@ -33,6 +34,7 @@ struct BuildOptions {
   std::optional<Transform> transform;
   int isolated = 0;
   int repeat = 1;
+  LimitOptions limits;
   BuildConfig build;
 };
 
@@ -50,6 +52,7 @@ LoadConfig load_config(const BuildOptions& options) {
 BuildConfig build_config(const BuildOptions& options) {
   BuildConfig config = options.build;
   if (options.unknown == "ignore") config.unknown = UnknownPolicy::kIgnore;
+  config.limits = limits_of(options.limits);
   config.basis_point_edges = options.edges == "basis-points";
   config.paper_diagram = options.diagram == "paper";
   config.simplify = options.graph == "simple";
@@ -73,6 +76,7 @@ std::string config_text(const BuildOptions& options, double voxel_size) {
                {"graph", options.graph}};
   if (options.bounds) json["bounds"] = box_text(*options.bounds);
   for (const Box& box : options.exclude) json["exclude"].push_back(box_text(box));
+  if (options.limits.any()) json["limits"] = cli::json_of(limits_of(options.limits));
   if (options.transform) json["transform"] = options.transform->text;
   if (options.isolated > 0) json["isolated"] = options.isolated;
   return json.dump();
@@ -255,6 +259,7 @@ void add_build_command(Command& program) {
               "Flight volume x0,y0,z0,x1,y1,z1, metres; required for point clouds");
   command.boxes("--exclude", options->exclude,
                 "No-fly box x0,y0,z0,x1,y1,z1, metres; may be repeated");
+  add_limit_options(command, options->limits);
   command.transform("--transform", options->transform,
                     "From the file's frame to the map's (z up): x,y,z,roll,pitch,yaw in metres "
                     "and degrees, 16 numbers of a matrix row by row, camera (x right, y down, "

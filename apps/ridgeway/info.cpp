@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "json.hpp"
+#include "limit_options.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
 #include "ridgeway/roadmap/components.hpp"
 #include "roadmap_facts.hpp"
@@ -81,6 +82,7 @@ Json roadmap_json(const InfoOptions& options, const Roadmap& roadmap, const Ridg
                {"unknown_policy", name_of(roadmap.esdf.unknown)},
                {"max_distance", roadmap.esdf.max_distance},
                {"min_clearance", roadmap.min_clearance}};
+  if (roadmap.esdf.limits.any()) json["limits"] = cli::json_of(limits_in_world(roadmap.esdf));
   if (const auto bounds = known_bounds(occupancy)) json["bounds"] = cli::json_of(*bounds);
   json["voxels"] = {
       {"free", counts.free}, {"occupied", counts.occupied}, {"unknown", counts.unknown}};
@@ -139,6 +141,7 @@ void print_roadmap(const Json& json) {
   print_row("built for",
             "a radius of " + text_of(json["min_clearance"].get<double>()) +
                 " m and more; unknown space: " + json["unknown_policy"].get<std::string>());
+  if (json.contains("limits")) print_row("limits", json["limits"].dump());
   if (json.contains("bounds")) print_row("bounds", bounds_text(json["bounds"]));
   print_row("voxels", count_text(json["voxels"]["free"].get<std::uint64_t>()) + " free, " +
                           count_text(json["voxels"]["occupied"].get<std::uint64_t>()) +

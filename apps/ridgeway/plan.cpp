@@ -34,6 +34,7 @@ SamplingConfig sampling_config(const PlanOptions& options, double radius) {
   config.planner = options.chosen();
   config.radius = radius;
   config.shorten = !options.raw;
+  config.limits = limits_of(options.limits);
   if (options.time_limit) config.time_limit = *options.time_limit;
   if (options.range) config.range = *options.range;
   if (options.iteration_limit) config.iteration_limit = *options.iteration_limit;
@@ -87,7 +88,7 @@ int run_one(const PlanOptions& options, const Roadmap& roadmap, const Globals& g
                        options.radius.value_or(roadmap.min_clearance)};
   const Answer answer = plan_repeatedly(roadmap, query, options);
   const PlanResult& result = answer.plan;
-  AnswerFacts facts(roadmap, options.escape);
+  AnswerFacts facts(roadmap, options.escape, limits_of(options.limits));
   const bool write = result.ok() && !options.output.empty();
   if (write) write_plan(result, options.output);
   if (globals.json) {
@@ -106,7 +107,7 @@ int run_batch(const PlanOptions& options, const Roadmap& roadmap, const Globals&
   const std::vector<Query> queries =
       read_queries(options.queries, options.radius.value_or(roadmap.min_clearance),
                    largest_radius(roadmap.esdf));
-  AnswerFacts facts(roadmap, options.escape);
+  AnswerFacts facts(roadmap, options.escape, limits_of(options.limits));
   Json results = Json::array();
   std::size_t solved = 0;
   for (const Query& query : queries) {
@@ -195,6 +196,7 @@ void add_plan_command(Command& program) {
                  "What distance d from walls is worth: a metre costs 1 + it * (radius / d)^2");
   command.flag("--escape", options->escape,
                "Start and goal may be too close to an obstacle: leave it the short way first");
+  add_limit_options(command, options->limits);
   command.flag("--raw", options->raw, "Do not shorten the path");
   command.flag("--quick", options->quick,
                "Settle for nearly tight where the roadmap knows such a way by heart");

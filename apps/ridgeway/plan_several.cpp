@@ -22,7 +22,7 @@ int run_alternatives(const PlanOptions& options, const Roadmap& roadmap, const G
   const Query query = {*options.from, options.to[0], radius_of(options, roadmap)};
   const Alternatives found = plan_alternatives(
       roadmap, query.start, query.goal, *options.alternatives, plan_config(options, query.radius));
-  AnswerFacts facts(roadmap, options.escape);
+  AnswerFacts facts(roadmap, options.escape, limits_of(options.limits));
   if (globals.json) {
     Json json = {{"status", std::string(name_of(found.status))},
                  {"radius", query.radius},
@@ -54,7 +54,7 @@ int run_goals(const PlanOptions& options, const Roadmap& roadmap, const Globals&
   const double radius = radius_of(options, roadmap);
   const std::vector<GoalPlan> plans =
       plan_to_many(roadmap, start, goals, plan_config(options, radius));
-  AnswerFacts facts(roadmap, options.escape);
+  AnswerFacts facts(roadmap, options.escape, limits_of(options.limits));
   Json results = Json::array();
   std::size_t solved = 0;
   for (std::size_t i = 0; i < goals.size(); ++i) {
@@ -82,7 +82,7 @@ int run_nearest(const PlanOptions& options, const Roadmap& roadmap, const Global
   const NearestGoal nearest = plan_to_nearest(roadmap, start, goals, plan_config(options, radius));
   const Query query = {start, goals[nearest.goal.value_or(0)], radius};
   const PlanResult& plan = nearest.plan;
-  AnswerFacts facts(roadmap, options.escape);
+  AnswerFacts facts(roadmap, options.escape, limits_of(options.limits));
   const bool write = plan.ok() && !options.output.empty();
   if (write) write_plan(plan, options.output);
   if (globals.json) {

@@ -14,6 +14,7 @@
 #include "flight_picture.hpp"
 #include "interruption.hpp"
 #include "json.hpp"
+#include "limit_options.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/path_io.hpp"
 #include "ridgeway/planning/plan.hpp"
@@ -33,6 +34,7 @@ struct TrajectoryOptions {
   std::optional<double> radius, max_jerk, yaw;
   double max_speed = 2.0, max_acceleration = 2.0, max_yaw_rate = 90.0, step = 0.01;
   bool stop_and_go = false;
+  LimitOptions limits;
 };
 
 TrajectoryConfig trajectory_config(const TrajectoryOptions& options, double radius) {
@@ -46,6 +48,7 @@ TrajectoryConfig trajectory_config(const TrajectoryOptions& options, double radi
   if (options.from_velocity) config.start_velocity = *options.from_velocity;
   if (options.yaw) config.start_yaw = *options.yaw * kDegree;
   config.follow_yaw = !options.yaw;
+  config.flight_limits = limits_of(options.limits);
   config.stop_and_go = options.stop_and_go;
   config.validate();
   return config;
@@ -102,10 +105,10 @@ int run(const TrajectoryOptions& options, const Globals& globals) {
   const Roadmap roadmap = load_roadmap(options.file);
   const double radius = options.radius.value_or(roadmap.min_clearance);
   const TrajectoryConfig config = trajectory_config(options, radius);
-  const PlanResult path = plan(roadmap, start, goal, {.radius = radius});
+  const PlanResult path = plan(roadmap, start, goal, {.radius = radius, .limits = config.flight_limits});
   if (!path.ok())
     return report_none(std::string(name_of(path.status)),
-                       AnswerFacts(roadmap, false).reason({start, goal, radius}, path.status),
+                       AnswerFacts(roadmap, false, config.flight_limits).reason({start, goal, radius}, path.status),
                        Json::parse(plan_json(path)), globals);
   const TrajectoryResult flown = plan_trajectory(roadmap.esdf, path.waypoints, config);
   if (!flown.ok())
@@ -141,6 +144,7 @@ void add_trajectory_command(Command& program) {
   command.point("--to", options->to, "Goal X,Y,Z, metres").required();
   command.number("--radius", options->radius, kLengths,
                  "Robot radius, metres (default: the smallest the roadmap is for)");
+  add_limit_options(command, options->limits);
   command.number("--max-speed", options->max_speed, kMotions, "Metres a second");
   command.number("--max-acceleration", options->max_acceleration, kMotions, "Metres a second^2");
   command.number("--max-jerk", options->max_jerk, kMotions,

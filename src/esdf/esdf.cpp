@@ -100,6 +100,7 @@ void validate_policy(UnknownPolicy policy) {
 
 void EsdfConfig::validate() const {
   validate_policy(unknown);
+  limits.validate();
   if (!(max_distance > 0.0))
     throw InputError("max_distance", "is " + number_text(max_distance),
                      "give a length above 0 metres, or leave it out for no limit");
@@ -112,6 +113,7 @@ EsdfMap compute_esdf(OccupancyMap map, const EsdfConfig& config) {
   esdf.origin = map.origin;
   esdf.unknown = config.unknown;
   esdf.max_distance = config.max_distance;
+  esdf.limits = limits_in_local(esdf, config.limits);
   const double farthest = config.max_distance / map.voxel_size;
   const bool solid_unknown = config.unknown == UnknownPolicy::kObstacle;
   if (solid_unknown) {

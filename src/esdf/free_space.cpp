@@ -66,7 +66,7 @@ bool FreeSpace::is_free(const Point& p, double radius) const { return is_free(p,
 
 bool FreeSpace::is_free(const Point& a, const Point& b, double radius) const {
   const double s = esdf_.voxel_size;
-  if (!a.allFinite() || !b.allFinite()) return false;
+  if (!a.allFinite() || !b.allFinite() || !is_within_limits(a, b)) return false;
   if (esdf_.unknown == UnknownPolicy::kIgnore && !is_known_free(a, b)) return false;
   return std::isinf(
       SegmentMarch(esdf_, a / s, b / s).doubt<Wanted::kWhether>(squared_limit(radius, s)));
@@ -74,6 +74,7 @@ bool FreeSpace::is_free(const Point& a, const Point& b, double radius) const {
 
 bool FreeSpace::is_clearly_free(const Point& a, const Point& b, double radius) const {
   const double s = esdf_.voxel_size;
+  if (!is_within_limits(a, b)) return false;
   if (esdf_.unknown == UnknownPolicy::kIgnore && !is_known_free(a, b)) return false;
   return std::isinf(
       SegmentMarch(esdf_, a / s, b / s).doubt<Wanted::kWhetherClearly>(squared_limit(radius, s)));
@@ -85,9 +86,11 @@ double FreeSpace::free_length(const Point& a, const Point& b, double radius) con
   double free = std::min(
       length,
       s * SegmentMarch(esdf_, a / s, b / s).doubt<Wanted::kWhere>(squared_limit(radius, s)));
-  if (esdf_.unknown == UnknownPolicy::kIgnore)
-    while (free > 0.0 && !is_known_free(a, a + (b - a) * (free / length)))
-      free = free > s ? 0.5 * free : 0.0;
+  const auto holds = [&](const Point& end) {
+    return is_within_limits(a, end) &&
+           (esdf_.unknown != UnknownPolicy::kIgnore || is_known_free(a, end));
+  };
+  while (free > 0.0 && !holds(a + (b - a) * (free / length))) free = free > s ? 0.5 * free : 0.0;
   return free;
 }
 

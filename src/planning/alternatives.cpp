@@ -123,12 +123,14 @@ Alternatives alternatives_locally(const Roadmap& roadmap, const Point& start, co
   result.status = shortest.status;
   if (shortest.ok()) {
     const EsdfMap& esdf = roadmap.esdf;
-    const FreeSpace space(esdf);
+    const FlightLimits limits = detail::limits_of(esdf, config.limits);
+    const FreeSpace space(esdf, limits);
     const double radius = config.radius.value_or(roadmap.min_clearance);
-    const detail::QueryEnds ends = detail::find_ends(esdf, start, goal, radius);
+    const detail::QueryEnds ends = detail::find_ends(space, start, goal, radius);
     DistinctRoutes routes(space, radius);
     routes.add(std::move(shortest));
-    detail::RouteEnumeration others(roadmap, {ends.from, ends.to, start, goal, radius}, deadline);
+    detail::RouteEnumeration others(roadmap, space, {ends.from, ends.to, start, goal, radius},
+                                    deadline);
     std::optional<detail::Route> route;
     while ((route = others.next()) && routes.may_use(length_of(*route), count)) {
       if (routes.know(*route)) continue;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "common/name_table.hpp"
 #include "query.hpp"
 
 namespace ridgeway {
@@ -76,16 +77,19 @@ std::optional<VoxelIndex> nearest_gate(const EsdfMap& esdf, VoxelId from, const 
 }  // namespace
 
 std::string_view name_of(Blocker blocker) {
-  return blocker == Blocker::kObstacle ? "obstacle" : "unknown";
+  constexpr std::array<std::string_view, 3> kNames{"obstacle", "unknown", "limits"};
+  return name_in(kNames, blocker);
 }
 
 RouteBlocks::RouteBlocks(const Roadmap& roadmap)
-    : esdf_(roadmap.esdf), parts_(roadmap.esdf), around_(roadmap.esdf) {}
+    : esdf_(roadmap.esdf), parts_(roadmap.esdf, false), around_(roadmap.esdf) {}
 
 std::optional<BlockedRoute> RouteBlocks::between(const Point& start, const Point& goal,
-                                                 double radius) const {
+                                                 double radius,
+                                                 const FlightLimits& limits_world) const {
+  const FlightLimits limits = detail::limits_of(esdf_, limits_world);
   const detail::QueryEnds ends =
-      detail::find_ends(esdf_, detail::place_in_local(esdf_, start, radius),
+      detail::find_ends(FreeSpace(esdf_, limits), detail::place_in_local(esdf_, start, radius),
                         detail::place_in_local(esdf_, goal, radius), radius);
   if (ends.status != PlanStatus::kOk) return std::nullopt;
   BlockedRoute blocked;
@@ -94,6 +98,10 @@ std::optional<BlockedRoute> RouteBlocks::between(const Point& start, const Point
   blocked.goal_number = report.asked[1];
   blocked.start_component = report.components[blocked.start_number];
   blocked.goal_component = report.components[blocked.goal_number];
+  if (limits.any() && blocked.start_number == blocked.goal_number) {
+    blocked.by = Blocker::kLimits;
+    return blocked;
+  }
   const auto place_of = [&](const VoxelIndex& voxel) {
     return to_world(esdf_, centre_of(voxel, esdf_.voxel_size));
   };

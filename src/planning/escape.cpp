@@ -130,13 +130,14 @@ bool rises(const FreeSpace& space, const Point& a, const Point& b, double voxel_
 
 }  // namespace
 
-EscapeResult find_escape(const EsdfMap& esdf, const Point& point, double radius,
+EscapeResult find_escape(const FreeSpace& space, const Point& point, double radius,
                          const Deadline& deadline) {
-  const FreeSpace space(esdf);
+  const EsdfMap& esdf = space.map();
   if (!(space.distance(point) > 0.0)) return {};
   PlacesAround places(esdf, point, radius);
   for (std::optional<Point> place; !deadline.has_passed() && (place = places.next(deadline));)
-    if (space.is_known_free(point, *place) &&
+    if (space.is_known_free(point, *place) && space.is_within_limits(point, *place) &&
+        space.is_free(*place, radius) &&
         rises(space, point, *place, esdf.voxel_size, deadline))
       return {SearchStatus::kFound, *place};
   return {deadline.has_passed() ? SearchStatus::kTimeout : SearchStatus::kNoRoute};

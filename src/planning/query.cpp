@@ -23,6 +23,8 @@ PlanStatus status_of(EndpointStatus status, bool is_start) {
       return is_start ? PlanStatus::kStartUnknown : PlanStatus::kGoalUnknown;
     case EndpointStatus::kInCollision:
       return is_start ? PlanStatus::kStartInCollision : PlanStatus::kGoalInCollision;
+    case EndpointStatus::kOutsideLimits:
+      return is_start ? PlanStatus::kStartOutsideLimits : PlanStatus::kGoalOutsideLimits;
     case EndpointStatus::kOk:
       break;
   }
@@ -52,11 +54,18 @@ void validate_query(const EsdfMap& esdf, const Point& start, const Point& goal, 
                      "build the map with a larger max_distance, or without one");
 }
 
-QueryEnds find_ends(const EsdfMap& esdf, const Point& start, const Point& goal, double radius) {
-  const Endpoint from = find_endpoint(esdf, start, radius);
+QueryEnds find_ends(const FreeSpace& space, const Point& start, const Point& goal, double radius) {
+  const Endpoint from = find_endpoint(space, start, radius);
   if (from.status != EndpointStatus::kOk) return {.status = status_of(from.status, true)};
-  const Endpoint to = find_endpoint(esdf, goal, radius);
+  const Endpoint to = find_endpoint(space, goal, radius);
   return {status_of(to.status, false), from.voxel, to.voxel};
+}
+
+FlightLimits limits_of(const EsdfMap& esdf, const FlightLimits& limits_world) {
+  if (!limits_world.any()) return esdf.limits;
+  FlightLimits limits = both_of(esdf.limits, limits_in_local(esdf, limits_world));
+  require_room(esdf, limits);
+  return limits;
 }
 
 void describe(const FreeSpace& space, const KnownStretch& known, PlanResult& result) {
@@ -69,6 +78,7 @@ bool is_verified(const EsdfMap& esdf, const FreeSpace& space, const PlanResult& 
   // Nothing that is called a path may be none: what is empty has no clearance that could be missed.
   if (result.waypoints.size() < 2 || !std::isfinite(result.length)) return false;
   if (!(result.clearance >= radius * (1.0 - 1e-9))) return false;
+  if (!space.is_within_limits(result.waypoints)) return false;
   if (esdf.unknown == UnknownPolicy::kObstacle) return true;
   for (std::size_t i = 1; i < result.waypoints.size(); ++i)
     if (!space.is_known_free(result.waypoints[i - 1], result.waypoints[i])) return false;

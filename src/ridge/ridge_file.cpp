@@ -24,7 +24,9 @@ void save_roadmap(const Roadmap& roadmap, const std::filesystem::path& path) {
   for (RidgeSectionSource& section : voxel_sections(roadmap)) {
     sections.push_back(std::move(section));
   }
-  write_ridge_container(path, header_text(header_of(roadmap)), sections);
+  write_ridge_container(
+      path, header_text(header_of(roadmap)), sections,
+      roadmap.esdf.limits.any() ? kRidgeVersion : kRidgeVersionWithoutLimits);
 }
 
 Roadmap load_roadmap(const std::filesystem::path& path) {
@@ -40,6 +42,7 @@ Roadmap load_roadmap(const std::filesystem::path& path) {
   roadmap.esdf.voxel_size = header.voxel_size;
   roadmap.esdf.origin = header.origin;
   roadmap.esdf.unknown = header.unknown;
+  roadmap.esdf.limits = header.limits;
   roadmap.esdf.max_distance = header.max_distance;
   roadmap.esdf.layout = load_blocks(reader, header.blocks);
   load_voxels(reader, header, roadmap);

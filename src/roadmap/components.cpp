@@ -73,9 +73,11 @@ std::vector<Component> count_components(const EsdfMap& esdf, const VoxelMask& tr
 
 }  // namespace
 
-SpaceParts::SpaceParts(const EsdfMap& esdf)
+SpaceParts::SpaceParts(const EsdfMap& esdf, bool within_limits)
     : esdf_(esdf),
-      basins_(find_basins(esdf, traversable_voxels(esdf, kSmallest * esdf.voxel_size),
+      within_limits_(within_limits),
+      basins_(find_basins(esdf,
+                          traversable_voxels(esdf, kSmallest * esdf.voxel_size, within_limits),
                           kSmallest * esdf.voxel_size)) {}
 
 ComponentReport SpaceParts::report(double radius, const std::vector<VoxelId>& asked) const {
@@ -84,7 +86,7 @@ ComponentReport SpaceParts::report(double radius, const std::vector<VoxelId>& as
   std::vector<std::size_t> component_of(basins_.peaks.size(), kNoComponent);  // by set
   ComponentReport report;
   report.components =
-      count_components(esdf_, traversable_voxels(esdf_, radius), level, component_of);
+      count_components(esdf_, traversable_voxels(esdf_, radius, within_limits_), level, component_of);
   for (const VoxelId id : asked) report.asked.push_back(component_of[level.set_of(id)]);
   while (const Pass* pass = level.next_pass()) {
     const std::size_t a = component_of[level.set_of(pass->from)];

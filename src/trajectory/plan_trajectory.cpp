@@ -37,10 +37,9 @@ std::vector<Point> distinct_points(std::span<const Point> path) {
   return points;
 }
 
-bool is_free(const EsdfMap& esdf, const std::vector<Point>& path, double radius) {
-  const FreeSpace space(esdf);
+bool is_free(const FreeSpace& space, const std::vector<Point>& path, double radius) {
   for (const Point& p : path)
-    if (!has_voxel(p, esdf.voxel_size)) return false;
+    if (!has_voxel(p, space.map().voxel_size)) return false;
   if (path.size() == 1) return space.is_free(path.front(), radius);
   for (std::size_t i = 1; i < path.size(); ++i)
     if (!space.is_free(path[i - 1], path[i], radius)) return false;
@@ -101,6 +100,7 @@ void MotionLimits::validate() const {
 
 void TrajectoryConfig::validate() const {
   limits.validate();
+  flight_limits.validate();
   if (!(radius > 0.0 && std::isfinite(radius)))
     throw InputError("radius", "is " + number_text(radius),
                      "give the robot's radius in metres, above 0");
@@ -134,10 +134,13 @@ TrajectoryResult fly_locally(const EsdfMap& esdf, std::span<const Point> path,
     result.seconds.total = detail::seconds_now() - began;
     return result;
   };
-  if (!is_free(esdf, points, config.radius)) return finish(TrajectoryStatus::kPathNotFree);
+  const FlightLimits limits =
+      both_of(esdf.limits, limits_in_local(esdf, config.flight_limits));
+  const FreeSpace space(esdf, limits);
+  if (!is_free(space, points, config.radius)) return finish(TrajectoryStatus::kPathNotFree);
 
   const StartState start{config.start_velocity, config.start_acceleration};
-  SmoothPath smooth(esdf, config, result);
+  SmoothPath smooth(space, config, result);
   auto found = smooth.run(points, start);
   if (!found) return finish(TrajectoryStatus::kCannotStopInTime);
   const Trajectory halting = smooth.stop_and_go(points);

@@ -7,6 +7,8 @@
 #include <concepts>
 #include <cstdint>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "ridgeway/mapping/occupancy_map.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
@@ -65,6 +67,44 @@ constexpr std::uint32_t squared_halves(const SiteOffset& o) {
   return squared_halves(o.x) + squared_halves(o.y) + squared_halves(o.z);
 }
 
+/// Where the robot's centre may be. Limits are no walls: whatever the robot's size, its centre may
+/// go up to them, and no distance to them is kept. Metres; within 10 nanometres is on the face.
+/// A place is within where it is in `keep_in`, faces included, and in the inside of no box of
+/// `keep_out`. A voxel is within where its centre is in `keep_in` and no part of it is in a box of
+/// `keep_out`: so all moves between such voxels are within, too.
+struct FlightLimits {
+  Box keep_in = {Point::Constant(-std::numeric_limits<double>::infinity()),
+                 Point::Constant(std::numeric_limits<double>::infinity())};
+  std::vector<Box> keep_out;
+
+  bool any() const;  ///< whether there is one at all
+  bool allow(const Point& p) const { return allow(p, p); }
+  bool allow(const Point& a, const Point& b) const;    ///< all of a segment
+  bool allow(std::span<const Point> path) const;       ///< all of a path of straight segments
+  bool allow_voxel(const VoxelIndex& voxel, double voxel_size) const;
+  /// Whether a segment stays in `keep_in`, and at least `margin` metres away from every box of
+  /// `keep_out` along some axis.
+  bool allow(const Point& a, const Point& b, double margin) const;
+  bool keeps_in(const Point& p) const;  ///< whether it is in `keep_in`
+  /// The nearest place in `keep_in`.
+  Point nearest_within(const Point& p) const { return p.cwiseMax(keep_in.min).cwiseMin(keep_in.max); }
+
+  /// Throws InputError naming the bad field: a box of which a coordinate is not a number, or whose
+  /// corners are swapped; `keep_in` that holds nothing; a box of `keep_out` without volume.
+  void validate() const;
+
+  friend bool operator==(const FlightLimits& a, const FlightLimits& b);
+};
+
+/// Limits that hold where both do.
+FlightLimits both_of(const FlightLimits& a, const FlightLimits& b);
+
+struct EsdfMap;
+/// Limits of the world in a map's local frame.
+FlightLimits limits_in_local(const EsdfMap& esdf, const FlightLimits& limits_world);
+/// Throws InputError where `keep_in` (local) is so flat that it holds the centre of no voxel.
+void require_room(const EsdfMap& esdf, const FlightLimits& limits);
+
 /// Longest distance that is ever stored, voxels; farther voxels have no site.
 inline constexpr int kFarthestSite = 16000;
 /// `squared` of a voxel without a site.
@@ -79,6 +119,7 @@ struct EsdfMap {
   VoxelIndex origin = {};   ///< the lattice's voxel that is the map's own (0, 0, 0); to_world()
   UnknownPolicy unknown = UnknownPolicy::kObstacle;
   double max_distance = std::numeric_limits<double>::infinity();  ///< metres
+  FlightLimits limits;  ///< of every flight on this map, in its local frame
   BlockLayout layout;
   VoxelField<VoxelState> state;
   VoxelField<std::uint32_t> squared;  ///< to the site, squared half voxels (SquaredHalves)
@@ -106,6 +147,7 @@ inline SquaredHalves least_clearance(double radius, double voxel_size) {
 struct EsdfConfig {
   UnknownPolicy unknown = UnknownPolicy::kObstacle;
   double max_distance = std::numeric_limits<double>::infinity();  ///< metres
+  FlightLimits limits = {};  ///< world frame; they change no distance
 
   /// Throws InputError naming the bad field.
   void validate() const;

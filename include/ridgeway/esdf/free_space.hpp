@@ -19,11 +19,47 @@ namespace ridgeway {
 ///
 /// How it is fast: D^2(x) - |x|^2 is concave, so distances at voxel centres bound D from below;
 /// only where that does not decide are the obstacles near the place looked at one by one.
+/// Where flights are limited, free also means within the limits; distances and clearances are to
+/// obstacles alone.
 /// All points are in the map's local frame: take to_local(esdf, point) of those of the world.
-/// A view: the EsdfMap must outlive it. Thread-safe.
+/// A view: the EsdfMap and the limits must outlive it. Thread-safe.
 class FreeSpace {
  public:
-  explicit FreeSpace(const EsdfMap& esdf) : esdf_(esdf) {}
+  /// Within the limits of the map, where it has some.
+  FreeSpace(const EsdfMap& esdf) : FreeSpace(esdf, esdf.limits) {}  // NOLINT: it is one
+  /// Within other limits (local frame), which should hold where those of the map hold.
+  FreeSpace(const EsdfMap& esdf, const FlightLimits& limits)
+      : esdf_(esdf), limits_(limits.any() ? &limits : nullptr) {}
+
+  const EsdfMap& map() const { return esdf_; }
+
+  const FlightLimits* limits() const { return limits_; }  ///< null where there are none
+  /// Whether the limits are not those of the map, for which its roadmap was made.
+  bool is_narrowed() const { return limits_ != nullptr && !(*limits_ == esdf_.limits); }
+  /// Whether all of a segment, or a path of them, is within the limits.
+  bool is_within_limits(const Point& a, const Point& b) const {
+    return limits_ == nullptr || limits_->allow(a, b);
+  }
+  bool is_within_limits(std::span<const Point> path) const {
+    return limits_ == nullptr || limits_->allow(path);
+  }
+  /// Whether a voxel is. Moves between neighbours that are stay within the limits.
+  bool is_within_limits(VoxelId id) const {
+    return limits_ == nullptr || limits_->allow_voxel(esdf_.layout.index_of(id), esdf_.voxel_size);
+  }
+  /// The nearest place that is in the box that limits keep in.
+  Point nearest_within(const Point& p) const {
+    return limits_ == nullptr ? p : limits_->nearest_within(p);
+  }
+  /// Whether a curve is within that departs from a segment by no more than a margin, metres, and
+  /// lies in the hull of points.
+  template <typename Points>
+  bool is_within_limits(const Points& hull, const Point& a, const Point& b, double margin) const {
+    if (limits_ == nullptr) return true;
+    for (Eigen::Index i = 0; i < hull.cols(); ++i)
+      if (!limits_->keeps_in(hull.col(i))) return false;
+    return limits_->allow(a, b, margin);
+  }
 
   /// D at a point, metres; 0 in an obstacle, max_distance where all obstacles are farther than
   /// that (infinite where there is none at all).
@@ -61,7 +97,8 @@ class FreeSpace {
   bool is_known_free(const Point& a, const Point& b) const;
 
   /// Whether a sphere can move from the centre of a free voxel to a free 26-neighbour of it, in
-  /// a direction (voxel/neighbourhood.hpp). `threshold`: least_clearance(radius, voxel_size).
+  /// a direction (voxel/neighbourhood.hpp), both within the limits. `threshold`:
+  /// least_clearance(radius, voxel_size).
   bool move_is_free(VoxelId from, VoxelId to, int direction, SquaredHalves threshold) const {
     const SquaredHalves a = esdf_.squared[from], b = esdf_.squared[to];
     if (a < threshold || b < threshold) return false;
@@ -92,6 +129,7 @@ class FreeSpace {
                                     SquaredHalves enough) const;
 
   const EsdfMap& esdf_;
+  const FlightLimits* limits_;  // null where there are none
 };
 
 }  // namespace ridgeway

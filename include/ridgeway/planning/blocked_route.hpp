@@ -16,15 +16,17 @@ namespace ridgeway {
 enum class Blocker : std::uint8_t {
   kObstacle,  ///< something occupied
   kUnknown,   ///< space that may be free, for all that is known
+  kLimits,    ///< limits of the flight alone: without them there is a way at the radius
 };
-/// "obstacle" or "unknown".
+/// "obstacle", "unknown" or "limits".
 std::string_view name_of(Blocker blocker);
 
 /// Why there is no route from one place to another at a radius.
 struct BlockedRoute {
   /// Largest radius at which there is a way, over the moves between voxels, metres. It may be below
   /// the roadmap's min_clearance, for which a roadmap has to be built then; 0: there is no way
-  /// through known-free space for any robot.
+  /// through known-free space for any robot. Limits of the flight count for none of this; where
+  /// they are what is in the way it is 0, and there is no place.
   double radius = 0.0;
   /// Where the widest way is narrowest. Where there is none at all: the nearest unknown voxel, by
   /// moves from the start, beyond which nothing occupied is known to be in the way; nothing where
@@ -45,8 +47,9 @@ class RouteBlocks {
   explicit RouteBlocks(const Roadmap& roadmap);
 
   /// Between points of the world. Nothing where start or goal have no place at the radius: then
-  /// plan() says which and why.
-  std::optional<BlockedRoute> between(const Point& start, const Point& goal, double radius) const;
+  /// plan() says which and why. `limits`: as in PlanConfig.
+  std::optional<BlockedRoute> between(const Point& start, const Point& goal, double radius,
+                                      const FlightLimits& limits = {}) const;
 
  private:
   const EsdfMap& esdf_;

@@ -23,6 +23,8 @@ enum class PlanStatus : std::uint8_t {
   kNoRoute,  ///< RouteBlocks (planning/blocked_route.hpp) tells what is in the way
   kRadiusTooSmall,
   kTimeout,
+  kStartOutsideLimits,  ///< of the flight: PlanConfig::limits, or those of the map
+  kGoalOutsideLimits,
 };
 
 /// Which structure is searched and how, and which one answered.
@@ -71,9 +73,11 @@ struct PlanConfig {
   /// Start and goal may be too close to an obstacle, though not in one: paths then begin and end
   /// with a leg straight to the nearest place where the robot fits. See Escape.
   bool escape = false;
+  /// Where the robot's centre may be, world frame; those that the map was built with hold as well.
+  FlightLimits limits = {};
 
   /// Throws InputError naming the bad field (a radius or time limit not above 0, prefer_clearance
-  /// negative or above 1e6, NaN anywhere, a planner that samples).
+  /// negative or above 1e6, NaN anywhere, bad limits, a planner that samples).
   void validate() const;
 };
 

@@ -37,7 +37,8 @@ struct ComponentReport {
 /// voxel. A view: the EsdfMap must outlive it. Thread-safe.
 class SpaceParts {
  public:
-  explicit SpaceParts(const EsdfMap& esdf);
+  /// `within_limits`: of the flights on the map, if it has some; else as if it had none.
+  explicit SpaceParts(const EsdfMap& esdf, bool within_limits = true);
 
   /// Parts of the voxels that are traversable at a radius, and where a smaller robot would find
   /// them joined. `asked`: traversable voxels whose parts are wanted.
@@ -49,6 +50,7 @@ class SpaceParts {
 
  private:
   const EsdfMap& esdf_;
+  const bool within_limits_;
   Basins basins_;
 };
 
