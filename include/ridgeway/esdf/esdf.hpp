@@ -19,6 +19,7 @@ namespace ridgeway {
 enum class UnknownPolicy : std::uint8_t {
   kObstacle = 0,  ///< as solid as a wall: a sphere of the robot's radius never reaches into it
   kIgnore = 1,    ///< pushes no distances, but a path stays in known-free voxels
+  kFree = 2,      ///< as free as what was seen to be, in the box of blocks around what is known
 };
 
 /// Whether voxels of a state are obstacles: what is occupied, and under UnknownPolicy::kObstacle
@@ -26,6 +27,12 @@ enum class UnknownPolicy : std::uint8_t {
 constexpr bool is_obstacle(VoxelState state, UnknownPolicy unknown) {
   return (state == VoxelState::kOccupied) |
          ((state == VoxelState::kUnknown) & (unknown == UnknownPolicy::kObstacle));
+}
+
+/// Whether the robot's centre may be in voxels of a state at all.
+constexpr bool is_open(VoxelState state, UnknownPolicy unknown) {
+  return (state == VoxelState::kFree) |
+         ((state == VoxelState::kUnknown) & (unknown == UnknownPolicy::kFree));
 }
 
 /// Throws InputError where a policy is no enumerator.
@@ -102,6 +109,8 @@ FlightLimits both_of(const FlightLimits& a, const FlightLimits& b);
 struct EsdfMap;
 /// Limits of the world in a map's local frame.
 FlightLimits limits_in_local(const EsdfMap& esdf, const FlightLimits& limits_world);
+/// Those of the map, in the world.
+FlightLimits limits_in_world(const EsdfMap& esdf);
 /// Throws InputError where `keep_in` (local) is so flat that it holds the centre of no voxel.
 void require_room(const EsdfMap& esdf, const FlightLimits& limits);
 
@@ -120,12 +129,17 @@ struct EsdfMap {
   UnknownPolicy unknown = UnknownPolicy::kObstacle;
   double max_distance = std::numeric_limits<double>::infinity();  ///< metres
   FlightLimits limits;  ///< of every flight on this map, in its local frame
+  /// Made of a planar map: distances count along x and y alone, all that is known lies in the layer
+  /// z = 0, whose obstacles count in the layers above it, too, and flights stay at its centre.
+  bool planar = false;
   BlockLayout layout;
   VoxelField<VoxelState> state;
   VoxelField<std::uint32_t> squared;  ///< to the site, squared half voxels (SquaredHalves)
   VoxelField<SiteOffset> site;
   VoxelMask obstacle;
 
+  /// Whether the robot's centre may be in a voxel, kNoVoxel among them.
+  bool is_open(VoxelId id) const { return id != kNoVoxel && ridgeway::is_open(state[id], unknown); }
   bool is_obstacle(VoxelId id) const {
     return id == kNoVoxel ? ridgeway::is_obstacle(VoxelState::kUnknown, unknown)
                           : obstacle.test(id);
@@ -158,7 +172,8 @@ struct EsdfConfig {
 /// keeps the map's origin.
 ///
 /// Under UnknownPolicy::kIgnore the result also allocates the blocks around the map's blocks, so
-/// that every known voxel has its 26 neighbours. Throws InputError where memory would not do.
+/// that every known voxel has its 26 neighbours; under kFree all blocks of the box around those in
+/// which something is known. Throws InputError where memory would not do.
 ///
 /// The map is taken by value, as its states become the field's: who moves it in spares a byte a
 /// voxel, who hands in a copy keeps the map.

@@ -54,6 +54,7 @@ struct TrajectoryConfig {
   /// Yaw follows the direction of travel, as fast as its limit lets it; otherwise it stays.
   bool follow_yaw = true;
   FlightLimits flight_limits = {};  ///< as in PlanConfig
+  double robot_height = 0.0;        ///< as in PlanConfig
   bool stop_and_go = false;    ///< no smoothing: the last resort at once
   int most_evaluations = 120;  ///< of the cost, each time that a stretch is optimised
 
