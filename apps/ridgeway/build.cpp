@@ -52,6 +52,7 @@ LoadConfig load_config(const BuildOptions& options) {
 BuildConfig build_config(const BuildOptions& options) {
   BuildConfig config = options.build;
   if (options.unknown == "ignore") config.unknown = UnknownPolicy::kIgnore;
+  if (options.unknown == "free") config.unknown = UnknownPolicy::kFree;
   config.limits = limits_of(options.limits);
   config.basis_point_edges = options.edges == "basis-points";
   config.paper_diagram = options.diagram == "paper";
@@ -238,8 +239,9 @@ void add_build_command(Command& program) {
   command.number("--max-distance", build.max_distance, kReaches,
                  "Distances to obstacles are known up to here, metres; halls wider than twice that "
                  "get a dense graph");
-  command.choice("--unknown", options->unknown, {"obstacle", "ignore"},
-                 "Unknown space is an obstacle, or is kept out of without a distance to it");
+  command.choice("--unknown", options->unknown, {"obstacle", "ignore", "free"},
+                 "Unknown space is an obstacle, or is kept out of without a distance to it, or is "
+                 "taken for free around what is known");
   command.number("--theta", build.theta, {0.0, std::numbers::pi},
                  "Least angle between the directions to two obstacles, radians");
   command.number("--prune-radius", build.prune_radius, kLengthsFromZero,

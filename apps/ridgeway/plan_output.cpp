@@ -27,6 +27,7 @@ Json json_of(AnswerFacts& facts, const Answer& answer, const Query& query) {
     json["known"] = {{"nearest", around.known}};
     json["unknown"]["nearest"] = around.unknown;
     json["unknown"]["share"] = around.unknown_share;
+    json["unknown"]["inside"] = around.unknown_inside;
   } else {
     json["reason"] = facts.reason(query, answer.plan.status);
     if (const auto blocked = facts.blocked(query, answer.plan.status))
@@ -60,7 +61,11 @@ void print_result(AnswerFacts& facts, const Answer& answer, const Query& query) 
             text_of(around.unknown) + " m away at the nearest, " +
                 text_of(100.0 * around.unknown_share, 1) +
                 " % of the length nearer than the radius; asked to " +
-                (result.unknown == UnknownPolicy::kObstacle ? "keep clear of it" : "ignore it"));
+                (result.unknown == UnknownPolicy::kObstacle ? "keep clear of it"
+                 : result.unknown == UnknownPolicy::kIgnore ? "ignore it"
+                                                            : "take it for free"));
+  if (result.unknown == UnknownPolicy::kFree)
+    print_row("", text_of(100.0 * around.unknown_inside, 1) + " % of the length lies in it");
   print_row("time", seconds_text(s.total) + " (attach " + seconds_text(s.attach) + ", search " +
                         seconds_text(s.search) + ", shorten " + seconds_text(s.shorten) + ")");
   if (is_sampling(result.answered_by))

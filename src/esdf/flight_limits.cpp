@@ -96,21 +96,32 @@ FlightLimits both_of(const FlightLimits& a, const FlightLimits& b) {
   return both;
 }
 
-FlightLimits limits_in_local(const EsdfMap& esdf, const FlightLimits& limits_world) {
-  // Faces at infinity stay there; the others are places of the world like any other.
-  const auto moved_box = [&](const Box& box) {
-    const auto corner = [&](const Point& world) {
-      Point finite = world;
-      for (double& x : finite)
-        if (!std::isfinite(x)) x = 0.0;
-      const Point local = to_local(esdf, finite);
-      return Point(world.array().isFinite().select(local.array(), world.array()));
-    };
-    return Box{corner(box.min), corner(box.max)};
+namespace {
+
+/// Limits whose faces are moved as places; those at infinity stay there.
+template <typename Move>
+FlightLimits moved_limits(const FlightLimits& limits, const Move& move) {
+  const auto corner = [&](const Point& p) {
+    Point finite = p;
+    for (double& x : finite)
+      if (!std::isfinite(x)) x = 0.0;
+    const Point result = move(finite);
+    return Point(p.array().isFinite().select(result.array(), p.array()));
   };
-  FlightLimits local{moved_box(limits_world.keep_in), {}};
-  for (const Box& box : limits_world.keep_out) local.keep_out.push_back(moved_box(box));
-  return local;
+  FlightLimits result{{corner(limits.keep_in.min), corner(limits.keep_in.max)}, {}};
+  for (const Box& box : limits.keep_out)
+    result.keep_out.push_back({corner(box.min), corner(box.max)});
+  return result;
+}
+
+}  // namespace
+
+FlightLimits limits_in_local(const EsdfMap& esdf, const FlightLimits& limits_world) {
+  return moved_limits(limits_world, [&](const Point& p) { return to_local(esdf, p); });
+}
+
+FlightLimits limits_in_world(const EsdfMap& esdf) {
+  return moved_limits(esdf.limits, [&](const Point& p) { return to_world(esdf, p); });
 }
 
 void require_room(const EsdfMap& esdf, const FlightLimits& limits) {

@@ -124,8 +124,8 @@ Alternatives alternatives_locally(const Roadmap& roadmap, const Point& start, co
   if (shortest.ok()) {
     const EsdfMap& esdf = roadmap.esdf;
     const FlightLimits limits = detail::limits_of(esdf, config.limits);
-    const FreeSpace space(esdf, limits);
     const double radius = config.radius.value_or(roadmap.min_clearance);
+    const FreeSpace space(esdf, limits, radius, config.robot_height);
     const detail::QueryEnds ends = detail::find_ends(space, start, goal, radius);
     DistinctRoutes routes(space, radius);
     routes.add(std::move(shortest));

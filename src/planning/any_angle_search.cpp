@@ -30,7 +30,7 @@ class AnyAngleSearch {
         goal_(goal),
         target_(esdf_.layout.index_of(goal)),
         radius_(radius),
-        threshold_(least_clearance(radius, esdf_.voxel_size)),
+        threshold_(least_clearance(space.inner_radius(radius), esdf_.voxel_size)),
         blocks_(esdf_.layout.block_count()),
         open_(distance_between(esdf_.layout.index_of(start), target_)) {}
 
@@ -65,7 +65,7 @@ class AnyAngleSearch {
   }
 
   bool is_traversable(VoxelId id) const {
-    return esdf_.squared[id] >= threshold_ && esdf_.state[id] == VoxelState::kFree &&
+    return esdf_.squared[id] >= threshold_ && esdf_.is_open(id) &&
            space_.is_within_limits(id);
   }
 

@@ -85,8 +85,8 @@ class PlacesAround {
     const VoxelId middle = finder_.find({low.x + half, low.y + half, low.z + half});
     if (middle == kNoVoxel)
       return side > kBlockSide &&
-             (esdf_.unknown == UnknownPolicy::kIgnore || reaches(SquaredHalves(), half));
-    if (side == 1 && esdf_.state[middle] != VoxelState::kFree) return false;
+             (esdf_.unknown != UnknownPolicy::kObstacle || reaches(SquaredHalves(), half));
+    if (side == 1 && !esdf_.is_open(middle)) return false;
     return esdf_.squared[middle] == kNoSite || reaches(esdf_.squared[middle], half);
   }
 
@@ -134,7 +134,7 @@ EscapeResult find_escape(const FreeSpace& space, const Point& point, double radi
                          const Deadline& deadline) {
   const EsdfMap& esdf = space.map();
   if (!(space.distance(point) > 0.0)) return {};
-  PlacesAround places(esdf, point, radius);
+  PlacesAround places(esdf, point, space.inner_radius(radius));
   for (std::optional<Point> place; !deadline.has_passed() && (place = places.next(deadline));)
     if (space.is_known_free(point, *place) && space.is_within_limits(point, *place) &&
         space.is_free(*place, radius) &&

@@ -110,9 +110,11 @@ class LimitedSearch {
     const Point a = place_of(from), b = place_of(link.vertex);
     const bool was_moved = a != graph_.vertices[number(from)].position ||
                            b != graph_.vertices[number(link.vertex)].position;
-    if (was_moved) return space_.is_free(a, b, query_.radius);
-    return graph_.edges[number(link.edge)].clearance >= query_.radius * (1.0 - 1e-9) &&
-           space_.is_within_limits(a, b);
+    const double clearance = graph_.edges[number(link.edge)].clearance * (1.0 + 1e-9);
+    if (!was_moved && clearance >= space_.outer_radius(query_.radius))
+      return space_.is_within_limits(a, b);
+    if (!was_moved && clearance < space_.inner_radius(query_.radius)) return false;
+    return space_.is_free(a, b, query_.radius);
   }
 
   std::vector<VertexId> nearest_vertices(const Point& end) const {

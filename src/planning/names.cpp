@@ -34,7 +34,7 @@ constexpr std::array<std::string_view, 9> kPlannerNames{"graph",   "diagram", "e
 std::string_view name_of(Planner planner) { return name_in(kPlannerNames, planner); }
 
 std::string_view name_of(UnknownPolicy policy) {
-  constexpr std::array<std::string_view, 2> kNames{"obstacle", "ignore"};
+  constexpr std::array<std::string_view, 3> kNames{"obstacle", "ignore", "free"};
   return name_in(kNames, policy);
 }
 

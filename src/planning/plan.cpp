@@ -35,6 +35,9 @@ void PlanConfig::validate() const {
     throw InputError("radius", "is " + number_text(*radius),
                      "give the robot's radius in metres, above 0");
   limits.validate();
+  detail::validate_robot_height(robot_height);
+  if (!(snap >= 0.0 && std::isfinite(snap)))
+    throw InputError("snap", "is " + number_text(snap), "give metres, 0 for none");
   if (!(time_limit > 0.0))
     throw InputError("time_limit", "is " + number_text(time_limit),
                      "give seconds above 0, or leave it out for no limit");
@@ -59,7 +62,7 @@ PlanResult plan_between(const Roadmap& roadmap, const FreeSpace& space, const Po
     result.seconds.total = seconds_now() - began;
     return std::move(result);
   };
-  if (radius < roadmap.min_clearance * (1.0 - 1e-9)) return finish(PlanStatus::kRadiusTooSmall);
+  if (space.inner_radius(radius) < roadmap.min_clearance * (1.0 - 1e-9)) return finish(PlanStatus::kRadiusTooSmall);
   const detail::QueryEnds ends = detail::find_ends(space, start, goal, radius);
   if (ends.status != PlanStatus::kOk) return finish(ends.status);
 
@@ -71,7 +74,7 @@ PlanResult plan_between(const Roadmap& roadmap, const FreeSpace& space, const Po
     return finish(PlanStatus::kOk);
   }
   const detail::RouteQuery query{ends.from, ends.to, start, goal, radius, config.prefer_clearance};
-  const bool may_ask_tangents = config.shorten && config.planner == Planner::kGraph &&
+  const bool may_ask_tangents = config.shorten && space.is_for_sphere() && config.planner == Planner::kGraph &&
                                 radius <= roadmap.tangents.graph.min_clearance * (1.0 + 1e-9);
   detail::TangentPath tangents;
   if (may_ask_tangents)
@@ -169,9 +172,10 @@ PlanResult detail::plan_locally(const Roadmap& roadmap, const Point& start, cons
   config.validate();
   const double radius = config.radius.value_or(roadmap.min_clearance);
   validate_query(roadmap.esdf, start, goal, radius);
+  require_height_counts(roadmap.esdf, config.robot_height);
   const Deadline deadline(config.time_limit);
   const FlightLimits limits = limits_of(roadmap.esdf, config.limits);
-  const FreeSpace space(roadmap.esdf, limits);
+  const FreeSpace space(roadmap.esdf, limits, radius, config.robot_height);
   return config.escape ? plan_with_escapes(roadmap, space, start, goal, radius, config, deadline)
                        : plan_between(roadmap, space, start, goal, radius, config, deadline);
 }

@@ -27,6 +27,10 @@ QueryEnds find_ends(const FreeSpace& space, const Point& start, const Point& goa
 /// where they are bad, or hold no voxel.
 FlightLimits limits_of(const EsdfMap& esdf, const FlightLimits& limits_world);
 
+/// Throws InputError for a height that no upright cylinder has (0: it is none), or one in a plane.
+void validate_robot_height(double height);
+void require_height_counts(const EsdfMap& esdf, double height);
+
 /// Waypoints of a route between which the clearance is known, by moves between voxels and the
 /// graph's edges; none if first == last.
 struct KnownStretch {

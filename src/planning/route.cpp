@@ -151,9 +151,11 @@ RouteResult find_route(const Roadmap& roadmap, const FreeSpace& space, const Rou
     result.search_seconds = seconds_now() - began;
     return result;
   }
-  AttachWay from = follow_attach(roadmap, query.from, query.radius);
-  AttachWay to = follow_attach(roadmap, query.to, query.radius);
-  const Reach reach = compare_ways(roadmap, query, from, to);
+  RouteQuery sphere = query;  // what it cannot do the robot cannot either
+  sphere.radius = space.inner_radius(query.radius);
+  AttachWay from = follow_attach(roadmap, query.from, sphere.radius);
+  AttachWay to = follow_attach(roadmap, query.to, sphere.radius);
+  const Reach reach = compare_ways(roadmap, sphere, from, to);
   const double attached = seconds_now();
   result.attach_seconds = attached - began;
   if (space.is_narrowed()) {

@@ -29,7 +29,7 @@ RouteEnumeration::RouteEnumeration(const Roadmap& roadmap, const FreeSpace& spac
       goals_(legs_from(query.goal, query.to)) {
   Sources goals;
   for (const auto& [vertex, leg] : goals_) goals.emplace_back(vertex, length_of(leg));
-  rest_ = lengths_from(roadmap.graph, goals, query.radius);
+  rest_ = lengths_from(roadmap.graph, goals, space_.inner_radius(query.radius));
   for (const auto& [vertex, leg] : starts_)
     push({.vertex = vertex, .length = length_of(leg)}, rest_[number(vertex)]);
 }
@@ -46,7 +46,7 @@ std::optional<Route> RouteEnumeration::next() {
 }
 
 RouteEnumeration::Legs RouteEnumeration::legs_from(const Point& end, VoxelId voxel) const {
-  const AttachWay way = follow_attach(roadmap_, voxel, query_.radius);
+  const AttachWay way = follow_attach(roadmap_, voxel, space_.inner_radius(query_.radius));
   if (!way.reached()) return {};
   RouteQuery leg = query_;
   leg.start = end;

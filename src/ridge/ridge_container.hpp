@@ -23,7 +23,8 @@ namespace ridgeway {
 ///               u64 compressed size; then a chunk: u32 raw size, u32 compressed size, u32 checksum
 ///   data        the sections' chunks in the directory's order, each a zstd frame of its own
 /// Checksums are CRC-32C, those of the chunks over the compressed bytes.
-/// Files that say nothing of limits are of version 2, so that programs that know of none read them.
+/// Files without limits, planes and free unknown space are of version 2, so that programs that know
+/// of none of these read them.
 inline constexpr std::uint32_t kRidgeVersion = 3;
 inline constexpr std::uint32_t kRidgeVersionWithoutLimits = 2;
 inline constexpr std::size_t kLargestChunk = std::size_t{1} << 22;

@@ -37,7 +37,8 @@ std::uint32_t get_count(const Json& counts, const char* key) {
 UnknownPolicy parse_policy(const std::string& name) {
   if (name == "obstacle") return UnknownPolicy::kObstacle;
   if (name == "ignore") return UnknownPolicy::kIgnore;
-  throw std::out_of_range("'unknown' is neither obstacle nor ignore");
+  if (name == "free") return UnknownPolicy::kFree;
+  throw std::out_of_range("'unknown' is neither obstacle nor ignore nor free");
 }
 
 Json json_of_limits(const FlightLimits& limits) {
@@ -92,6 +93,7 @@ RidgeHeader header_from(const Json& json) {
   header.origin = origin_in(json);
   header.unknown = parse_policy(json.at("unknown").get<std::string>());
   header.max_distance = get_number(json, "max_distance", kInfinity);
+  header.planar = json.value("planar", false);
   if (json.contains("limits")) header.limits = limits_in(json.at("limits"));
   header.min_clearance = get_number(json, "min_clearance", kInfinity);
   header.graph_min_clearance = get_number(json, "graph_min_clearance", kInfinity);
@@ -122,6 +124,7 @@ RidgeHeader header_of(const Roadmap& roadmap) {
           roadmap.esdf.unknown,
           roadmap.esdf.max_distance,
           roadmap.esdf.limits,
+          roadmap.esdf.planar,
           roadmap.min_clearance,
           roadmap.graph.min_clearance,
           roadmap.diagram.complete,
@@ -139,8 +142,11 @@ std::string header_text(const RidgeHeader& header) {
   json["content"] = "roadmap";
   json["voxel_size"] = header.voxel_size;
   json["origin"] = json_of_origin(header.origin);
-  json["unknown"] = header.unknown == UnknownPolicy::kObstacle ? "obstacle" : "ignore";
+  json["unknown"] = header.unknown == UnknownPolicy::kObstacle ? "obstacle"
+                    : header.unknown == UnknownPolicy::kIgnore ? "ignore"
+                                                               : "free";
   json["max_distance"] = number_or_null(header.max_distance);
+  if (header.planar) json["planar"] = true;
   if (header.limits.any()) json["limits"] = json_of_limits(header.limits);
   json["min_clearance"] = number_or_null(header.min_clearance);
   json["graph_min_clearance"] = number_or_null(header.graph_min_clearance);

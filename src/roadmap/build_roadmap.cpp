@@ -93,8 +93,10 @@ void build_on_distances(VoxelMask traversable, const BuildConfig& config, BuildR
   clock.end(report.seconds.gvd);
 
   clock.begin("edges");
-  VoxelMask edges = config.basis_point_edges ? extract_basis_point_edges(esdf, gvd, ridges)
-                                             : extract_edges(esdf, gvd);
+  // In a plane ridges are curves already.
+  VoxelMask edges = esdf.planar                ? gvd
+                    : config.basis_point_edges ? extract_basis_point_edges(esdf, gvd, ridges)
+                                               : extract_edges(esdf, gvd);
   gvd = {};  // what is not needed any more makes room
   report.edge_voxels = edges.count();
   clock.end(report.seconds.edges);

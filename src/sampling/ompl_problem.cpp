@@ -66,7 +66,7 @@ std::uint64_t free_layer(const EsdfMap& esdf, std::uint32_t slot, int z) {
   const VoxelState* states = esdf.state.block(slot) + 64 * z;
   std::uint64_t bits = 0;
   for (int i = 0; i < 64; ++i)
-    bits |= static_cast<std::uint64_t>(states[i] == VoxelState::kFree) << i;
+    bits |= static_cast<std::uint64_t>(is_open(states[i], esdf.unknown)) << i;
   return bits;
 }
 

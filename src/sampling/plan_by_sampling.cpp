@@ -110,6 +110,7 @@ void SamplingConfig::validate() const {
     throw InputError("radius", "is " + number_text(radius),
                      "give the robot's radius in metres, above 0");
   limits.validate();
+  detail::validate_robot_height(robot_height);
   if (!(time_limit > 0.0))
     throw InputError("time_limit", "is " + number_text(time_limit), "give seconds above 0");
   if (std::isinf(time_limit) && iteration_limit == std::numeric_limits<std::size_t>::max())
@@ -139,7 +140,8 @@ SamplingResult sample_locally(const EsdfMap& esdf, const Point& start, const Poi
     return result;
   };
   const FlightLimits limits = detail::limits_of(esdf, config.limits);
-  const FreeSpace space(esdf, limits);
+  detail::require_height_counts(esdf, config.robot_height);
+  const FreeSpace space(esdf, limits, config.radius, config.robot_height);
   const PlanStatus ends = detail::find_ends(space, start, goal, config.radius).status;
   plan.seconds.attach = seconds_now() - began;
   if (ends != PlanStatus::kOk) return finish(ends);

@@ -39,7 +39,7 @@ class FreeBorder {
   }
 
  private:
-  bool is_free(VoxelId id) const { return id != kNoVoxel && esdf_.state[id] == VoxelState::kFree; }
+  bool is_free(VoxelId id) const { return esdf_.is_open(id); }
 
   double at_centre(const VoxelIndex& v) {
     const auto part = [](int k) { return static_cast<std::uint64_t>(k) & 0x1fffff; };
@@ -73,6 +73,8 @@ class FreeBorder {
 
 namespace {
 
+constexpr double kFlat = 1e-7;  // metres: a box so flat gives no direction to go
+
 /// How far within the limits a place is, and where that grows; the nearest face decides.
 DistanceAndGradient depth_within(const FlightLimits& limits, const Point& p) {
   DistanceAndGradient depth{std::numeric_limits<double>::infinity(), Point::Zero()};
@@ -80,6 +82,7 @@ DistanceAndGradient depth_within(const FlightLimits& limits, const Point& p) {
     if (distance < depth.distance) depth = {distance, sign * Point::Unit(axis)};
   };
   for (int axis = 0; axis < 3; ++axis) {
+    if (limits.keep_in.max[axis] - limits.keep_in.min[axis] < kFlat) continue;
     look(p[axis] - limits.keep_in.min[axis], axis, 1.0);
     look(limits.keep_in.max[axis] - p[axis], axis, -1.0);
   }

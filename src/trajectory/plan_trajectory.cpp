@@ -53,8 +53,8 @@ TrajectorySegment standing_at(const Point& p) {
 }
 
 /// Yaw, duration, peaks, clearance.
-void describe(const EsdfMap& esdf, const std::vector<Point>& path, const TrajectoryConfig& config,
-              TrajectoryResult& result) {
+void describe(const FreeSpace& space, const std::vector<Point>& path,
+              const TrajectoryConfig& config, TrajectoryResult& result) {
   Trajectory& trajectory = result.trajectory;
   if (trajectory.segments.empty()) trajectory.segments.push_back(standing_at(path.front()));
   detail::assign_yaw(trajectory, knot_size(config.smoothness), config.limits.max_yaw_rate,
@@ -64,7 +64,8 @@ void describe(const EsdfMap& esdf, const std::vector<Point>& path, const Traject
   result.duration = trajectory.duration();
   result.peaks = find_peaks(trajectory);
   result.clearance =
-      std::max(clearance_of(esdf, trajectory), config.radius * (1.0 - 1e-9));  // as verified
+      std::max(clearance_of(space.map(), trajectory),
+               space.inner_radius(config.radius) * (1.0 - 1e-9));  // as verified
 }
 
 void require_start_within_limits(const TrajectoryConfig& config) {
@@ -101,6 +102,9 @@ void MotionLimits::validate() const {
 void TrajectoryConfig::validate() const {
   limits.validate();
   flight_limits.validate();
+  if (!(robot_height >= 0.0 && std::isfinite(robot_height)))
+    throw InputError("robot_height", "is " + number_text(robot_height),
+                     "give metres above 0, or 0 for a robot that is a sphere");
   if (!(radius > 0.0 && std::isfinite(radius)))
     throw InputError("radius", "is " + number_text(radius),
                      "give the robot's radius in metres, above 0");
@@ -136,7 +140,7 @@ TrajectoryResult fly_locally(const EsdfMap& esdf, std::span<const Point> path,
   };
   const FlightLimits limits =
       both_of(esdf.limits, limits_in_local(esdf, config.flight_limits));
-  const FreeSpace space(esdf, limits);
+  const FreeSpace space(esdf, limits, config.radius, config.robot_height);
   if (!is_free(space, points, config.radius)) return finish(TrajectoryStatus::kPathNotFree);
 
   const StartState start{config.start_velocity, config.start_acceleration};
@@ -154,7 +158,7 @@ TrajectoryResult fly_locally(const EsdfMap& esdf, std::span<const Point> path,
     if (!start.is_rest()) return finish(TrajectoryStatus::kCannotStopInTime);
     if (!smooth.holds(halting)) return finish(TrajectoryStatus::kPathNotFree);
   }
-  describe(esdf, points, config, result);
+  describe(space, points, config, result);
   return finish(TrajectoryStatus::kOk);
 }
 

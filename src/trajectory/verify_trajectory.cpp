@@ -74,7 +74,7 @@ class Verifier {
       for (int y = low.y; y <= high.y; ++y)
         for (int x = low.x; x <= high.x; ++x) {
           const VoxelId id = esdf_.layout.find({x, y, z});
-          if (id == kNoVoxel || esdf_.state[id] != VoxelState::kFree) return false;
+          if (!esdf_.is_open(id)) return false;
         }
     return true;
   }

@@ -116,6 +116,8 @@ void require_room(const EsdfMap& esdf, const FlightLimits& limits);
 
 /// Longest distance that is ever stored, voxels; farther voxels have no site.
 inline constexpr int kFarthestSite = 16000;
+/// The layer of a planar map's blocks that robots are in: one with others on both sides.
+inline constexpr int kPlanarLayer = 3;
 /// `squared` of a voxel without a site.
 inline constexpr std::uint32_t kNoSite = 0xffffffffu;
 
@@ -129,8 +131,8 @@ struct EsdfMap {
   UnknownPolicy unknown = UnknownPolicy::kObstacle;
   double max_distance = std::numeric_limits<double>::infinity();  ///< metres
   FlightLimits limits;  ///< of every flight on this map, in its local frame
-  /// Made of a planar map: distances count along x and y alone, all that is known lies in the layer
-  /// z = 0, whose obstacles count in the layers above it, too, and flights stay at its centre.
+  /// Of a planar map: distances count along x and y alone, and flights stay at the centre of the
+  /// layer kPlanarLayer.
   bool planar = false;
   BlockLayout layout;
   VoxelField<VoxelState> state;

@@ -33,7 +33,8 @@ struct CheckConfig {
   std::uint64_t seed = 1;
   /// Of all queries, world frame; start and goal are drawn within them.
   FlightLimits limits = {};
-  double robot_height = 0.0;  ///< as in PlanConfig; radii are then larger until they do
+  /// As in PlanConfig; the radius is then the smallest in all queries.
+  double robot_height = 0.0;
 };
 
 /// One query of a check and the path that the roadmap answered with, for independent checkers.

@@ -47,7 +47,7 @@ constexpr bool is_sampling(Planner planner) { return planner >= Planner::kRrtSta
 /// "informedrrtstar".
 std::string_view name_of(PlanStatus status);
 std::string_view name_of(Planner planner);
-/// "obstacle" or "ignore".
+/// "obstacle", "ignore" or "free".
 std::string_view name_of(UnknownPolicy policy);
 /// The planner of a name, or nothing.
 std::optional<Planner> planner_named(std::string_view name);
