@@ -112,6 +112,8 @@ void add_check_command(Command& program) {
                 "Random queries to compare with A*");
   command.seed(options->check.seed, "Of the random queries");
   add_limit_options(command, options->limits);
+  command.number("--robot-height", options->check.robot_height, kLengthsFromZero,
+                 "Metres: the robot is an upright cylinder of this height; 0: it is a sphere");
   command.path("--paths", options->paths,
                "File to write the checked paths to, .json, for other checkers");
   command.footer(

@@ -35,6 +35,7 @@ SamplingConfig sampling_config(const PlanOptions& options, double radius) {
   config.radius = radius;
   config.shorten = !options.raw;
   config.limits = limits_of(options.limits);
+  config.robot_height = options.robot_height;
   if (options.time_limit) config.time_limit = *options.time_limit;
   if (options.range) config.range = *options.range;
   if (options.iteration_limit) config.iteration_limit = *options.iteration_limit;
@@ -43,8 +44,11 @@ SamplingConfig sampling_config(const PlanOptions& options, double radius) {
 
 /// Found before the file is loaded.
 void validate(const PlanOptions& options) {
-  if (is_sampling(options.chosen()) && (options.prefer_clearance != 0.0 || options.escape))
-    throw InputError(options.escape ? "--escape" : "--prefer-clearance",
+  if (is_sampling(options.chosen()) &&
+      (options.prefer_clearance != 0.0 || options.escape || options.snap != 0.0))
+    throw InputError(options.escape         ? "--escape"
+                     : options.snap != 0.0 ? "--snap"
+                                            : "--prefer-clearance",
                      "is of planners that do not sample",
                      "leave it out with --planner " + options.planner);
   if (is_sampling(options.chosen()))
@@ -137,8 +141,8 @@ void require_one_form(const PlanOptions& options) {
   if ((several || options.nearest) && (is_sampling(options.chosen()) || options.repeat > 1))
     throw InputError("plan", "samples and repeats for one start and one goal alone",
                      "leave out --repeat and --planner " + options.planner);
-  if (several && !options.nearest && !options.output.empty())
-    throw InputError("--output", "is for one path", "use --json for several");
+  if (options.to.size() > 1 && !options.nearest && !options.output.empty())
+    throw InputError("--output", "is for one goal", "use --json for several");
 }
 
 int run(const PlanOptions& options, const Globals& globals) {
@@ -151,7 +155,7 @@ int run(const PlanOptions& options, const Globals& globals) {
   require_one_form(options);
   if (!options.output.empty()) {
     require_path_format(options.output);
-    require_writable({options.output}, {options.file});
+    require_writable(outputs_of(options), {options.file});
   }
   const Roadmap roadmap = load_roadmap(options.file);
   if (batch) return run_batch(options, roadmap, globals);
@@ -184,7 +188,8 @@ void add_plan_command(Command& program) {
   command.flag("--nearest", options->nearest, "Of several goals only the one nearest by path");
   command.whole("--alternatives", options->alternatives, {1, 1000},
                 "Up to so many routes, shortest first, none of which can be deformed into another "
-                "in sight of it; none winds around an obstacle");
+                "in sight of it; none winds around an obstacle. -o path.json writes path-1.json, "
+                "path-2.json, ...");
   command.choice("--planner", options->planner,
                  {"graph", "diagram", "esdf", "theta", "rrtstar", "rrtconnect", "bitstar",
                   "prmstar", "informedrrtstar"},
@@ -196,6 +201,12 @@ void add_plan_command(Command& program) {
                  "What distance d from walls is worth: a metre costs 1 + it * (radius / d)^2");
   command.flag("--escape", options->escape,
                "Start and goal may be too close to an obstacle: leave it the short way first");
+  command.number("--snap", options->snap, kLengthsFromZero,
+                 "Start and goal that cannot be used are moved to the nearest place that can, by "
+                 "so many metres at most");
+  command.number("--robot-height", options->robot_height, kLengthsFromZero,
+                 "Metres: the robot is an upright cylinder of this height and the radius; 0: it is "
+                 "a sphere");
   add_limit_options(command, options->limits);
   command.flag("--raw", options->raw, "Do not shorten the path");
   command.flag("--quick", options->quick,

@@ -20,7 +20,7 @@ struct PlanOptions {
   std::vector<Point> to;
   std::optional<double> radius, time_limit;
   std::optional<std::size_t> alternatives;
-  double prefer_clearance = 0.0;
+  double prefer_clearance = 0.0, snap = 0.0, robot_height = 0.0;
   bool raw = false, quick = false, escape = false, nearest = false;
   int repeat = 1;
   LimitOptions limits;
@@ -39,7 +39,9 @@ inline PlanConfig plan_config(const PlanOptions& options, std::optional<double> 
                     .quick = options.quick,
                     .prefer_clearance = options.prefer_clearance,
                     .escape = options.escape,
-                    .limits = limits_of(options.limits)};
+                    .limits = limits_of(options.limits),
+                    .snap = options.snap,
+                    .robot_height = options.robot_height};
   if (options.time_limit) config.time_limit = *options.time_limit;
   return config;
 }

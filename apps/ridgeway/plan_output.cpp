@@ -17,6 +17,12 @@ void print_escape(const std::string& end, const Escape& escape) {
                             text_of(escape.clearance) + " m");
 }
 
+void print_moved(const std::string& end, const Moved& moved) {
+  if (moved.distance > 0.0)
+    print_row("moved", "the " + end + " by " + text_of(moved.distance) + " m, to " +
+                           point_text(moved.place));
+}
+
 }  // namespace
 
 Json json_of(AnswerFacts& facts, const Answer& answer, const Query& query) {
@@ -55,6 +61,8 @@ void print_result(AnswerFacts& facts, const Answer& answer, const Query& query) 
             text_of(result.clearance) + " m, robot radius " + text_of(query.radius) + " m");
   print_row("known obstacles",
             std::isinf(around.known) ? "none" : text_of(around.known) + " m away at the nearest");
+  print_moved("start", result.moved_start);
+  print_moved("goal", result.moved_goal);
   print_escape("start", result.escape_start);
   print_escape("goal", result.escape_goal);
   print_row("unknown space",

@@ -66,7 +66,7 @@ std::string explain_endpoint(const Roadmap& roadmap, const Query& query, PlanSta
 }  // namespace
 
 OccupancyMap occupancy_of(const EsdfMap& esdf) {
-  return {esdf.voxel_size, esdf.origin, esdf.layout, esdf.state};
+  return {esdf.voxel_size, esdf.origin, esdf.layout, esdf.state, esdf.planar};
 }
 
 std::string AnswerFacts::explain_no_route(const Query& query) {

@@ -15,6 +15,7 @@
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "route.hpp"
+#include "snap.hpp"
 #include "tangent_path.hpp"
 #include "tightest.hpp"
 
@@ -36,6 +37,8 @@ void PlanConfig::validate() const {
                      "give the robot's radius in metres, above 0");
   limits.validate();
   detail::validate_robot_height(robot_height);
+  if (escape && robot_height > 0.0)
+    throw InputError("escape", "is of robots that are spheres", "leave out robot_height");
   if (!(snap >= 0.0 && std::isfinite(snap)))
     throw InputError("snap", "is " + number_text(snap), "give metres, 0 for none");
   if (!(time_limit > 0.0))
@@ -176,8 +179,16 @@ PlanResult detail::plan_locally(const Roadmap& roadmap, const Point& start, cons
   const Deadline deadline(config.time_limit);
   const FlightLimits limits = limits_of(roadmap.esdf, config.limits);
   const FreeSpace space(roadmap.esdf, limits, radius, config.robot_height);
-  return config.escape ? plan_with_escapes(roadmap, space, start, goal, radius, config, deadline)
-                       : plan_between(roadmap, space, start, goal, radius, config, deadline);
+  const PlanBetween between = [&](const Point& from, const Point& to) {
+    return config.escape ? plan_with_escapes(roadmap, space, from, to, radius, config, deadline)
+                         : plan_between(roadmap, space, from, to, radius, config, deadline);
+  };
+  const double began = seconds_now();
+  PlanResult result = between(start, goal);
+  if (config.snap == 0.0 || !is_refused(result.status)) return result;
+  result = plan_snapped(space, start, goal, radius, config.snap, between, result, deadline);
+  result.seconds.total = seconds_now() - began;
+  return result;
 }
 
 PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,

@@ -120,6 +120,8 @@ Point place_in_local(const EsdfMap& esdf, const Point& point_world, double radiu
 
 void move_to_world(const EsdfMap& esdf, const Point& start_world, const Point& goal_world,
                    PlanResult& result) {
+  for (Moved* moved : {&result.moved_start, &result.moved_goal})
+    if (moved->distance > 0.0) moved->place = to_world(esdf, moved->place);
   if (result.waypoints.empty()) return;
   for (Point& p : result.waypoints) p = to_world(esdf, p);
   const auto put = [&](Point& waypoint, const Point& asked, const Moved& moved) {

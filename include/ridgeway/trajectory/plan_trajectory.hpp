@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/planning/plan.hpp"
 #include "ridgeway/trajectory/trajectory.hpp"
 
 namespace ridgeway {
@@ -110,6 +111,12 @@ struct TrajectoryResult {
 /// is not finite, a start faster than the limits, a radius larger than the map knows distances for,
 /// or a bad configuration.
 TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> path,
+                                 const TrajectoryConfig& config);
+
+/// The same along a path of plan() with its escapes, each flown straight from rest to rest at the
+/// clearance that it has; `clearance` of the result is without them. From a motion only where the
+/// path begins without one: else InputError.
+TrajectoryResult plan_trajectory(const EsdfMap& esdf, const PlanResult& path,
                                  const TrajectoryConfig& config);
 
 /// For comparison, what plan_trajectory does without the distance field: the smoothest spline from
