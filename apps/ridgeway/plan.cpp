@@ -155,7 +155,7 @@ int run(const PlanOptions& options, const Globals& globals) {
   require_one_form(options);
   if (!options.output.empty()) {
     require_path_format(options.output);
-    require_writable(outputs_of(options), {options.file});
+    require_writable({outputs_of(options).front()}, {options.file});
   }
   const Roadmap roadmap = load_roadmap(options.file);
   if (batch) return run_batch(options, roadmap, globals);
