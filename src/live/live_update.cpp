@@ -83,8 +83,7 @@ void LiveRoadmap::State::bring_up_to_date(std::span<const VoxelChange> changes,
 
 /// A map without blocks.
 LiveRoadmap::State::Live LiveRoadmap::State::nothing(const VoxelIndex& origin) const {
-  return {LiveField(config.fusion.voxel_size, origin,
-                    {config.build.unknown, config.build.max_distance}),
+  return {LiveField(config.fusion.voxel_size, origin, detail::distances_config(config.build)),
           {.radius = config.build.min_clearance, .config = detail::ridges_of(config.build)},
           {},
           {}};

@@ -13,6 +13,8 @@ EsdfMap in_same_memory(const EsdfMap& esdf) {
           .origin = esdf.origin,
           .unknown = esdf.unknown,
           .max_distance = esdf.max_distance,
+          .limits = esdf.limits,
+          .planar = esdf.planar,
           .layout = esdf.layout,
           .state = esdf.state.shared(),
           .squared = esdf.squared.shared(),

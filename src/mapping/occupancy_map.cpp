@@ -17,7 +17,8 @@ VoxelCounts count_voxels(const OccupancyMap& map) {
     counts.occupied += count(VoxelState::kOccupied);
   }
   counts.unknown = map.state.size() - counts.free - counts.occupied;
-  return counts;
+  const std::size_t layers = map.planar ? kBlockSide : 1;  // that are one
+  return {counts.free / layers, counts.occupied / layers, counts.unknown / layers};
 }
 
 VoxelRange known_range(const OccupancyMap& map) {
