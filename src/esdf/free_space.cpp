@@ -142,8 +142,11 @@ bool FreeSpace::is_known_free(const Point& a, const Point& b) const {
 
 bool FreeSpace::cylinder_fits(VoxelId from, VoxelId to) const {
   const double s = esdf_.voxel_size;
-  return is_free(centre_of(esdf_.layout.index_of(from), s),
-                 centre_of(esdf_.layout.index_of(to), s), radius_);
+  const VoxelIndex a = esdf_.layout.index_of(from), b = esdf_.layout.index_of(to), o = b - a;
+  const SquaredHalves bound =
+      move_bound(esdf_.squared[from], esdf_.squared[to], o.x * o.x + o.y * o.y + o.z * o.z);
+  return bound >= least_clearance(outer_radius(radius_), s) ||
+         is_free(centre_of(a, s), centre_of(b, s), radius_);
 }
 
 SquaredHalves FreeSpace::slow_move_clearance(VoxelId from, VoxelId to, int direction,

@@ -14,13 +14,14 @@ namespace ridgeway {
 namespace {
 
 /// Three rooms in a row, of 3, 2 and 1 m along x: a gap of 0.4 m in the first wall, and in the
-/// second one of 0.3 m through space that nobody has seen but for that.
+/// second a hole 0.3 m wide in space that nobody has seen but for that.
 OccupancyMap three_rooms() {
   return testing::make_map(0.1, {0, 0, 0}, {64, 21, 21}, [](const VoxelIndex& v) {
     const bool hull = v.x == 0 || v.y == 0 || v.z == 0 || v.x == 64 || v.y == 21 || v.z == 21;
     if (hull) return VoxelState::kOccupied;
     if (v.x == 31) return v.y >= 8 && v.y < 12 ? VoxelState::kFree : VoxelState::kOccupied;
-    if (v.x == 52) return v.y >= 9 && v.y < 12 ? VoxelState::kFree : VoxelState::kUnknown;
+    const bool hole = v.y >= 9 && v.y < 12 && v.z >= 8 && v.z < 12;
+    if (v.x == 52) return hole ? VoxelState::kFree : VoxelState::kUnknown;
     return VoxelState::kFree;
   });
 }

@@ -201,7 +201,8 @@ TEST(Planar, AHallOfPillarsHasTheGraphOfItsPlane) {
   EXPECT_EQ(roadmap.graph.edges.size() + 1 - roadmap.graph.vertices.size(), axes.size());
   const CheckReport report = check_roadmap(roadmap, {.queries = 200});
   EXPECT_TRUE(report.is_clean());
-  EXPECT_EQ(report.graph_ok, 200u);
+  EXPECT_EQ(report.graph_ok, report.esdf_ok);
+  EXPECT_GT(report.graph_ok, 180u);  // wider robots do not pass everywhere
   EXPECT_LT(report.length_ratio.p95, 1.05);
   EXPECT_LT(report.fallbacks, 10u);
   // What is above and below is not beside a path.
