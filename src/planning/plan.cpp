@@ -2,7 +2,9 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "ridgeway/planning/plan.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -10,18 +12,20 @@
 #include "endpoint.hpp"
 #include "escape.hpp"
 #include "paths/deadline.hpp"
+#include "paths/planning_constants.hpp"
 #include "paths/shorten.hpp"
 #include "query.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "route.hpp"
+#include "short_path.hpp"
 #include "tangent_path.hpp"
-#include "tightest.hpp"
 
 namespace ridgeway {
 
 using detail::Deadline;
 using detail::KnownStretch;
+using detail::Route;
 using detail::seconds_now;
 
 double largest_radius(const EsdfMap& esdf) { return esdf.max_distance - 2.0 * esdf.voxel_size; }
@@ -37,6 +41,9 @@ void PlanConfig::validate() const {
   if (!(time_limit > 0.0))
     throw InputError("time_limit", "is " + number_text(time_limit),
                      "give seconds above 0, or leave it out for no limit");
+  if (!(within == 0.0 || (within >= 1.0 && std::isfinite(within))))
+    throw InputError("within", "is " + number_text(within),
+                     "give a factor of 1 and more, such as 1.05, or 0 to leave it open");
   // Far beyond what is of use, and no cost of a path overflows.
   constexpr double kMostPreferClearance = 1e6;
   if (!(prefer_clearance >= 0.0 && prefer_clearance <= kMostPreferClearance))
@@ -46,71 +53,182 @@ void PlanConfig::validate() const {
 
 namespace {
 
+/// A query that is being answered.
+class Answering {
+ public:
+  Answering(const Roadmap& roadmap, const Point& start, const Point& goal, double radius,
+            const PlanConfig& config, const Deadline& deadline)
+      : roadmap_(roadmap),
+        esdf_(roadmap.esdf),
+        space_(roadmap.esdf),
+        config_(config),
+        deadline_(deadline),
+        query_{kNoVoxel, kNoVoxel, start, goal, radius, config.prefer_clearance} {
+    result_.unknown = esdf_.unknown;
+  }
+
+  PlanResult run() {
+    const double began = seconds_now();
+    result_.status = find_path();
+    if (!result_.ok()) result_.waypoints.clear();
+    result_.seconds.total = seconds_now() - began;
+    return std::move(result_);
+  }
+
+ private:
+  bool wants_short() const { return config_.shorten && config_.prefer_clearance == 0.0; }
+
+  /// Takes a path for the answer if it holds.
+  bool accept(Route path, const KnownStretch& known) {
+    result_.waypoints = std::move(path);
+    detail::describe(space_, known, result_);
+    return detail::is_verified(esdf_, space_, result_, query_.radius);
+  }
+
+  PlanStatus find_path() {
+    const auto& [from, to, start, goal, radius, prefer_clearance] = query_;
+    if (radius < roadmap_.min_clearance * (1.0 - 1e-9)) return PlanStatus::kRadiusTooSmall;
+    const detail::QueryEnds ends = detail::find_ends(esdf_, start, goal, radius);
+    if (ends.status != PlanStatus::kOk) return ends.status;
+    query_.from = ends.from;
+    query_.to = ends.to;
+    result_.answered_by = config_.planner;
+    if ((wants_short() || start == goal) && space_.is_free(start, goal, radius))
+      return accept({start, goal}, {}) ? PlanStatus::kOk : PlanStatus::kNoRoute;
+
+    if (config_.shorten && prefer_clearance > 0.0) return search_for_cheapest();
+    detail::TangentPath tangents = path_over_corners();
+    if (wants_short() && !tangents.waypoints.empty() && is_enough(tangents) &&
+        accept(tangents.waypoints, tangents.known))
+      return PlanStatus::kOk;
+    return search(std::move(tangents.waypoints), tangents.is_trusted);
+  }
+
+  detail::TangentPath path_over_corners() {
+    if (!config_.shorten || config_.planner != Planner::kGraph) return {};
+    detail::TangentPath tangents =
+        detail::plan_tangents(roadmap_.tangents, space_, query_, config_.quick, deadline_);
+    result_.seconds.search = tangents.search_seconds;
+    result_.seconds.shorten = tangents.shorten_seconds;
+    return tangents;
+  }
+
+  bool is_enough(const detail::TangentPath& tangents) const {
+    const double over = excess(tangents.waypoints);
+    if (config_.within > 0.0) return over <= config_.within;
+    return config_.quick || over <= detail::kPlanning.near;
+  }
+
+  /// How many times the bound a path is long; infinite for none.
+  double excess(const Route& path) const {
+    return path.empty() ? std::numeric_limits<double>::infinity() : detail::length_over_bound(path);
+  }
+
+  /// `is_trusted`: of the path known.
+  PlanStatus search(Route known, bool is_trusted) {
+    double began = seconds_now();
+    const auto lap = [&](double& seconds) {
+      const double now = seconds_now();
+      seconds += now - began;
+      began = now;
+    };
+    const bool is_over_graph = config_.planner == Planner::kGraph;
+    detail::Attachment attachment;
+    if (is_over_graph || config_.planner == Planner::kDiagram)
+      attachment = detail::attach(roadmap_, query_);
+    lap(result_.seconds.attach);
+    const bool is_connected =
+        attachment.reach == detail::Reach::kConnected || attachment.reach == detail::Reach::kJoined;
+    if (wants_short() && is_over_graph && is_connected) {
+      known = shorter(std::move(known),
+                      detail::path_over_cells(roadmap_, space_, query_, attachment, deadline_));
+      known = improve(std::move(known));
+      lap(result_.seconds.shorten);
+      if ((is_plausible(known) || (is_trusted && config_.within == 0.0)) && accept(known, {}))
+        return PlanStatus::kOk;
+    }
+    detail::RouteResult found =
+        detail::find_route(roadmap_, query_, attachment, config_.planner, deadline_);
+    lap(result_.seconds.search);
+    result_.answered_by = found.answered_by;
+    if (found.status == detail::SearchStatus::kTimeout && known.empty())
+      return PlanStatus::kTimeout;
+    if (found.status == detail::SearchStatus::kNoRoute)
+      // The lattice knows no way, but a straight look may slip through what it cannot resolve.
+      return space_.is_free(query_.start, query_.goal, query_.radius) &&
+                     accept({query_.start, query_.goal}, {})
+                 ? PlanStatus::kOk
+                 : PlanStatus::kNoRoute;
+    if (wants_short() && accept(tightened(found.route, std::move(known)), {})) {
+      lap(result_.seconds.shorten);
+      return PlanStatus::kOk;
+    }
+    // What the search found holds move by move, whatever became of it since.
+    return accept(std::move(found.route), found.known) ? PlanStatus::kOk : PlanStatus::kNoRoute;
+  }
+
+  bool is_plausible(const Route& path) const {
+    return excess(path) <= (config_.within > 0.0 ? config_.within : detail::kPlanning.far);
+  }
+
+  Route shorter(Route a, Route b) const { return excess(b) < excess(a) ? b : a; }
+
+  Route improve(Route path) const {
+    if (excess(path) <= detail::kPlanning.near || path.empty()) return path;
+    return detail::past_what_blocks(esdf_, space_, query_, std::move(path), deadline_);
+  }
+
+  Route tightened(const Route& found, Route known) const {
+    Route path = improve(detail::shorten(space_, found, query_.radius, deadline_));
+    path = shorter(std::move(known), std::move(path));
+    if (!is_plausible(path) && !deadline_.has_passed())
+      path = shorter(std::move(path),
+                     detail::path_over_voxels(esdf_, space_, query_, length_of(path), deadline_));
+    if (config_.within > 0.0 && !is_plausible(path) && !deadline_.has_passed())
+      path = shorter(std::move(path),
+                     improve(detail::shortest_over_voxels(esdf_, space_, query_, deadline_)));
+    return path;
+  }
+
+  /// The short path first, then what costs less: the routes that are cheapest and shortest as they
+  /// are found.
+  PlanStatus search_for_cheapest() {
+    PlanConfig short_config = config_;
+    short_config.prefer_clearance = 0.0;
+    PlanResult short_path =
+        Answering(roadmap_, query_.start, query_.goal, query_.radius, short_config, deadline_)
+            .run();
+    if (!short_path.ok()) return short_path.status;
+    const double began = seconds_now();
+    const detail::Attachment attachment = detail::attach(roadmap_, query_);
+    std::vector<Route> routes;
+    for (const double preference : {query_.prefer_clearance, 0.0}) {
+      detail::RouteQuery query = query_;
+      query.prefer_clearance = preference;
+      routes.push_back(
+          detail::find_route(roadmap_, query, attachment, config_.planner, deadline_).route);
+      if (routes.back().empty()) routes.pop_back();
+    }
+    Route best =
+        detail::cheapest(space_, query_, std::move(routes), short_path.waypoints, deadline_);
+    if (!accept(std::move(best), {})) result_ = std::move(short_path);
+    result_.seconds.shorten = seconds_now() - began;
+    return PlanStatus::kOk;
+  }
+
+  const Roadmap& roadmap_;
+  const EsdfMap& esdf_;
+  const FreeSpace space_;
+  const PlanConfig& config_;
+  const Deadline& deadline_;
+  detail::RouteQuery query_;
+  PlanResult result_;
+};
+
 /// Between places where the robot fits.
 PlanResult plan_between(const Roadmap& roadmap, const Point& start, const Point& goal,
                         double radius, const PlanConfig& config, const Deadline& deadline) {
-  const EsdfMap& esdf = roadmap.esdf;
-  const double began = seconds_now();
-  PlanResult result;
-  result.unknown = esdf.unknown;
-  const auto finish = [&](PlanStatus status) {
-    result.status = status;
-    result.seconds.total = seconds_now() - began;
-    return std::move(result);
-  };
-  if (radius < roadmap.min_clearance * (1.0 - 1e-9)) return finish(PlanStatus::kRadiusTooSmall);
-  const detail::QueryEnds ends = detail::find_ends(esdf, start, goal, radius);
-  if (ends.status != PlanStatus::kOk) return finish(ends.status);
-
-  const FreeSpace space(esdf);
-  if (((config.shorten && config.prefer_clearance == 0.0) || start == goal) &&
-      space.is_free(start, goal, radius)) {  // nothing is shorter
-    result.answered_by = config.planner;
-    result.waypoints = {start, goal};
-    detail::describe(space, {}, result);
-    return finish(PlanStatus::kOk);
-  }
-  const detail::RouteQuery query{ends.from, ends.to, start, goal, radius, config.prefer_clearance};
-  const bool may_ask_tangents = config.shorten && config.planner == Planner::kGraph &&
-                                radius <= roadmap.tangents.graph.min_clearance * (1.0 + 1e-9);
-  detail::TangentPath tangents;
-  if (may_ask_tangents)
-    tangents = detail::plan_tangents(roadmap.tangents, esdf, space, query,
-                                     config.quick && config.prefer_clearance == 0.0, deadline);
-  result.seconds.search = tangents.search_seconds;
-  result.seconds.shorten = tangents.shorten_seconds;
-  if (tangents.will_do && config.prefer_clearance == 0.0) {
-    result.waypoints = std::move(tangents.waypoints);
-    detail::describe(space, tangents.known, result);
-    if (detail::is_verified(esdf, space, result, radius)) return finish(PlanStatus::kOk);
-    tangents.waypoints.clear();  // of no more use
-  }
-  detail::RouteResult found = detail::find_route(roadmap, query, config.planner, deadline);
-  result.seconds.attach = found.attach_seconds;
-  result.seconds.search += found.search_seconds;
-  result.answered_by = found.answered_by;
-  if (found.status == detail::SearchStatus::kTimeout) return finish(PlanStatus::kTimeout);
-  const double shortening = seconds_now();
-  if (found.status == detail::SearchStatus::kNoRoute) {
-    // The lattice knows no way, but a straight look may slip through what it cannot resolve.
-    if (!space.is_free(start, goal, radius)) return finish(PlanStatus::kNoRoute);
-    result.waypoints = {start, goal};
-  } else {
-    result.waypoints = config.shorten ? detail::tightest(roadmap, space, found, query,
-                                                         std::move(tangents.waypoints), deadline)
-                                      : found.route;
-  }
-  result.seconds.shorten += seconds_now() - shortening;
-  detail::describe(space, config.shorten ? KnownStretch{} : found.known, result);
-  if (detail::is_verified(esdf, space, result, radius)) return finish(PlanStatus::kOk);
-  // What the search found holds move by move, whatever became of it since.
-  result.waypoints = std::move(found.route);
-  if (!result.waypoints.empty()) {
-    detail::describe(space, found.known, result);
-    if (detail::is_verified(esdf, space, result, radius)) return finish(PlanStatus::kOk);
-  }
-  result.waypoints.clear();
-  return finish(PlanStatus::kNoRoute);
+  return Answering(roadmap, start, goal, radius, config, deadline).run();
 }
 
 /// Where a path begins that has to leave a place too close to an obstacle first; not found where it

@@ -59,8 +59,14 @@ QueryEnds find_ends(const EsdfMap& esdf, const Point& start, const Point& goal, 
   return {status_of(to.status, false), from.voxel, to.voxel};
 }
 
+double length_over_bound(std::span<const Point> path) {
+  const double straight = (path.back() - path.front()).norm();
+  return straight > 0.0 ? std::max(length_of(path) / straight, 1.0) : 1.0;
+}
+
 void describe(const FreeSpace& space, const KnownStretch& known, PlanResult& result) {
   result.length = length_of(result.waypoints);
+  result.within = length_over_bound(result.waypoints);
   result.clearance = clearance_of(space, result.waypoints, known);
 }
 

@@ -138,6 +138,7 @@ void build_on_edges(VoxelMask traversable, VoxelMask edges, const BuildConfig& c
   clock.end(report.seconds.attach);
 
   clock.begin("tangents");
+  roadmap.cells = build_cell_graph(esdf, config.min_clearance);
   roadmap.tangents = build_tangent_graph(roadmap, corners_of(config));
   clock.end(report.seconds.tangents);
 

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "short_path.hpp"
+
+#include <algorithm>
+#include <span>
+
+#include "any_angle_search.hpp"
+#include "detour.hpp"
+#include "path_cost.hpp"
+#include "paths/planning_constants.hpp"
+#include "paths/shorten.hpp"
+#include "roadmap/cell_search.hpp"
+#include "voxel_route.hpp"
+
+namespace ridgeway::detail {
+Route path_over_cells(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query,
+                      const Attachment& attachment, const Deadline& deadline) {
+  Route route = search_cells(
+      roadmap, space, {query.start, query.goal, attachment.from, attachment.to, query.radius});
+  return shorten(space, std::move(route), query.radius, deadline);
+}
+
+Route past_what_blocks(const EsdfMap& esdf, const FreeSpace& space, const RouteQuery& query,
+                       Route path, const Deadline& deadline) {
+  Route redirected = redirect(esdf, space, path, query.radius, deadline);
+  if (redirected == path) return path;
+  return shorten(space, std::move(redirected), query.radius, deadline);
+}
+
+Route path_over_voxels(const EsdfMap& esdf, const FreeSpace& space, const RouteQuery& query,
+                       double length, const Deadline& deadline) {
+  const double share = (length / (query.goal - query.start).norm() - 1.0) / (kPlanning.far - 1.0);
+  const LatticeOptions options{
+      .longest = length / esdf.voxel_size,
+      .most_expansions =
+          static_cast<int>(kPlanning.most_voxels * std::min(share, kPlanning.voxel_patience))};
+  const LatticePath path =
+      search_lattice(esdf, query.from, query.to, query.radius, options, deadline);
+  if (path.status != SearchStatus::kFound) return {};
+  return shorten(space, route_over_voxels(esdf, query, path.voxels), query.radius, deadline);
+}
+
+Route shortest_over_voxels(const EsdfMap& esdf, const FreeSpace& space, const RouteQuery& query,
+                           const Deadline& deadline) {
+  const LatticePath path = search_any_angle(esdf, query.from, query.to, query.radius, deadline);
+  if (path.status != SearchStatus::kFound) return {};
+  return shorten(space, route_over_voxels(esdf, query, path.voxels), query.radius, deadline);
+}
+
+Route cheapest(const FreeSpace& space, const RouteQuery& query, std::vector<Route> as_found,
+               Route short_path, const Deadline& deadline) {
+  const PathCost cost(space, query.radius, query.prefer_clearance);
+  const auto is_kept = [&](std::span<const Point> before, std::span<const Point> after) {
+    return cost.is_kept(before, after);
+  };
+  Route best = std::move(short_path);
+  double least = cost.of(best);
+  for (Route& route : as_found) {
+    route = shorten(space, std::move(route), query.radius, deadline, is_kept);
+    const double own = cost.of(route);
+    if (own >= least) continue;
+    least = own;
+    best = std::move(route);
+  }
+  return best;
+}
+
+}  // namespace ridgeway::detail
