@@ -12,18 +12,23 @@ namespace ridgeway::detail {
 /// voxels or radii; `docs/performance.md` has what each is worth.
 struct PlanningConstants {
   // The cell graph (roadmap/build_cell_graph.cpp, roadmap/cell_search.cpp).
-  double cell_room = 2.0;      ///< voxels beyond the radius that a cell's place gains by being wide
-  double cell_centring = 0.5;  ///< voxels of that which a voxel off the middle is worth
+  double cell_room = 1.5;      ///< voxels beyond the widest radius that a cell's place may be wide
+  double cell_centring = 0.5;  ///< voxels of width that a voxel off the middle is worth
   double cell_weight = 1.2;    ///< of A*'s heuristic: less is slower, and paths a little shorter
-  int most_cells = 2500;       ///< taken by a search before it gives up: a millisecond
+  int most_cells = 1000;       ///< taken by a search before it gives up: a third of a millisecond
+  int most_cells_again = 400;  ///< the same where a path is known
+  double landmark_share = 0.93;  ///< of lengths by landmarks that paths are hardly shorter than
+  double cell_excess = 1.1;      ///< of a route over cells over its tight path, at most
+  double winding = 1.25;         ///< of ways over straight lines, to
+  double winding_blocks = 0.05;  ///< of the blocks: there landmarks say more than straight lines
 
-  // What a query tries (planning/plan.cpp). Lengths over the straight line.
-  double near = 1.03;    ///< good enough: no ways past what blocks it are looked for
-  double far = 1.12;     ///< too long to be believed: the sparse graph and the voxels are searched
-  double hardly = 1.05;  ///< a corners' route over its tight path: less, and it knew the place
-  double wider = 1.1;    ///< a wider robot's corners' path over that of the smallest: the same
-  int most_voxels = 1000;       ///< taken by that search at that length: half a millisecond
-  double voxel_patience = 4.0;  ///< so many times as many, at most, where the path is longer
+  // What a query tries (planning/plan.cpp). Lengths over what a path may be expected to have.
+  double near = 1.03;      ///< good enough at any price: no ways past what blocks it are looked for
+  double believed = 1.05;  ///< good enough for a path over corners that knew the place
+  double far = 1.12;       ///< too long to be believed: the sparse graph is searched as well
+  double hardly = 1.05;    ///< a corners' route over its tight path: less, and it knew the place
+  double voxel_reach = 64.0;  ///< voxels of a path up to which those are searched then too,
+  int most_voxels = 1000;     ///< and how many at most: half a millisecond
 
   // Ways past what blocks a stretch (planning/detour.cpp).
   int detour_rays = 6;             ///< around the stretch

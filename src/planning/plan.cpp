@@ -17,6 +17,7 @@
 #include "query.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/free_space.hpp"
+#include "roadmap/cell_search.hpp"
 #include "route.hpp"
 #include "short_path.hpp"
 #include "tangent_path.hpp"
@@ -101,7 +102,7 @@ class Answering {
     if (wants_short() && !tangents.waypoints.empty() && is_enough(tangents) &&
         accept(tangents.waypoints, tangents.known))
       return PlanStatus::kOk;
-    return search(std::move(tangents.waypoints), tangents.is_trusted);
+    return search(std::move(tangents.waypoints));
   }
 
   detail::TangentPath path_over_corners() {
@@ -114,9 +115,10 @@ class Answering {
   }
 
   bool is_enough(const detail::TangentPath& tangents) const {
-    const double over = excess(tangents.waypoints);
-    if (config_.within > 0.0) return over <= config_.within;
-    return config_.quick || over <= detail::kPlanning.near;
+    if (config_.within > 0.0) return excess(tangents.waypoints) <= config_.within;
+    return config_.quick ||
+           over_expected(tangents.waypoints) <=
+               (tangents.is_trusted ? detail::kPlanning.believed : detail::kPlanning.near);
   }
 
   /// How many times the bound a path is long; infinite for none.
@@ -124,8 +126,15 @@ class Answering {
     return path.empty() ? std::numeric_limits<double>::infinity() : detail::length_over_bound(path);
   }
 
-  /// `is_trusted`: of the path known.
-  PlanStatus search(Route known, bool is_trusted) {
+  /// How many times a path is as long as one may be expected to be; infinite for none.
+  double over_expected(const Route& path) const {
+    if (path.empty()) return std::numeric_limits<double>::infinity();
+    const double straight = (query_.goal - query_.start).norm();
+    const double expected = detail::length_between(roadmap_, query_.from, query_.to);
+    return length_of(path) / std::max(straight, expected);
+  }
+
+  PlanStatus search(Route known) {
     double began = seconds_now();
     const auto lap = [&](double& seconds) {
       const double now = seconds_now();
@@ -140,12 +149,9 @@ class Answering {
     const bool is_connected =
         attachment.reach == detail::Reach::kConnected || attachment.reach == detail::Reach::kJoined;
     if (wants_short() && is_over_graph && is_connected) {
-      known = shorter(std::move(known),
-                      detail::path_over_cells(roadmap_, space_, query_, attachment, deadline_));
-      known = improve(std::move(known));
+      search_cells(attachment, known);
       lap(result_.seconds.shorten);
-      if ((is_plausible(known) || (is_trusted && config_.within == 0.0)) && accept(known, {}))
-        return PlanStatus::kOk;
+      if (is_plausible(known) && accept(known, {})) return PlanStatus::kOk;
     }
     detail::RouteResult found =
         detail::find_route(roadmap_, query_, attachment, config_.planner, deadline_);
@@ -167,24 +173,42 @@ class Answering {
     return accept(std::move(found.route), found.known) ? PlanStatus::kOk : PlanStatus::kNoRoute;
   }
 
+  /// Makes what is known shorter by way of the cells where they have something shorter.
+  void search_cells(const detail::Attachment& attachment, Route& known) {
+    const bool knows_any = !known.empty();
+    detail::CellRoute cells = detail::path_over_cells(
+        roadmap_, space_, query_, attachment, knows_any ? length_of(known) : 0.0, deadline_);
+    is_sure_ = cells.is_direct && (cells.found || (knows_any && !cells.gave_up));
+    known = improve(shorter(std::move(known), std::move(cells.waypoints)));
+  }
+
   bool is_plausible(const Route& path) const {
-    return excess(path) <= (config_.within > 0.0 ? config_.within : detail::kPlanning.far);
+    if (path.empty()) return false;
+    if (config_.within > 0.0) return excess(path) <= config_.within;
+    return over_expected(path) <= detail::kPlanning.far || (is_sure_ && !is_short(path));
+  }
+
+  /// So short that the cells may be too coarse, and a search over voxels comes around.
+  bool is_short(const Route& path) const {
+    return length_of(path) <= detail::kPlanning.voxel_reach * esdf_.voxel_size;
   }
 
   Route shorter(Route a, Route b) const { return excess(b) < excess(a) ? b : a; }
 
   Route improve(Route path) const {
-    if (excess(path) <= detail::kPlanning.near || path.empty()) return path;
+    if (path.empty() || over_expected(path) <= detail::kPlanning.near) return path;
     return detail::past_what_blocks(esdf_, space_, query_, std::move(path), deadline_);
   }
 
   Route tightened(const Route& found, Route known) const {
-    Route path = improve(detail::shorten(space_, found, query_.radius, deadline_));
+    const double shortest =
+        known.empty() ? std::numeric_limits<double>::infinity() : length_of(known);
+    Route path = improve(detail::shorten_below(space_, found, query_.radius, shortest, deadline_));
     path = shorter(std::move(known), std::move(path));
-    if (!is_plausible(path) && !deadline_.has_passed())
+    if (is_short(path) && over_expected(path) > detail::kPlanning.far && !deadline_.has_passed())
       path = shorter(std::move(path),
                      detail::path_over_voxels(esdf_, space_, query_, length_of(path), deadline_));
-    if (config_.within > 0.0 && !is_plausible(path) && !deadline_.has_passed())
+    if (config_.within > 0.0 && excess(path) > config_.within && !deadline_.has_passed())
       path = shorter(std::move(path),
                      improve(detail::shortest_over_voxels(esdf_, space_, query_, deadline_)));
     return path;
@@ -223,6 +247,7 @@ class Answering {
   const Deadline& deadline_;
   detail::RouteQuery query_;
   PlanResult result_;
+  bool is_sure_ = false;  ///< the cells had a way from end to end, or none that is shorter
 };
 
 /// Between places where the robot fits.

@@ -3,6 +3,7 @@
 #include "short_path.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <span>
 
 #include "any_angle_search.hpp"
@@ -14,11 +15,25 @@
 #include "voxel_route.hpp"
 
 namespace ridgeway::detail {
-Route path_over_cells(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query,
-                      const Attachment& attachment, const Deadline& deadline) {
-  Route route = search_cells(
-      roadmap, space, {query.start, query.goal, attachment.from, attachment.to, query.radius});
-  return shorten(space, std::move(route), query.radius, deadline);
+CellRoute path_over_cells(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query,
+                          const Attachment& attachment, double known, const Deadline& deadline) {
+  CellQuery cells{query.start, query.goal, attachment.from, attachment.to, query.radius};
+  if (known > 0.0) {
+    cells.longest = kPlanning.cell_excess * known;
+    cells.most_cells = kPlanning.most_cells_again;
+  }
+  CellRoute route = search_cells(roadmap, space, cells);
+  const double longest = known > 0.0 ? known : std::numeric_limits<double>::infinity();
+  route.waypoints =
+      shorten_below(space, std::move(route.waypoints), query.radius, longest, deadline);
+  return route;
+}
+
+Route shorten_below(const FreeSpace& space, Route route, double radius, double longest,
+                    const Deadline& deadline) {
+  route = skip_waypoints(space, std::move(route), radius);
+  if (length_of(route) > kPlanning.cell_excess * longest) return {};
+  return draw_corners_in(space, route, radius, deadline);
 }
 
 Route past_what_blocks(const EsdfMap& esdf, const FreeSpace& space, const RouteQuery& query,
@@ -30,11 +45,8 @@ Route past_what_blocks(const EsdfMap& esdf, const FreeSpace& space, const RouteQ
 
 Route path_over_voxels(const EsdfMap& esdf, const FreeSpace& space, const RouteQuery& query,
                        double length, const Deadline& deadline) {
-  const double share = (length / (query.goal - query.start).norm() - 1.0) / (kPlanning.far - 1.0);
-  const LatticeOptions options{
-      .longest = length / esdf.voxel_size,
-      .most_expansions =
-          static_cast<int>(kPlanning.most_voxels * std::min(share, kPlanning.voxel_patience))};
+  const LatticeOptions options{.longest = length / esdf.voxel_size,
+                               .most_expansions = kPlanning.most_voxels};
   const LatticePath path =
       search_lattice(esdf, query.from, query.to, query.radius, options, deadline);
   if (path.status != SearchStatus::kFound) return {};

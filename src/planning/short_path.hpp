@@ -2,21 +2,28 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include "roadmap/cell_search.hpp"
 #include "route.hpp"
 
 namespace ridgeway::detail {
 
 /// Between ends that space connects: a route over the cell graph, pulled tight; empty where that
-/// graph has none.
-Route path_over_cells(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query,
-                      const Attachment& attachment, const Deadline& deadline);
+/// graph has none. `known`: length of a path that it has to be shorter than, metres, 0 for none:
+/// then the search is a short one.
+CellRoute path_over_cells(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query,
+                          const Attachment& attachment, double known, const Deadline& deadline);
+
+/// A route pulled tight; empty where it becomes clear that it will not be shorter than `longest`,
+/// metres.
+Route shorten_below(const FreeSpace& space, Route route, double radius, double longest,
+                    const Deadline& deadline);
 
 /// A tight path, or one over ways past what blocks stretches of it, pulled tight.
 Route past_what_blocks(const EsdfMap& esdf, const FreeSpace& space, const RouteQuery& query,
                        Route path, const Deadline& deadline);
 
-/// A path shorter than `length`, pulled tight, by a search over the voxels; empty where it finds
-/// none within its limit, which grows with `length` over the straight line.
+/// A path shorter than `length`, metres, by a search over voxels, pulled tight; empty where it
+/// finds none within its limit.
 Route path_over_voxels(const EsdfMap& esdf, const FreeSpace& space, const RouteQuery& query,
                        double length, const Deadline& deadline);
 

@@ -41,20 +41,6 @@ KnownStretch known_part(const SparseGraph& graph, const Route& path,
   return {};
 }
 
-/// Length of the route over the corners for the smallest robot; 0 where there is none. Edges that
-/// are too narrow for a wider one are missing from its corners, though others may lead there.
-double length_for_smallest(const TangentGraph& tangents, const FreeSpace& space,
-                           const RouteQuery& query) {
-  const std::vector<VertexId> corners =
-      search_tangents(tangents.graph, tangents.hubs, space,
-                      {query.start, query.goal, tangents.graph.min_clearance,
-                       tangents.seen_from(query.from), tangents.seen_from(query.to)});
-  Route route{query.start};
-  for (const VertexId v : corners) route.push_back(tangents.graph.vertices[number(v)].position);
-  route.push_back(query.goal);
-  return corners.empty() ? 0.0 : length_of(route);
-}
-
 /// The corners for a radius: those of the smallest one that is no smaller.
 struct Corners {
   const SparseGraph* graph = nullptr;  ///< none
@@ -95,10 +81,7 @@ TangentPath plan_tangents(const TangentGraph& tangents, const FreeSpace& space,
     // Between corners it is as tight as the paths that they were learnt from.
     path.waypoints = draw_corners_in(space, path.waypoints, query.radius, deadline, {},
                                      {kPlanning.corner_gain, 1, corners.size()});
-    const double length = length_of(path.waypoints);
-    path.is_trusted = as_found <= kPlanning.hardly * length &&
-                      (known.graph == &tangents.graph ||
-                       length <= kPlanning.wider * length_for_smallest(tangents, space, query));
+    path.is_trusted = as_found <= kPlanning.hardly * length_of(path.waypoints);
   }
   path.known = known_part(*known.graph, path.waypoints, corners);
   path.shorten_seconds = seconds_now() - found;

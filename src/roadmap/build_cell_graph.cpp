@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "cell_neighbours.hpp"
 #include "paths/planning_constants.hpp"
@@ -16,26 +15,33 @@ namespace {
 using detail::CellId;
 using detail::CellLattice;
 using detail::kPlanning;
+using detail::kRadiusLevels;
 
-/// Distance of a voxel's centre from that of its cell, voxels.
-double off_centre(int place) {
-  const double middle = 0.5 * (CellGraph::kSide - 1);
-  return Point((place & 3) - middle, (place >> 2 & 3) - middle, (place >> 4) - middle).norm();
-}
+struct PlaceInCell {
+  double off;          ///< its centre from that of the cell, weighed, voxels
+  std::uint8_t place;  ///< as CellGraph::Cell has it
+};
 
 /// The voxels of a cell, those nearest to its centre first.
-std::array<std::uint8_t, CellGraph::kNoPlace> from_centre_out() {
-  std::array<std::uint8_t, CellGraph::kNoPlace> places{};
-  std::iota(places.begin(), places.end(), std::uint8_t{0});
+std::array<PlaceInCell, CellGraph::kNoPlace> from_centre_out() {
+  std::array<PlaceInCell, CellGraph::kNoPlace> places{};
+  const double middle = 0.5 * (CellGraph::kSide - 1);
+  for (std::uint8_t i = 0; i < CellGraph::kNoPlace; ++i) {
+    const Point off((i & 3) - middle, (i >> 2 & 3) - middle, (i >> 4) - middle);
+    places[i] = {kPlanning.cell_centring * off.norm(), i};
+  }
   std::stable_sort(places.begin(), places.end(),
-                   [](int a, int b) { return off_centre(a) < off_centre(b); });
+                   [](const PlaceInCell& a, const PlaceInCell& b) { return a.off < b.off; });
   return places;
 }
 
 class CellGraphBuilder {
  public:
   CellGraphBuilder(const EsdfMap& esdf, double radius)
-      : esdf_(esdf), space_(esdf), lattice_(esdf.layout), radius_(radius) {}
+      : esdf_(esdf), space_(esdf), lattice_(esdf.layout), radius_(radius) {
+    for (std::size_t i = 0; i < thresholds_.size(); ++i)
+      thresholds_[i] = least_clearance(radius * kRadiusLevels[i], esdf.voxel_size);
+  }
 
   CellGraph run() {
     const std::size_t count = std::size_t{CellGraph::kPerBlock} * esdf_.layout.block_count();
@@ -51,7 +57,7 @@ class CellGraphBuilder {
     parallel_for_each_index(
         count, [&](std::size_t i) { link(static_cast<CellId>(i)); }, 64);
     number_parts();
-    return {std::move(cells_)};
+    return {std::move(cells_), {}, {}};
   }
 
  private:
@@ -76,22 +82,21 @@ class CellGraphBuilder {
     return widest >= least_clearance(radius_, esdf_.voxel_size);
   }
 
-  /// Wide, but no wider than pays, and near the middle: there most neighbours are in sight.
+  /// Wide, but no wider than the widest robots need to turn, and near the middle: there most
+  /// neighbours are in sight.
   void choose_place(CellId cell) {
     static const auto kPlaces = from_centre_out();
-    const SquaredHalves threshold = least_clearance(radius_, esdf_.voxel_size);
-    const double enough = radius_ / esdf_.voxel_size + kPlanning.cell_room;
+    const double enough = kRadiusLevels.back() * radius_ / esdf_.voxel_size + kPlanning.cell_room;
     double best = -std::numeric_limits<double>::infinity();
-    for (const std::uint8_t place : kPlaces) {
+    for (const auto& [off, place] : kPlaces) {
+      if (enough - off <= best) return;  // so are those after it
       const VoxelId id = voxel_of(cell, place);
-      if (esdf_.squared[id] < threshold || esdf_.state[id] != VoxelState::kFree) continue;
+      if (esdf_.squared[id] < thresholds_.front() || esdf_.state[id] != VoxelState::kFree) continue;
       const double width = 0.5 * std::sqrt(static_cast<double>(esdf_.squared[id]));
-      const double worth = std::min(width, enough) - kPlanning.cell_centring * off_centre(place);
-      if (worth > best) {
+      if (const double worth = std::min(width, enough) - off; worth > best) {
         best = worth;
         cells_[cell].place = place;
       }
-      if (width >= enough) return;  // those after it are farther off
     }
   }
 
@@ -100,25 +105,38 @@ class CellGraphBuilder {
     for (int d = kCentre + 1; d < 27; ++d) {
       const CellId other = lattice_.neighbour(cell, d);
       if (other == detail::kNoCell || cells_[other].place == CellGraph::kNoPlace) continue;
-      const double code = CellGraph::kCodesPerRadius * clearance_between(cell, other) / radius_;
-      cells_[cell].clearance[static_cast<std::size_t>(d - kCentre - 1)] =
-          static_cast<std::uint8_t>(std::min(code + 1e-6, 255.0));
+      cells_[cell].widths[static_cast<std::size_t>(d - kCentre - 1)] = width_between(cell, other);
     }
   }
 
-  /// A bound from the two ends where that is enough; else whether the smallest robot fits.
-  double clearance_between(CellId a, CellId b) const {
-    const VoxelId from = voxel_of(a, cells_[a].place), to = voxel_of(b, cells_[b].place);
+  /// How many of the levels of radii pass between two places. Only for the smallest robot single
+  /// obstacles are looked at.
+  std::uint8_t width_between(CellId a, CellId b) const {
+    const SquaredHalves from = esdf_.squared[voxel_of(a, cells_[a].place)],
+                        to = esdf_.squared[voxel_of(b, cells_[b].place)];
     const VoxelIndex along =
         lattice_.voxel_at(b, cells_[b].place) - lattice_.voxel_at(a, cells_[a].place);
     const SquaredHalves bound =
-        FreeSpace::move_bound(esdf_.squared[from], esdf_.squared[to],
-                              along.x * along.x + along.y * along.y + along.z * along.z);
-    const bool is_wide = bound >= least_clearance(radius_, esdf_.voxel_size);
-    if (is_wide && (esdf_.unknown == UnknownPolicy::kObstacle ||
-                    space_.is_known_free(place_of(a), place_of(b))))
-      return std::max(radius_, bound.metres(esdf_.voxel_size));
-    return space_.is_free(place_of(a), place_of(b), radius_) ? radius_ : 0.0;
+        FreeSpace::move_bound(from, to, along.x * along.x + along.y * along.y + along.z * along.z);
+    const SquaredHalves ends = from < to ? from : to;
+    const Point place = place_of(a), other = place_of(b);
+    const bool is_known = esdf_.unknown == UnknownPolicy::kObstacle ||
+                          (bound >= thresholds_.front() && space_.is_known_free(place, other));
+    std::uint8_t width = levels_below(ends);
+    const std::uint8_t sure = is_known ? levels_below(bound) : 0;
+    for (; width > sure; --width) {
+      const double radius = radius_ * kRadiusLevels[width - 1];
+      if (width > 1 ? space_.is_clearly_free(place, other, radius)
+                    : space_.is_free(place, other, radius))
+        break;
+    }
+    return width;
+  }
+
+  std::uint8_t levels_below(SquaredHalves clearance) const {
+    std::uint8_t levels = 0;
+    while (levels < thresholds_.size() && clearance >= thresholds_[levels]) ++levels;
+    return levels;
   }
 
   void number_parts() {
@@ -135,7 +153,7 @@ class CellGraphBuilder {
         for (int d = 0; d < 27; ++d) {
           if (d == kCentre) continue;
           const CellId next = lattice_.neighbour(cell, d);
-          if (next == detail::kNoCell || detail::edge_code(cells_, cell, next, d) == 0 ||
+          if (next == detail::kNoCell || detail::edge_width(cells_, cell, next, d) == 0 ||
               cells_[next].part != CellGraph::kNoPart)
             continue;
           cells_[next].part = part;
@@ -150,13 +168,16 @@ class CellGraphBuilder {
   const FreeSpace space_;
   const CellLattice lattice_;
   const double radius_;
+  std::array<SquaredHalves, kRadiusLevels.size()> thresholds_;
   std::vector<CellGraph::Cell> cells_;
 };
 
 }  // namespace
 
 CellGraph build_cell_graph(const EsdfMap& esdf, double min_clearance) {
-  return CellGraphBuilder(esdf, min_clearance).run();
+  CellGraph graph = CellGraphBuilder(esdf, min_clearance).run();
+  detail::place_cell_landmarks(esdf.layout, graph);
+  return graph;
 }
 
 }  // namespace ridgeway

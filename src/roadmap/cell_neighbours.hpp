@@ -36,20 +36,31 @@ class CellLattice {
   }
 
   CellId neighbour(CellId cell, int direction) const {
-    const VoxelIndex& o = offset_of(direction);
-    const int x = static_cast<int>(cell & 1) + o.x, y = static_cast<int>(cell >> 1 & 1) + o.y,
-              z = static_cast<int>(cell >> 2 & 1) + o.z;
+    const VoxelIndex there = octant_beyond(cell, direction);
     std::uint32_t rank = cell / CellGraph::kPerBlock;
-    if (((x | y | z) & ~1) != 0) {
-      const int beyond = (x >> 1) + 1 + 3 * ((y >> 1) + 1) + 9 * ((z >> 1) + 1);
+    if (const int beyond = direction_of(there); beyond != kCentre) {
       const std::uint32_t slot = layout_.neighbour_block(layout_.slot_at(rank), beyond);
       if (slot == BlockLayout::kNoBlock) return kNoCell;
       rank = layout_.rank(slot);
     }
-    return rank * CellGraph::kPerBlock + static_cast<CellId>((x & 1) | (y & 1) << 1 | (z & 1) << 2);
+    return rank * CellGraph::kPerBlock +
+           static_cast<CellId>((there.x & 1) | (there.y & 1) << 1 | (there.z & 1) << 2);
+  }
+
+  /// In which direction the block of that neighbour lies.
+  static int block_direction(CellId cell, int direction) {
+    return direction_of(octant_beyond(cell, direction));
   }
 
  private:
+  /// Counted in cells from the first one of the cell's block.
+  static VoxelIndex octant_beyond(CellId cell, int direction) {
+    const auto bit = [&](unsigned k) { return static_cast<int>(cell >> k & 1); };
+    return VoxelIndex{bit(0), bit(1), bit(2)} + offset_of(direction);
+  }
+  static int direction_of(const VoxelIndex& octant) {
+    return (octant.x >> 1) + 1 + 3 * ((octant.y >> 1) + 1) + 9 * ((octant.z >> 1) + 1);
+  }
   static CellId octant_of(const VoxelIndex& v) {
     return static_cast<CellId>((v.x >> 2 & 1) | (v.y >> 2 & 1) << 1 | (v.z >> 2 & 1) << 2);
   }
@@ -57,12 +68,14 @@ class CellLattice {
   const BlockLayout& layout_;
 };
 
-/// Clearance of the edge from a cell to its neighbour in a direction, as CellGraph::Cell has it.
-inline std::uint8_t edge_code(const std::vector<CellGraph::Cell>& cells, CellId from, CellId to,
-                              int direction) {
-  return direction > kCentre
-             ? cells[from].clearance[static_cast<std::size_t>(direction - kCentre - 1)]
-             : cells[to].clearance[static_cast<std::size_t>(kCentre - 1 - direction)];
+/// Width of the edge from a cell to its neighbour in a direction, as CellGraph::Cell has it.
+inline std::uint8_t edge_width(const std::vector<CellGraph::Cell>& cells, CellId from, CellId to,
+                               int direction) {
+  return direction > kCentre ? cells[from].widths[static_cast<std::size_t>(direction - kCentre - 1)]
+                             : cells[to].widths[static_cast<std::size_t>(kCentre - 1 - direction)];
 }
+
+/// Lengths from landmarks to all blocks, where straight lines say little.
+void place_cell_landmarks(const BlockLayout& layout, CellGraph& graph);
 
 }  // namespace ridgeway::detail

@@ -53,15 +53,31 @@ class MetCells {
   std::size_t count_ = 0;
 };
 
-/// Cells in sight of a place on the way from an end.
+/// Cells around a place on the way from an end. Whether they are in sight of it is looked at only
+/// where that counts.
 struct Approach {
+  enum class Sight : std::uint8_t { kUnknown, kYes, kNo };
   struct Join {
     CellId cell;
     float length;  ///< of the segment to its place, voxels
+    Sight sight = Sight::kUnknown;
   };
+  Point place;              ///< metres
   std::size_t walked = 0;   ///< voxels of the way that lead to the place; 0: the end itself
-  std::vector<Join> joins;  ///< by direction from the place's own cell
+  std::vector<Join> joins;  ///< the nearest first
 };
+
+/// How many levels of radii an edge has to let through for a radius over the smallest; the widest
+/// have to be looked at beyond all levels.
+static std::size_t width_for(double factor) {
+  std::size_t width = 1;
+  while (width < kRadiusLevels.size() && factor > kRadiusLevels[width - 1] * (1.0 + 1e-9)) ++width;
+  return width;
+}
+
+const CellGraph::Lengths& lengths_for(const CellGraph& cells, double factor) {
+  return width_for(factor) == kRadiusLevels.size() ? cells.lengths_wide : cells.lengths;
+}
 
 class CellSearch {
  public:
@@ -71,27 +87,36 @@ class CellSearch {
         space_(space),
         query_(query),
         lattice_(roadmap.esdf.layout),
-        least_code_(static_cast<int>(
-            std::ceil(CellGraph::kCodesPerRadius * query.radius / roadmap.min_clearance - 1e-6))),
-        goal_((query.goal / roadmap.esdf.voxel_size).cast<float>()) {}
+        is_beyond_levels_(query.radius >
+                          kRadiusLevels.back() * roadmap.min_clearance * (1.0 + 1e-9)),
+        least_width_(width_for(query.radius / roadmap.min_clearance)),
+        lengths_(lengths_for(roadmap.cells, query.radius / roadmap.min_clearance)),
+        goal_((query.goal / roadmap.esdf.voxel_size).cast<float>()),
+        longest_(static_cast<float>(query.longest / roadmap.esdf.voxel_size)) {}
 
-  std::vector<Point> run() {
+  CellRoute run() {
     Approach out = look_around(query_.start, 0), in = look_around(query_.goal, 0);
     while (!have_common_part(out, in)) {
       const bool can_walk = walk_on(query_.from, out);
       if (!walk_on(query_.to, in) && !can_walk) return {};
     }
-    const CellId last = search(out.joins, in.joins);
-    return last == kNoCell ? std::vector<Point>{} : route_over(out, in, last);
+    aim_at(in.joins.front().cell);
+    const CellId last = search(out, in);
+    CellRoute result{
+        {}, last != kNoCell, out.walked == 0 && in.walked == 0, taken_ >= query_.most_cells};
+    if (last != kNoCell) result.waypoints = route_over(out, in, last);
+    return result;
   }
 
  private:
   using Place = Eigen::Vector3f;  // voxels
 
-  Place place_of(CellId cell) const {
-    const VoxelIndex v = lattice_.voxel_at(cell, cells_[cell].place);
-    return {static_cast<float>(v.x) + 0.5f, static_cast<float>(v.y) + 0.5f,
-            static_cast<float>(v.z) + 0.5f};
+  /// Where a cell is passed that begins at a voxel.
+  Place place_in(CellId cell, const VoxelIndex& first) const {
+    const int place = cells_[cell].place;
+    return {static_cast<float>(first.x + (place & 3)) + 0.5f,
+            static_cast<float>(first.y + (place >> 2 & 3)) + 0.5f,
+            static_cast<float>(first.z + (place >> 4)) + 0.5f};
   }
   Point point_of(CellId cell) const {
     return centre_of(lattice_.voxel_at(cell, cells_[cell].place), esdf_.voxel_size);
@@ -101,34 +126,41 @@ class CellSearch {
   }
 
   Approach look_around(const Point& place, std::size_t walked) const {
-    Approach approach{walked, {}};
+    Approach approach{place, walked, {}};
     const CellId own = lattice_.cell_of(voxel_at(place, esdf_.voxel_size));
     for (int d = 0; d < 27 && own != kNoCell; ++d) {
       const CellId cell = lattice_.neighbour(own, d);
       if (cell == kNoCell || cells_[cell].part == CellGraph::kNoPart) continue;
-      const Point there = point_of(cell);
-      if (space_.is_free(place, there, query_.radius))
-        approach.joins.push_back(
-            {cell, static_cast<float>((there - place).norm() / esdf_.voxel_size)});
+      const double length = (point_of(cell) - place).norm() / esdf_.voxel_size;
+      approach.joins.push_back({cell, static_cast<float>(length)});
     }
+    std::stable_sort(
+        approach.joins.begin(), approach.joins.end(),
+        [](const Approach::Join& a, const Approach::Join& b) { return a.length < b.length; });
     return approach;
+  }
+
+  bool sees(const Approach& approach, Approach::Join& join) const {
+    if (join.sight == Approach::Sight::kUnknown)
+      join.sight = space_.is_free(approach.place, point_of(join.cell), query_.radius)
+                       ? Approach::Sight::kYes
+                       : Approach::Sight::kNo;
+    return join.sight == Approach::Sight::kYes;
   }
 
   /// Looks around from a cell farther along the way; false at its end.
   bool walk_on(const AttachWay& way, Approach& approach) const {
     if (approach.walked >= way.voxels.size()) return false;
     const std::size_t walked = std::min(approach.walked + CellGraph::kSide, way.voxels.size());
-    Approach next = look_around(point_of_voxel(way.voxels[walked - 1]), walked);
-    approach = std::move(next);
+    approach = look_around(point_of_voxel(way.voxels[walked - 1]), walked);
     return true;
   }
 
-  bool have_common_part(const Approach& a, const Approach& b) const {
-    return std::any_of(a.joins.begin(), a.joins.end(), [&](const Approach::Join& x) {
-      return std::any_of(b.joins.begin(), b.joins.end(), [&](const Approach::Join& y) {
-        return cells_[x.cell].part == cells_[y.cell].part;
-      });
-    });
+  bool have_common_part(Approach& a, Approach& b) const {
+    for (Approach::Join& x : a.joins)
+      for (Approach::Join& y : b.joins)
+        if (cells_[x.cell].part == cells_[y.cell].part && sees(a, x) && sees(b, y)) return true;
+    return false;
   }
 
   struct Open {
@@ -139,52 +171,74 @@ class CellSearch {
     }
   };
 
-  void reach(CellId cell, const Place& place, float cost, CellId from) {
-    MetCells::Met& met = met_[cell];
-    if (cost >= met.cost) return;
+  void aim_at(CellId goal) {
+    if (lengths_.empty()) return;
+    goal_lengths_ = lengths_[goal / CellGraph::kPerBlock];
+  }
+
+  /// Of the way to the goal, about, voxels.
+  float rest_from(CellId cell, const Place& place) const {
+    float rest = (place - goal_).norm();
+    if (lengths_.empty()) return rest;
+    constexpr auto kShare = static_cast<float>(kPlanning.landmark_share);
+    const auto& own = lengths_[cell / CellGraph::kPerBlock];
+    for (std::size_t k = 0; k < own.size(); ++k)
+      rest = std::max(rest, kShare * std::abs(own[k] - goal_lengths_[k]));
+    return rest;
+  }
+
+  void reach(CellId cell, float cost, CellId from, float rest, MetCells::Met& met) {
     met.cost = cost;
     met.from = from;
-    const float rest = (place - goal_).norm();
     open_.push({cost + static_cast<float>(kPlanning.cell_weight) * rest, cost, cell});
   }
 
   /// The last cell of the best route found, or kNoCell.
-  CellId search(const std::vector<Approach::Join>& first, const std::vector<Approach::Join>& last) {
-    for (const Approach::Join& join : first)
-      reach(join.cell, place_of(join.cell), join.length, join.cell);
-    float best = kFar;
+  CellId search(Approach& out, Approach& in) {
+    for (Approach::Join& join : out.joins)
+      if (sees(out, join)) {
+        const Place place = place_in(join.cell, lattice_.first_voxel(join.cell));
+        reach(join.cell, join.length, join.cell, rest_from(join.cell, place), met_[join.cell]);
+      }
+    float best = longest_;
     CellId best_last = kNoCell;
-    for (int taken = 0; !open_.empty() && taken < kPlanning.most_cells; ++taken) {
+    for (; !open_.empty() && taken_ < query_.most_cells; ++taken_) {
       const Open next = open_.top();
       open_.pop();
-      if (next.estimate >= best) break;
+      if (best_last != kNoCell && next.estimate >= best) break;
       if (next.cost > met_[next.cell].cost) continue;
-      for (const Approach::Join& join : last)
-        if (join.cell == next.cell && next.cost + join.length < best) {
+      for (Approach::Join& join : in.joins)
+        if (join.cell == next.cell && next.cost + join.length < best && sees(in, join)) {
           best = next.cost + join.length;
           best_last = next.cell;
         }
-      expand(next);
+      expand(next, best);
     }
     return best_last;
   }
 
-  void expand(const Open& here) {
-    const Place place = place_of(here.cell);
+  /// `best`: length that ways have to stay below, voxels.
+  void expand(const Open& here, float best) {
+    const VoxelIndex first = lattice_.first_voxel(here.cell);
+    const Place place = place_in(here.cell, first);
     for (int d = 0; d < 27; ++d) {
       if (d == kCentre) continue;
       const CellId next = lattice_.neighbour(here.cell, d);
       if (next == kNoCell) continue;
-      const int code = edge_code(cells_, here.cell, next, d);
-      if (code == 0) continue;
-      const Place there = place_of(next);
-      const float cost = here.cost + (there - place).norm();
-      if (cost < met_[next].cost && (code >= least_code_ || is_free(here.cell, next)))
-        reach(next, there, cost, here.cell);
+      const std::size_t width = edge_width(cells_, here.cell, next, d);
+      if (width < least_width_) continue;
+      const VoxelIndex& o = offset_of(d);
+      const Place there =
+          place_in(next, first + VoxelIndex{CellGraph::kSide * o.x, CellGraph::kSide * o.y,
+                                            CellGraph::kSide * o.z});
+      const float cost = here.cost + (there - place).norm(), rest = rest_from(next, there);
+      if (cost + rest >= best) continue;
+      MetCells::Met& met = met_[next];
+      if (cost < met.cost && (!is_beyond_levels_ || is_free(here.cell, next)))
+        reach(next, cost, here.cell, rest, met);
     }
   }
 
-  /// The clearance that edges know is rounded down, and often a bound.
   bool is_free(CellId a, CellId b) const {
     return space_.is_free(point_of(a), point_of(b), query_.radius);
   }
@@ -209,16 +263,31 @@ class CellSearch {
   const FreeSpace& space_;
   const CellQuery& query_;
   const CellLattice lattice_;
-  const int least_code_;
+  const bool is_beyond_levels_;  ///< edges may be free that the widest robots pass
+  const std::size_t least_width_;
+  const CellGraph::Lengths& lengths_;
+  std::array<float, CellGraph::kLandmarks> goal_lengths_{};
   const Place goal_;
+  const float longest_;
   MetCells met_;
   std::priority_queue<Open> open_;
+  int taken_ = 0;  ///< cells
 };
 
 }  // namespace
 
-std::vector<Point> search_cells(const Roadmap& roadmap, const FreeSpace& space,
-                                const CellQuery& query) {
+double length_between(const Roadmap& roadmap, VoxelId a, VoxelId b) {
+  const CellGraph::Lengths& lengths = roadmap.cells.lengths;
+  if (lengths.empty()) return 0.0;
+  const auto& from = lengths[roadmap.esdf.layout.rank(a / kBlockVoxels)];
+  const auto& to = lengths[roadmap.esdf.layout.rank(b / kBlockVoxels)];
+  float length = 0.0f;
+  for (std::size_t k = 0; k < from.size(); ++k)
+    length = std::max(length, std::abs(from[k] - to[k]));
+  return kPlanning.landmark_share * length * roadmap.esdf.voxel_size;
+}
+
+CellRoute search_cells(const Roadmap& roadmap, const FreeSpace& space, const CellQuery& query) {
   if (roadmap.cells.cells.empty()) return {};
   return CellSearch(roadmap, space, query).run();
 }

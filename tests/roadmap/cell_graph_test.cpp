@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <random>
 
+#include "paths/planning_constants.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
@@ -46,12 +47,12 @@ TEST(CellGraph, EveryPlaceAndEdgeKeepsItsClearance) {
         const detail::CellId next = lattice.neighbour(cell, d);
         if (next == detail::kNoCell) continue;
         EXPECT_EQ(lattice.neighbour(next, opposite(d)), cell);
-        const int code = detail::edge_code(cells, cell, next, d);
-        if (code == 0) continue;
+        const std::size_t width = detail::edge_width(cells, cell, next, d);
+        if (width == 0) continue;
         ++edges;
         EXPECT_EQ(cells[cell].part, cells[next].part);
         EXPECT_GE(space.clearance(place(cell), place(next)) * (1.0 + 1e-6),
-                  kClearance * code / CellGraph::kCodesPerRadius);
+                  kClearance * detail::kRadiusLevels[width - 1]);
       }
     }
   }
@@ -64,8 +65,7 @@ TEST(CellGraph, IsTheSameForAnyNumberOfThreads) {
   const std::vector<CellGraph::Cell> one = with_threads(1, run), two = with_threads(2, run);
   EXPECT_TRUE(std::equal(one.begin(), one.end(), two.begin(), two.end(),
                          [](const CellGraph::Cell& a, const CellGraph::Cell& b) {
-                           return a.place == b.place && a.clearance == b.clearance &&
-                                  a.part == b.part;
+                           return a.place == b.place && a.widths == b.widths && a.part == b.part;
                          }));
 }
 
@@ -88,7 +88,8 @@ TEST(CellGraph, RoutesAreFreeAtTheirRadius) {
         const detail::AttachWay out = detail::follow_attach(roadmap, from, radius);
         const detail::AttachWay in = detail::follow_attach(roadmap, to, radius);
         const std::vector<Point> route =
-            detail::search_cells(roadmap, space, {place(from), place(to), out, in, radius});
+            detail::search_cells(roadmap, space, {place(from), place(to), out, in, radius})
+                .waypoints;
         if (route.empty()) continue;
         ++found;
         EXPECT_EQ(route.front(), place(from));
