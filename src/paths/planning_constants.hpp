@@ -18,28 +18,22 @@ struct PlanningConstants {
   int most_cells = 1000;       ///< taken by a search before it gives up: a third of a millisecond
   int most_cells_again = 400;  ///< the same where a path is known
   double landmark_share = 0.93;  ///< of lengths by landmarks that paths are hardly shorter than
-  double cell_excess = 1.1;      ///< of a route over cells over its tight path, at most
-  double winding = 1.25;         ///< of ways over straight lines, to
-  double winding_blocks = 0.05;  ///< of the blocks: there landmarks say more than straight lines
+  double winding = 1.1;  ///< of ways over straight lines on average: landmarks say more than those
 
   // What a query tries (planning/plan.cpp). Lengths over what a path may be expected to have.
   double near = 1.03;      ///< good enough at any price: no ways past what blocks it are looked for
-  double believed = 1.05;  ///< good enough for a path over corners that knew the place
+  double believed = 1.06;  ///< good enough for a path over corners
   double far = 1.12;       ///< too long to be believed: the sparse graph is searched as well
-  double hardly = 1.05;    ///< a corners' route over its tight path: less, and it knew the place
-  double voxel_reach = 64.0;  ///< voxels of a path up to which those are searched then too,
-  int most_voxels = 1000;     ///< and how many at most: half a millisecond
+  double as_found = 1.1;   ///< a route over cells or corners over its tight path, at most
+  int voxel_reach = 32;    ///< of twice as many voxels is a path for which their square is searched
 
   // Ways past what blocks a stretch (planning/detour.cpp).
   int detour_rays = 6;             ///< around the stretch
-  int detour_tries = 3;            ///< places on a ray,
-  double detour_widening = 1.35;   ///< each so many times as far off as the one before
   int detour_corners = 2;          ///< of a way
   std::size_t detour_stretch = 3;  ///< segments that a way may replace
   double detour_excess = 0.02;  ///< of the path's length that a stretch is too long: worth a look
 
   // Pulling tight (paths/shorten.cpp).
-  int tight_rounds = 6;       ///< over all corners, at most
   int tight_bisections = 6;   ///< of a move
   double tight_gain = 2e-3;   ///< of the path's length: what a move must gain
   double corner_gain = 1e-2;  ///< the same between corners that were learnt tight
@@ -59,12 +53,9 @@ struct PlanningConstants {
   // Learning corners (roadmap/build_tangent_graph.cpp, corner_*.cpp).
   std::size_t first_pairs = 250;  ///< of places to learn from at first
   std::size_t asked_pairs = 100;  ///< of places between which new paths show how much is known
-  std::size_t least_asked = 20;   ///< paths among them, or nothing is known
-  double as_short = 1.1;          ///< a known route over the tight path, at most
   double known = 0.85;            ///< of the paths: enough is learnt
   double hopeless = 0.75;         ///< of the paths: less, and the map does without corners
   float shunning = 1.6f;          ///< factor on edges that the first of two routes took
-  double merge_distance = 1.0;    ///< radii: nearer corners may become one
   std::size_t merge_tries = 4;    ///< corners that may stand for one
   std::size_t linked = 16;        ///< nearest corners that one is linked to
   double link_saving = 1.005;     ///< of other ways over an edge: less, and it goes

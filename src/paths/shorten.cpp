@@ -269,8 +269,8 @@ std::vector<Point> draw_corners_in(const FreeSpace& space, const std::vector<Poi
                                    double radius, const Deadline& deadline,
                                    const MayReplace& may_replace, const DrawingIn& drawing) {
   Tightening tightening(space, path, radius, may_replace, drawing);
-  for (int round = 0; round < kPlanning.tight_rounds && !deadline.has_passed(); ++round)
-    if (!tightening.run_round(round)) break;
+  for (int round = 0; !deadline.has_passed() && tightening.run_round(round); ++round) {
+  }
   return tightening.path();
 }
 

@@ -116,9 +116,7 @@ class Answering {
 
   bool is_enough(const detail::TangentPath& tangents) const {
     if (config_.within > 0.0) return excess(tangents.waypoints) <= config_.within;
-    return config_.quick ||
-           over_expected(tangents.waypoints) <=
-               (tangents.is_trusted ? detail::kPlanning.believed : detail::kPlanning.near);
+    return config_.quick || over_expected(tangents.waypoints) <= detail::kPlanning.believed;
   }
 
   /// How many times the bound a path is long; infinite for none.
@@ -190,7 +188,7 @@ class Answering {
 
   /// So short that the cells may be too coarse, and a search over voxels comes around.
   bool is_short(const Route& path) const {
-    return length_of(path) <= detail::kPlanning.voxel_reach * esdf_.voxel_size;
+    return length_of(path) <= 2.0 * detail::kPlanning.voxel_reach * esdf_.voxel_size;
   }
 
   Route shorter(Route a, Route b) const { return excess(b) < excess(a) ? b : a; }

@@ -19,7 +19,7 @@ CellRoute path_over_cells(const Roadmap& roadmap, const FreeSpace& space, const 
                           const Attachment& attachment, double known, const Deadline& deadline) {
   CellQuery cells{query.start, query.goal, attachment.from, attachment.to, query.radius};
   if (known > 0.0) {
-    cells.longest = kPlanning.cell_excess * known;
+    cells.longest = kPlanning.as_found * known;
     cells.most_cells = kPlanning.most_cells_again;
   }
   CellRoute route = search_cells(roadmap, space, cells);
@@ -32,7 +32,7 @@ CellRoute path_over_cells(const Roadmap& roadmap, const FreeSpace& space, const 
 Route shorten_below(const FreeSpace& space, Route route, double radius, double longest,
                     const Deadline& deadline) {
   route = skip_waypoints(space, std::move(route), radius);
-  if (length_of(route) > kPlanning.cell_excess * longest) return {};
+  if (length_of(route) > kPlanning.as_found * longest) return {};
   return draw_corners_in(space, route, radius, deadline);
 }
 
@@ -46,7 +46,7 @@ Route past_what_blocks(const EsdfMap& esdf, const FreeSpace& space, const RouteQ
 Route path_over_voxels(const EsdfMap& esdf, const FreeSpace& space, const RouteQuery& query,
                        double length, const Deadline& deadline) {
   const LatticeOptions options{.longest = length / esdf.voxel_size,
-                               .most_expansions = kPlanning.most_voxels};
+                               .most_expansions = kPlanning.voxel_reach * kPlanning.voxel_reach};
   const LatticePath path =
       search_lattice(esdf, query.from, query.to, query.radius, options, deadline);
   if (path.status != SearchStatus::kFound) return {};

@@ -77,11 +77,9 @@ TangentPath plan_tangents(const TangentGraph& tangents, const FreeSpace& space,
     path.waypoints.push_back(known.graph->vertices[number(v)].position);
   path.waypoints.push_back(query.goal);
   if (!as_it_is) {
-    const double as_found = length_of(path.waypoints);
     // Between corners it is as tight as the paths that they were learnt from.
     path.waypoints = draw_corners_in(space, path.waypoints, query.radius, deadline, {},
                                      {kPlanning.corner_gain, 1, corners.size()});
-    path.is_trusted = as_found <= kPlanning.hardly * length_of(path.waypoints);
   }
   path.known = known_part(*known.graph, path.waypoints, corners);
   path.shorten_seconds = seconds_now() - found;

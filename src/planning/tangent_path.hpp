@@ -9,9 +9,8 @@ namespace ridgeway::detail {
 
 /// The tangent graph's route, pulled tight, or as it is where that has to do.
 struct TangentPath {
-  Route waypoints;          ///< empty where there is none
-  KnownStretch known;       ///< of it
-  bool is_trusted = false;  ///< it hardly became shorter: the graph knows the place
+  Route waypoints;     ///< empty where there is none
+  KnownStretch known;  ///< of it
   double search_seconds = 0.0, shorten_seconds = 0.0;
 };
 TangentPath plan_tangents(const TangentGraph& tangents, const FreeSpace& space,

@@ -53,9 +53,7 @@ std::vector<VertexId> look_around(const FreeSpace& space, double radius,
 class Learning {
  public:
   explicit Learning(const Roadmap& roadmap)
-      : roadmap_(roadmap),
-        space_(roadmap.esdf),
-        merging_(roadmap, detail::kPlanning.merge_distance * roadmap.min_clearance) {
+      : roadmap_(roadmap), space_(roadmap.esdf), merging_(roadmap, roadmap.min_clearance) {
     BlockCells cells = number_cells(roadmap.esdf.layout);
     widest_ = widest_of_cells(roadmap, cells);
     tangent_.cell_of_block = std::move(cells.cell_of_block);
@@ -108,7 +106,7 @@ class Learning {
     std::vector<const SampledPath*> asked;
     for (const SampledPath& path : paths)
       if (asked.empty() || asked.back()->from != path.from) asked.push_back(&path);
-    if (asked.size() < detail::kPlanning.least_asked) return 0.0;
+    if (5 * asked.size() < detail::kPlanning.asked_pairs) return 0.0;
     std::vector<char> is_known(asked.size());
     parallel_for_each_index(asked.size(), [&](std::size_t i) { is_known[i] = knows(*asked[i]); });
     return static_cast<double>(std::count(is_known.begin(), is_known.end(), 1)) /
@@ -117,7 +115,7 @@ class Learning {
 
   /// Whether there is a route about as short as a path.
   bool knows(const SampledPath& path) const {
-    const double enough = detail::kPlanning.as_short * length_of(path.waypoints);
+    const double enough = detail::kPlanning.as_found * length_of(path.waypoints);
     const Point &start = path.waypoints.front(), &goal = path.waypoints.back();
     const double radius = roadmap_.min_clearance;
     Sources first;

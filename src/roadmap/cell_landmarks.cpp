@@ -64,23 +64,24 @@ class BlockGraph {
   }
   float length(std::uint32_t rank) const { return search_.cost(rank); }
 
-  /// Of the part that has the most blocks, the first one, and the one farthest from that; for which
-  /// blocks ways are much longer than straight lines is counted.
+  /// Of the part that has the most blocks, the first one, and the one farthest from that; with
+  /// how long ways from there and straight lines are, summed over its blocks.
   struct Part {
     std::uint32_t first = 0, farthest = 0;
-    std::size_t blocks = 0, winding = 0;
+    std::size_t blocks = 0;
+    double ways = 0.0, straight = 0.0;  ///< voxels
   };
   Part largest_part() {
     std::vector<char> is_seen(links_.size());
     Part largest;
     for (std::uint32_t rank = 0; rank < links_.size(); ++rank) {
       if (links_[rank] == 0 || is_seen[rank] != 0) continue;
-      Part part{rank};
+      Part part{rank, rank, 0, 0.0, 0.0};
       part.farthest = search_from(rank, [&](std::uint32_t reached) {
-        const float straight = (middles_[reached] - middles_[rank]).norm();
+        part.ways += length(reached);
+        part.straight += (middles_[reached] - middles_[rank]).norm();
         is_seen[reached] = 1;
         ++part.blocks;
-        part.winding += length(reached) > static_cast<float>(kPlanning.winding) * straight;
       });
       if (part.blocks > largest.blocks) largest = part;
     }
@@ -132,9 +133,7 @@ void place_cell_landmarks(const BlockLayout& layout, CellGraph& graph) {
     CellGraph::Lengths& lengths = i == 0 ? graph.lengths : graph.lengths_wide;
     BlockGraph blocks(layout, graph.cells, i == 0 ? 1 : kRadiusLevels.size());
     const BlockGraph::Part part = blocks.largest_part();
-    if (kPlanning.winding_blocks * static_cast<double>(part.blocks) >=
-        static_cast<double>(part.winding))
-      return;
+    if (part.ways <= kPlanning.winding * part.straight) return;
     lengths.assign(layout.block_count(), {});
     place_landmarks_from(part.farthest, blocks, lengths);
   });
