@@ -256,6 +256,27 @@ Option Command::choice(const std::string& names, std::string& value,
                     });
 }
 
+Option Command::choice_or_number(const std::string& names, std::string& choice,
+                                 const std::vector<std::string>& choices,
+                                 std::optional<double>& value, Range range,
+                                 const std::string& help) {
+  return add_option(
+      names,
+      {.type = "choice",
+       .shown = joined(choices, "|") + "|NUMBER",
+       .help = help,
+       .initial = choice,
+       .choices = choices},
+      [=, &choice, &value](const std::string& text, const std::string& name) {
+        if (!text.empty() && text.find_first_not_of("0123456789.eE+-") == std::string::npos) {
+          value = parse_number(text, range, name);
+        } else {
+          require_choice(text, name, choices);
+          choice = text;
+        }
+      });
+}
+
 Option Command::choices(const std::string& names, std::vector<std::string>& values,
                         const std::vector<std::string>& choices, const std::string& help) {
   return add_option(names,

@@ -78,6 +78,10 @@ class Command {
   Option paths(const std::string& names, std::vector<std::string>& values, const std::string& help);
   Option choice(const std::string& names, std::string& value,
                 const std::vector<std::string>& choices, const std::string& help);
+  /// One of the choices, or a number.
+  Option choice_or_number(const std::string& names, std::string& choice,
+                          const std::vector<std::string>& choices, std::optional<double>& value,
+                          Range range, const std::string& help);
   /// Several between commas.
   Option choices(const std::string& names, std::vector<std::string>& values,
                  const std::vector<std::string>& choices, const std::string& help);

@@ -209,8 +209,11 @@ void add_plan_command(Command& program) {
                  "a sphere");
   add_limit_options(command, options->limits);
   command.flag("--raw", options->raw, "Do not shorten the path");
-  command.flag("--quick", options->quick,
-               "Settle for nearly tight where the roadmap knows such a way by heart");
+  command.choice_or_number(
+      "--quality", options->quality, {"quick", "default", "best"}, options->within, {1.0, 1e6},
+      "quick: settle for nearly tight where the roadmap knows such a way by heart; a number: go on "
+      "until the path is at most so many times as long as the shortest can be, or time is up; "
+      "best: 1.02");
   command.number("--time-limit", options->time_limit, kTimeLimits,
                  "Seconds (default: no limit, 10 where the planner samples)");
   add_sampling_options(command, *options);

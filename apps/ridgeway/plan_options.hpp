@@ -15,13 +15,14 @@ namespace ridgeway::cli {
 
 /// Options of `ridgeway plan`.
 struct PlanOptions {
-  std::string file, planner = "graph", output, queries;
+  std::string file, planner = "graph", quality = "default", output, queries;
   std::optional<Point> from;
   std::vector<Point> to;
   std::optional<double> radius, time_limit;
+  std::optional<double> within;  // in place of the quality
   std::optional<std::size_t> alternatives;
   double prefer_clearance = 0.0, snap = 0.0, robot_height = 0.0;
-  bool raw = false, quick = false, escape = false, nearest = false;
+  bool raw = false, escape = false, nearest = false;
   int repeat = 1;
   LimitOptions limits;
   SamplingConfig sampling;  // of planners that sample
@@ -36,12 +37,14 @@ inline PlanConfig plan_config(const PlanOptions& options, std::optional<double> 
   PlanConfig config{.planner = options.chosen(),
                     .radius = radius,
                     .shorten = !options.raw,
-                    .quick = options.quick,
+                    .quick = options.quality == "quick",
+                    .within = options.quality == "best" ? PlanConfig::kBestWithin : 0.0,
                     .prefer_clearance = options.prefer_clearance,
                     .escape = options.escape,
                     .limits = limits_of(options.limits),
                     .snap = options.snap,
                     .robot_height = options.robot_height};
+  if (options.within) config.within = *options.within;
   if (options.time_limit) config.time_limit = *options.time_limit;
   return config;
 }

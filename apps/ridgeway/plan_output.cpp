@@ -56,6 +56,7 @@ void print_result(AnswerFacts& facts, const Answer& answer, const Query& query) 
   const PlanSeconds& s = result.seconds;
   print_row("path", text_of(result.length) + " m, " + count_text(result.waypoints.size()) +
                         " waypoints, answered by the " + std::string(name_of(result.answered_by)));
+  print_row("within", text_of(result.within, 3) + " times the shortest path at most");
   const PathSurroundings around = facts.surroundings(result.waypoints, query.radius);
   print_row("clearance",
             text_of(result.clearance) + " m, robot radius " + text_of(query.radius) + " m");

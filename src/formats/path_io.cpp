@@ -122,6 +122,7 @@ std::string plan_json(const PlanResult& result) {
   json["answered_by"] = std::string(name_of(result.answered_by));
   json["status"] = std::string(name_of(result.status));
   json["length"] = result.length;
+  if (result.ok()) json["within"] = result.within;
   json["clearance"] = result.clearance;
   json["unknown"] = {{"policy", std::string(name_of(result.unknown))}};
   const auto add_escape = [&](const char* key, const Escape& escape) {

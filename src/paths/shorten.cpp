@@ -9,11 +9,7 @@
 namespace ridgeway::detail {
 namespace {
 
-constexpr int kRounds = 6;
-constexpr int kBisections = 4;
-constexpr int kCheapBisections = 6;
 constexpr double kRounding = 1e-9;
-constexpr double kStep = 8.0;  // metres between the places that skipping may choose from
 
 /// Skips waypoints: from each one goes on to the farthest that can be seen, found by doubling
 /// the stride and then halving it.
@@ -73,7 +69,7 @@ template <typename MayBeFree, typename IsWorthIt, typename IsFree>
 double largest_free_share(const MayBeFree& may_be_free, const IsWorthIt& is_worth_it,
                           const IsFree& is_free) {
   double good = 0.0, bad = 1.0;
-  for (int i = 0; i < kCheapBisections; ++i) {
+  for (int i = 0; i < kPlanning.tight_bisections; ++i) {
     const double middle = 0.5 * (good + bad);
     (may_be_free(middle) ? good : bad) = middle;
   }
@@ -81,7 +77,7 @@ double largest_free_share(const MayBeFree& may_be_free, const IsWorthIt& is_wort
   if (is_free(good)) return good;
   bad = good;
   good = 0.0;
-  for (int i = 0; i < kBisections; ++i) {
+  for (int i = 0; i < kPlanning.tight_bisections; ++i) {
     const double middle = 0.5 * (good + bad);
     (may_be_free(middle) && is_free(middle) ? good : bad) = middle;
   }
@@ -96,8 +92,7 @@ class Tightening {
       : space_(space),
         radius_(radius),
         may_replace_(may_replace),
-        least_gain_(drawing.worthwhile * length_of(path)),
-        least_of_going_(drawing.worth_going * length_of(path)) {
+        least_gain_(drawing.worthwhile * length_of(path)) {
     for (std::size_t i = 0; i < path.size(); ++i) {
       const bool is_settled = drawing.settled_first < i && i < drawing.settled_last;
       corners_.push_back({.at = path[i], .is_settled = is_settled, .moved = !is_settled});
@@ -111,9 +106,7 @@ class Tightening {
     bool was_worth_it = round + 1 < kMoves;
     for (std::size_t i = 1; i + 1 < corners_.size();) {
       const bool is_new = round < kMoves && !corners_[i].is_settled;
-      const bool may_go =
-          ((round == 0 && is_new) || corners_[i - 1].moved || corners_[i + 1].moved) &&
-          most_gain(i) >= least_of_going_;
+      const bool may_go = (round == 0 && is_new) || corners_[i - 1].moved || corners_[i + 1].moved;
       if (may_go && can_go(i)) {
         erase(i);
         was_worth_it = true;
@@ -256,8 +249,7 @@ class Tightening {
   const FreeSpace& space_;
   const double radius_;
   const MayReplace& may_replace_;
-  const double least_gain_;      ///< metres; moves that gain less are not tried
-  const double least_of_going_;  ///< the same for going without a corner
+  const double least_gain_;  ///< metres; moves that gain less are not tried
   std::vector<Corner> corners_;
 };
 
@@ -267,7 +259,7 @@ std::vector<Point> skip_waypoints(const FreeSpace& space, std::vector<Point> pat
                                   const MayReplace& may_replace) {
   if (path.size() < 3) return path;
   for (int direction = 0; direction < 2; ++direction) {  // what one end cannot see, the other may
-    path = skip_forwards(space, subdivide(path, kStep), radius, may_replace);
+    path = skip_forwards(space, subdivide(path, kPlanning.skip_step * radius), radius, may_replace);
     std::reverse(path.begin(), path.end());
   }
   return path;
@@ -277,8 +269,8 @@ std::vector<Point> draw_corners_in(const FreeSpace& space, const std::vector<Poi
                                    double radius, const Deadline& deadline,
                                    const MayReplace& may_replace, const DrawingIn& drawing) {
   Tightening tightening(space, path, radius, may_replace, drawing);
-  for (int round = 0; round < kRounds && !deadline.has_passed(); ++round)
-    if (!tightening.run_round(round)) break;
+  for (int round = 0; !deadline.has_passed() && tightening.run_round(round); ++round) {
+  }
   return tightening.path();
 }
 

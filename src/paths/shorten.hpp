@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "deadline.hpp"
+#include "planning_constants.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/voxel/index.hpp"
 
@@ -27,8 +28,7 @@ std::vector<Point> skip_waypoints(const FreeSpace& space, std::vector<Point> pat
 
 /// How closely corners are drawn in.
 struct DrawingIn {
-  double worthwhile = 2e-3;  ///< of the path's length: what a move must gain
-  double worth_going = 0.0;  ///< the same for going without a corner
+  double worthwhile = kPlanning.tight_gain;  ///< of the path's length: what a move must gain
   /// Waypoints between which the path is tight: those inside are tried only once others move.
   std::size_t settled_first = 0, settled_last = 0;
 };

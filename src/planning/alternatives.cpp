@@ -6,6 +6,7 @@
 
 #include "deformation.hpp"
 #include "paths/deadline.hpp"
+#include "paths/planning_constants.hpp"
 #include "paths/shorten.hpp"
 #include "query.hpp"
 #include "ridgeway/common/error.hpp"
@@ -16,10 +17,6 @@ namespace ridgeway {
 namespace {
 
 using detail::Deadline;
-
-constexpr double kMostlyShrinksTo = 0.6;  // of its length a route seldom becomes shorter
-constexpr int kShortenings = 3;
-constexpr double kApart = 4.0;  // radii along a path between places that may not meet
 
 /// Smallest distance between two segments.
 double distance_between(const Point& a0, const Point& a1, const Point& b0, const Point& b1) {
@@ -41,7 +38,7 @@ bool meets_itself(const std::vector<Point>& path, double radius) {
   for (std::size_t i = 1; i < path.size(); ++i) {
     double between = 0.0;  // along the path, from the end of segment i to the start of segment j
     for (std::size_t j = i + 1; j < path.size(); ++j) {
-      if (between > kApart * radius &&
+      if (between > detail::kPlanning.apart * radius &&
           distance_between(path[i - 1], path[i], path[j - 1], path[j]) < radius)
         return true;
       between += (path[j] - path[j - 1]).norm();
@@ -104,7 +101,8 @@ class DistinctRoutes {
 
   /// Whether a route as long as this before it is shortened can still be among the first `count`.
   bool may_use(double length, std::size_t count) const {
-    return routes_.size() < count || length * kMostlyShrinksTo < routes_[count - 1].length;
+    return routes_.size() < count ||
+           length * detail::kPlanning.shrinks_to < routes_[count - 1].length;
   }
 
   std::vector<PlanResult> first(std::size_t count) && {
@@ -124,7 +122,7 @@ PlanResult tighten(const FreeSpace& space, detail::Route route, double radius,
   const auto stays_in_class = [&](std::span<const Point> before, std::span<const Point> after) {
     return detail::deforms_into(space, before, after, radius);
   };
-  for (int i = 0; i < kShortenings; ++i)
+  for (int i = 0; i < detail::kPlanning.shortenings; ++i)
     route = detail::shorten(space, std::move(route), radius, deadline, stays_in_class);
   PlanResult result;
   result.status = PlanStatus::kOk;

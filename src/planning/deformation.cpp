@@ -5,13 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paths/planning_constants.hpp"
 #include "ridgeway/voxel/index.hpp"
 
 namespace ridgeway::detail {
 namespace {
-
-constexpr double kSeenAt = 0.75;          // of the radius
-constexpr double kDeformationStep = 0.5;  // of the radius
 
 /// Walks along a path; lengths must not fall from call to call.
 class Walker {
@@ -40,11 +38,11 @@ class Walker {
 bool deforms_into(const FreeSpace& space, std::span<const Point> a, std::span<const Point> b,
                   double radius) {
   const double length_a = length_of(a), length_b = length_of(b);
-  const double steps = std::ceil(std::max(length_a, length_b) / (kDeformationStep * radius));
+  const double steps = std::ceil(std::max(length_a, length_b) / (kPlanning.look_step * radius));
   Walker on_a(a), on_b(b);
   for (double k = 1.0; k < steps; k += 1.0)
     if (!space.is_free(on_a.at(length_a * k / steps), on_b.at(length_b * k / steps),
-                       kSeenAt * radius))
+                       kPlanning.deform_radius * radius))
       return false;
   return true;
 }

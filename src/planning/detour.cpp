@@ -8,19 +8,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "paths/planning_constants.hpp"
 #include "paths/shorten.hpp"
 
 namespace ridgeway::detail {
 namespace {
-
-constexpr int kRays = 6;
-constexpr int kTriesPerRay = 3;
-constexpr double kWiden = 1.35;         // from one try on a ray to the next
-constexpr double kWorthADetour = 1e-3;  // relative gain that makes a detour worth it
-constexpr double kExcess = 0.02;        // of a stretch's length: worth a detour search
-constexpr double kExcessOfAll = 0.015;  // of the path's length
-constexpr int kStretchCorners = 2;
-constexpr std::size_t kLongestStretch = 3;  // segments that a detour may replace
 
 /// Distance at the centre of the point's voxel, metres; 0 where nothing is known.
 double rough_distance(const EsdfMap& esdf, const Point& p) {
@@ -67,39 +59,36 @@ Detour find_detour(const EsdfMap& esdf, const FreeSpace& space, const Point& a, 
   const double to = length - space.free_length(b, a, radius);
   const Point blocked = a + 0.5 * (from + to) * along;
   const Point u = along.unitOrthogonal(), v = along.cross(u);
-  for (int ray = 0; ray < kRays; ++ray) {
-    const double angle = 2.0 * std::numbers::pi * ray / kRays;
+  for (int ray = 0; ray < kPlanning.detour_rays; ++ray) {
+    const double angle = 2.0 * std::numbers::pi * ray / kPlanning.detour_rays;
     const Point direction = std::cos(angle) * u + std::sin(angle) * v;
     const auto length_over = [&](const Point& p) { return (p - a).norm() + (b - p).norm(); };
     const double farthest = 0.5 * budget;
-    double offset = first_fit(esdf, blocked, direction, radius, farthest);
-    for (int attempt = 0; attempt < kTriesPerRay; ++attempt, offset *= kWiden) {
-      const Point p = blocked + offset * direction;
-      const double limit = best.found() ? best.length : budget;
-      if (offset > farthest || length_over(p) >= limit) break;
-      if (!space.is_free(p, radius)) continue;
-      const double left = (p - a).norm(), right = (b - p).norm();
-      const bool left_free = space.is_free(a, p, radius);
-      if (!left_free && corners < 2) continue;
-      Way way_left{{}, left_free};
-      const Way way_right =
-          way_between(esdf, space, p, b, radius, limit - left, left_free ? corners - 1 : 0);
-      if (!way_right.free) continue;
-      if (!left_free) way_left = way_between(esdf, space, a, p, radius, limit - right, corners - 1);
-      if (!way_left.free) continue;
-      Detour found;
-      found.corners = std::move(way_left.corners);
-      found.corners.push_back(p);
-      found.corners.insert(found.corners.end(), way_right.corners.begin(), way_right.corners.end());
-      Point last = a;
-      for (const Point& corner : found.corners) {
-        found.length += (corner - last).norm();
-        last = corner;
-      }
-      found.length += (b - last).norm();
-      if (found.length < limit) best = std::move(found);
-      break;
+    const double offset = first_fit(esdf, blocked, direction, radius, farthest);
+    const Point p = blocked + offset * direction;
+    const double limit = best.found() ? best.length : budget;
+    if (offset > farthest || length_over(p) >= limit) continue;
+    if (!space.is_free(p, radius)) continue;
+    const double left = (p - a).norm(), right = (b - p).norm();
+    const bool left_free = space.is_free(a, p, radius);
+    if (!left_free && corners < 2) continue;
+    Way way_left{{}, left_free};
+    const Way way_right =
+        way_between(esdf, space, p, b, radius, limit - left, left_free ? corners - 1 : 0);
+    if (!way_right.free) continue;
+    if (!left_free) way_left = way_between(esdf, space, a, p, radius, limit - right, corners - 1);
+    if (!way_left.free) continue;
+    Detour found;
+    found.corners = std::move(way_left.corners);
+    found.corners.push_back(p);
+    found.corners.insert(found.corners.end(), way_right.corners.begin(), way_right.corners.end());
+    Point last = a;
+    for (const Point& corner : found.corners) {
+      found.length += (corner - last).norm();
+      last = corner;
     }
+    found.length += (b - last).norm();
+    if (found.length < limit) best = std::move(found);
   }
   return best;
 }
@@ -108,15 +97,16 @@ std::vector<Point> redirect(const EsdfMap& esdf, const FreeSpace& space, std::ve
                             double radius, const Deadline& deadline) {
   const double total = length_of(path);
   // The longest stretches first: what they find makes the shorter ones needless.
-  for (std::size_t stretch = std::min(kLongestStretch, path.size() - 1); stretch >= 2; --stretch) {
+  for (std::size_t stretch = std::min(kPlanning.detour_stretch, path.size() - 1); stretch >= 2;
+       --stretch) {
     for (std::size_t i = 0; i + stretch < path.size() && !deadline.has_passed(); ++i) {
       const auto first = path.begin() + static_cast<std::ptrdiff_t>(i);
       const auto last = first + static_cast<std::ptrdiff_t>(stretch);
       const double length = length_of({first, last + 1});
-      if (length - (*last - *first).norm() < std::max(kExcess * length, kExcessOfAll * total))
-        continue;
-      const Detour detour = find_detour(esdf, space, *first, *last, radius,
-                                        length * (1.0 - kWorthADetour), kStretchCorners);
+      if (length - (*last - *first).norm() < kPlanning.detour_excess * total) continue;
+      const Detour detour =
+          find_detour(esdf, space, *first, *last, radius, length * (1.0 - kPlanning.tight_gain),
+                      kPlanning.detour_corners);
       if (!detour.found()) continue;
       const auto place = path.erase(first + 1, last);
       path.insert(place, detour.corners.begin(), detour.corners.end());

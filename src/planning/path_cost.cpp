@@ -4,14 +4,8 @@
 
 #include <cmath>
 
+#include "paths/planning_constants.hpp"
 namespace ridgeway::detail {
-namespace {
-
-constexpr double kCostStep = 0.5;    // radii between looks at the clearance
-constexpr double kCostSlack = 1e-3;  // relative; what the sum over steps may be off by
-
-}  // namespace
-
 double PathCost::factor(double clearance) const {
   const double share = radius_ / clearance;
   return 1.0 + prefer_clearance_ * share * share;
@@ -26,7 +20,7 @@ double PathCost::of(std::span<const Point> path) const {
       cost += length;
       continue;
     }
-    const int pieces = 1 + static_cast<int>(length / (kCostStep * radius_));
+    const int pieces = 1 + static_cast<int>(length / (kPlanning.look_step * radius_));
     double factors = 0.0;
     for (int k = 0; k < pieces; ++k)
       factors += factor(space_.distance(path[i - 1] + along * ((k + 0.5) / pieces)));
@@ -36,7 +30,7 @@ double PathCost::of(std::span<const Point> path) const {
 }
 
 bool PathCost::is_kept(std::span<const Point> before, std::span<const Point> after) const {
-  return of(after) <= of(before) * (1.0 + kCostSlack);
+  return of(after) <= of(before) * (1.0 + kPlanning.cost_slack);
 }
 
 }  // namespace ridgeway::detail

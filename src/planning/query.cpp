@@ -81,8 +81,14 @@ FlightLimits limits_of(const EsdfMap& esdf, const FlightLimits& limits_world) {
   return limits;
 }
 
+double length_over_bound(std::span<const Point> path) {
+  const double straight = (path.back() - path.front()).norm();
+  return straight > 0.0 ? std::max(length_of(path) / straight, 1.0) : 1.0;
+}
+
 void describe(const FreeSpace& space, const KnownStretch& known, PlanResult& result) {
   result.length = length_of(result.waypoints);
+  result.within = length_over_bound(result.waypoints);
   result.clearance = clearance_of(space, result.waypoints, known);
 }
 

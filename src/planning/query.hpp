@@ -3,6 +3,7 @@
 #pragma once
 
 #include <limits>
+#include <span>
 
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/planning/plan.hpp"
@@ -38,7 +39,11 @@ struct KnownStretch {
   double clearance = std::numeric_limits<double>::infinity();  ///< smallest, metres
 };
 
-/// Length and clearance of the result's waypoints.
+/// A path's length over a bound that no path between its ends is below, the straight line; 1 and
+/// more.
+double length_over_bound(std::span<const Point> path);
+
+/// Length, clearance and bound of the result's waypoints.
 void describe(const FreeSpace& space, const KnownStretch& known, PlanResult& result);
 
 /// No path leaves unverified: there must be one, its length must be finite, its clearance, measured

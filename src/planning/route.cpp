@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
 #include <span>
 
 #include "any_angle_search.hpp"
@@ -21,9 +20,6 @@
 namespace ridgeway::detail {
 namespace {
 
-constexpr int kSearches = 3;
-constexpr float kPenalty = 1.6f;  // on edges that an earlier route took
-
 Route route_over_vertices(const Roadmap& roadmap, const RouteQuery& query, const AttachWay& from,
                           const AttachWay& to, const std::vector<VertexId>& vertices) {
   RouteQuery leg = query;
@@ -39,65 +35,42 @@ Route route_over_vertices(const Roadmap& roadmap, const RouteQuery& query, const
   return route;
 }
 
-/// Routes over the graph, each further one shunning the edges of those before.
-class GraphRoutes {
- public:
-  GraphRoutes(const Roadmap& roadmap, const RouteQuery& query, AttachWay from, AttachWay to)
-      : roadmap_(roadmap), query_(query), from_(std::move(from)), to_(std::move(to)) {
-    if (query.prefer_clearance > 0.0) charge_for_walls();
+/// What every edge costs beside its length.
+std::vector<float> charge_for_walls(const Roadmap& roadmap, const RouteQuery& query) {
+  const FreeSpace space(roadmap.esdf);
+  const PathCost cost(space, query.radius, query.prefer_clearance);
+  std::vector<float> factors;
+  for (const Edge& edge : roadmap.graph.edges)
+    factors.push_back(static_cast<float>(cost.factor(edge.clearance)));
+  return factors;
+}
+
+void search_sparse_graph(const Roadmap& roadmap, const RouteQuery& query,
+                         const Attachment& attachment, RouteResult& result) {
+  const auto& [from, to, reach] = attachment;
+  std::vector<float> charges;
+  if (query.prefer_clearance > 0.0) charges = charge_for_walls(roadmap, query);
+  const std::vector<VertexId> vertices =
+      search_graph(roadmap.graph, roadmap.landmarks, from.vertex, to.vertex, query.radius,
+                   charges.empty() ? nullptr : &charges);
+  if (vertices.empty()) return;
+  result.status = SearchStatus::kFound;
+  result.route = route_over_vertices(roadmap, query, from, to, vertices);
+  // All but the ways from the start and to the goal into their voxels.
+  result.known = {1, result.route.size() - 2, std::min(from.clearance, to.clearance)};
+  for (std::size_t i = 1; i < vertices.size(); ++i) {
+    const EdgeId edge = edge_between(roadmap.graph, vertices[i - 1], vertices[i]);
+    result.known.clearance =
+        std::min(result.known.clearance, roadmap.graph.edges[number(edge)].clearance);
   }
-
-  /// Of the last route.
-  const KnownStretch& known() const { return known_; }
-
-  std::optional<Route> next() {
-    while (searches_++ < kSearches) {
-      std::vector<VertexId> vertices =
-          search_graph(roadmap_.graph, roadmap_.landmarks, from_.vertex, to_.vertex, query_.radius,
-                       penalty_.empty() ? nullptr : &penalty_);
-      if (vertices.empty()) return std::nullopt;
-      penalty_.resize(roadmap_.graph.edges.size(), 1.0f);
-      Route route = route_over_vertices(roadmap_, query_, from_, to_, vertices);
-      // All but the ways from the start and to the goal into their voxels.
-      known_ = {1, route.size() - 2, std::min(from_.clearance, to_.clearance)};
-      for (std::size_t i = 1; i < vertices.size(); ++i) {
-        const EdgeId edge = edge_between(roadmap_.graph, vertices[i - 1], vertices[i]);
-        penalty_[number(edge)] *= kPenalty;
-        known_.clearance = std::min(known_.clearance, roadmap_.graph.edges[number(edge)].clearance);
-      }
-      if (std::find(taken_.begin(), taken_.end(), vertices) != taken_.end()) continue;
-      taken_.push_back(vertices);
-      return route;
-    }
-    return std::nullopt;
-  }
-
- private:
-  void charge_for_walls() {
-    const FreeSpace space(roadmap_.esdf);
-    const PathCost cost(space, query_.radius, query_.prefer_clearance);
-    for (const Edge& edge : roadmap_.graph.edges)
-      penalty_.push_back(static_cast<float>(cost.factor(edge.clearance)));
-  }
-
-  const Roadmap& roadmap_;
-  const RouteQuery query_;
-  const AttachWay from_, to_;
-  int searches_ = 0;
-  KnownStretch known_;
-  std::vector<float> penalty_;  // by edge
-  std::vector<std::vector<VertexId>> taken_;
-};
-
-/// What following the attach field from both ends shows before any search.
-enum class Reach { kJoined, kApart, kSearch, kUnclear };
+}
 
 Reach compare_ways(const Roadmap& roadmap, const RouteQuery& query, const AttachWay& from,
                    const AttachWay& to) {
   if (from.voxels.back() == to.voxels.back()) return Reach::kJoined;
   if (from.reached() && to.reached()) {
     const double widest = widest_way(roadmap.graph, roadmap.tree, from.vertex, to.vertex);
-    return widest >= query.radius * (1.0 - 1e-9) ? Reach::kSearch : Reach::kApart;
+    return widest >= query.radius * (1.0 - 1e-9) ? Reach::kConnected : Reach::kApart;
   }
   // A way that stops before it meets the diagram stops at the end of all that its voxel can
   // reach at this radius, and that end is the same for all voxels of such a region.
@@ -107,13 +80,13 @@ Reach compare_ways(const Roadmap& roadmap, const RouteQuery& query, const Attach
   return from_is_pocket || to_is_pocket ? Reach::kApart : Reach::kUnclear;
 }
 
-void search_voxels(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query, Planner planner,
-                   const Deadline& deadline, RouteResult& result) {
+void search_voxels(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query,
+                   Planner planner, const Deadline& deadline, RouteResult& result) {
   const bool any_angle = planner == Planner::kThetaStar;
   result.answered_by = any_angle ? Planner::kThetaStar : Planner::kEsdf;
-  LatticePath path =
-      any_angle ? search_any_angle(space, query.from, query.to, query.radius, deadline)
-                : search_lattice(space, query.from, query.to, query.radius, {}, deadline);
+  LatticePath path = any_angle
+                         ? search_any_angle(space, query.from, query.to, query.radius, deadline)
+                         : search_lattice(space, query.from, query.to, query.radius, {}, deadline);
   result.status = path.status;
   if (path.status == SearchStatus::kFound)
     result.route = route_over_voxels(roadmap.esdf, query, path.voxels);
@@ -129,8 +102,8 @@ void search_diagram(const Roadmap& roadmap, const FreeSpace& space, const RouteQ
   };
   cut_at_diagram(from.voxels);
   cut_at_diagram(to.voxels);
-  LatticePath path = search_lattice(space, from.voxels.back(), to.voxels.back(),
-                                    query.radius, {.within = &roadmap.diagram.voxels}, deadline);
+  LatticePath path = search_lattice(space, from.voxels.back(), to.voxels.back(), query.radius,
+                                    {.within = &roadmap.diagram.voxels}, deadline);
   result.answered_by = Planner::kDiagram;
   result.status = path.status;
   if (path.status != SearchStatus::kFound) return;
@@ -142,50 +115,41 @@ void search_diagram(const Roadmap& roadmap, const FreeSpace& space, const RouteQ
 
 }  // namespace
 
-RouteResult find_route(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query, Planner planner,
-                       const Deadline& deadline) {
+Attachment attach(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query) {
+  RouteQuery sphere = query;
+  sphere.radius = space.inner_radius(query.radius);
+  Attachment attachment{follow_attach(roadmap, query.from, sphere.radius),
+                        follow_attach(roadmap, query.to, sphere.radius), Reach::kUnclear};
+  attachment.reach = compare_ways(roadmap, sphere, attachment.from, attachment.to);
+  return attachment;
+}
+
+RouteResult find_route(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query,
+                       const Attachment& attachment, Planner planner, const Deadline& deadline) {
   RouteResult result;
-  const double began = seconds_now();
   if (planner == Planner::kEsdf || planner == Planner::kThetaStar) {
     search_voxels(roadmap, space, query, planner, deadline, result);
-    result.search_seconds = seconds_now() - began;
     return result;
   }
-  RouteQuery sphere = query;  // what it cannot do the robot cannot either
-  sphere.radius = space.inner_radius(query.radius);
-  AttachWay from = follow_attach(roadmap, query.from, sphere.radius);
-  AttachWay to = follow_attach(roadmap, query.to, sphere.radius);
-  const Reach reach = compare_ways(roadmap, sphere, from, to);
-  const double attached = seconds_now();
-  result.attach_seconds = attached - began;
+  const auto& [from, to, reach] = attachment;
+  if (reach == Reach::kApart) return result;
   if (space.is_narrowed()) {
-    if (reach != Reach::kApart && planner == Planner::kGraph)
-      result = find_limited_route(roadmap, space, query, from, to);
-    if (reach != Reach::kApart && result.status == SearchStatus::kNoRoute)
+    if (planner == Planner::kGraph) result = find_limited_route(roadmap, space, query, from, to);
+    if (result.status == SearchStatus::kNoRoute)
       search_voxels(roadmap, space, query, Planner::kEsdf, deadline, result);
-    result.attach_seconds = attached - began;
-    result.search_seconds = seconds_now() - attached;
     return result;
   }
   if (reach == Reach::kJoined) {
     result.status = SearchStatus::kFound;
     result.route = route_over_voxels(roadmap.esdf, query, join_ways(from.voxels, to.voxels));
-  } else if (reach != Reach::kApart) {
-    if (reach == Reach::kSearch && planner == Planner::kGraph) {
-      const auto routes = std::make_shared<GraphRoutes>(roadmap, query, from, to);
-      if (std::optional<Route> first = routes->next()) {
-        result.status = SearchStatus::kFound;
-        result.route = std::move(*first);
-        result.known = routes->known();
-        result.next_alternative = [routes] { return routes->next(); };
-      }
-    }
-    if (result.status == SearchStatus::kNoRoute && from.met_diagram && to.met_diagram)
-      search_diagram(roadmap, space, query, std::move(from), std::move(to), deadline, result);
-    if (result.status == SearchStatus::kNoRoute)
-      search_voxels(roadmap, space, query, Planner::kEsdf, deadline, result);
+    return result;
   }
-  result.search_seconds = seconds_now() - attached;
+  if (reach == Reach::kConnected && planner == Planner::kGraph)
+    search_sparse_graph(roadmap, query, attachment, result);
+  if (result.status == SearchStatus::kNoRoute && from.met_diagram && to.met_diagram)
+    search_diagram(roadmap, space, query, from, to, deadline, result);
+  if (result.status == SearchStatus::kNoRoute)
+    search_voxels(roadmap, space, query, Planner::kEsdf, deadline, result);
   return result;
 }
 

@@ -6,19 +6,13 @@
 #include <array>
 
 #include "deformation.hpp"
+#include "paths/planning_constants.hpp"
 #include "paths/shorten.hpp"
 #include "roadmap/attach_way.hpp"
 #include "roadmap/graph_search.hpp"
 #include "voxel_route.hpp"
 
 namespace ridgeway::detail {
-namespace {
-
-constexpr std::size_t kMostExpansions = 5000;
-constexpr int kMostAlike = 4;  // routes to a fork that deform into each other over other vertices
-
-}  // namespace
-
 RouteEnumeration::RouteEnumeration(const Roadmap& roadmap, const FreeSpace& space,
                                    const RouteQuery& query, const Deadline& deadline)
     : roadmap_(roadmap),
@@ -35,7 +29,7 @@ RouteEnumeration::RouteEnumeration(const Roadmap& roadmap, const FreeSpace& spac
 }
 
 std::optional<Route> RouteEnumeration::next() {
-  while (!open_.empty() && expansions_ < kMostExpansions && !deadline_.has_passed()) {
+  while (!open_.empty() && expansions_ < kPlanning.most_forks && !deadline_.has_passed()) {
     const std::uint32_t piece = open_.top().piece;
     open_.pop();
     ++expansions_;
@@ -79,9 +73,8 @@ bool RouteEnumeration::is_wide_enough(const Link& link) const {
 }
 
 bool RouteEnumeration::may_be_taken(VertexId from, const Link& link) const {
-  return space_.is_narrowed()
-             ? space_.is_free(place_of(from), place_of(link.vertex), query_.radius)
-             : is_wide_enough(link);
+  return space_.is_narrowed() ? space_.is_free(place_of(from), place_of(link.vertex), query_.radius)
+                              : is_wide_enough(link);
 }
 
 Point RouteEnumeration::place_of(VertexId v) const {
@@ -147,7 +140,7 @@ bool RouteEnumeration::is_redundant(std::uint32_t piece) {
   for (const std::uint32_t other : others) {
     if (!deforms_into(space_, route_to(other), route, query_.radius)) continue;
     const std::vector<VertexId> fewer = vertices_to(other);
-    if (++alike == kMostAlike ||
+    if (++alike == kPlanning.most_alike ||
         std::includes(vertices.begin(), vertices.end(), fewer.begin(), fewer.end()))
       return true;
   }

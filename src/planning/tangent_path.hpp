@@ -9,13 +9,11 @@ namespace ridgeway::detail {
 
 /// The tangent graph's route, pulled tight, or as it is where that has to do.
 struct TangentPath {
-  Route waypoints;       ///< empty where there is none
-  KnownStretch known;    ///< of it
-  bool will_do = false;  ///< it hardly became shorter, or is nearly straight: the graph knows the
-                         ///< place, and a search is not likely to find anything shorter
+  Route waypoints;     ///< empty where there is none
+  KnownStretch known;  ///< of it
   double search_seconds = 0.0, shorten_seconds = 0.0;
 };
-TangentPath plan_tangents(const TangentGraph& tangents, const EsdfMap& esdf, const FreeSpace& space,
+TangentPath plan_tangents(const TangentGraph& tangents, const FreeSpace& space,
                           const RouteQuery& query, bool as_it_is, const Deadline& deadline);
 
 }  // namespace ridgeway::detail

@@ -66,11 +66,13 @@ Roadmap load_roadmap(const std::filesystem::path& path) {
   if (defect) reader.damaged(defect->part, defect->what);
   index_links(roadmap.graph);
   roadmap.landmarks = place_landmarks(roadmap.graph);
+  roadmap.cells = build_cell_graph(roadmap.esdf, roadmap.min_clearance);
   if (TangentGraph& tangents = roadmap.tangents; !tangents.graph.vertices.empty()) {
     index_links(tangents.graph);
     auto hubs = detail::label_hubs_within(tangents.graph);
     if (!hubs) reader.damaged("taut_edges", "has too many shortest ways");
     tangents.hubs = *std::move(hubs);
+    tangents.wider = widen_corners(roadmap.esdf, tangents);
   }
   return roadmap;
 }

@@ -169,6 +169,7 @@ void build_on_watershed(VoxelMask traversable, VoxelMask edges, Watershed waters
 void build_what_is_learnt(const BuildConfig& config, BuildResult& result, StageClock& clock) {
   BuildReport& report = result.report;
   clock.begin("tangents");
+  result.roadmap.cells = build_cell_graph(result.roadmap.esdf, config.min_clearance);
   result.roadmap.tangents = build_tangent_graph(result.roadmap, corners_of(config));
   clock.end(report.seconds.tangents);
 

@@ -6,6 +6,7 @@
 #include "cell_parts.hpp"
 #include "common/require.hpp"
 #include "corner_links.hpp"
+#include "paths/planning_constants.hpp"
 #include "paths/shorten.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
@@ -18,15 +19,6 @@ namespace {
 using detail::Corner;
 using detail::MergedCorners;
 using detail::SampledPath;
-
-constexpr double kMergeDistance = 1.0;    // radii: nearer corners may become one
-constexpr std::size_t kMostTried = 72;    // looks at corners for it
-constexpr std::size_t kFirstPairs = 250;  // of places to learn from
-constexpr std::size_t kAskedPairs = 100;  // between which new paths show how much is known
-constexpr std::size_t kLeastAsked = 20;   // paths
-constexpr double kAboutAsShort = 1.1;     // as the tight path between the places
-constexpr double kKnown = 0.85;           // of the paths: that is enough
-constexpr double kHopeless = 0.75;        // that is too little to go on
 
 /// The widest traversable voxel of every cell, the first of equally wide ones, or kNoVoxel.
 std::vector<VoxelId> widest_of_cells(const Roadmap& roadmap, const BlockCells& cells) {
@@ -48,7 +40,7 @@ std::vector<VertexId> look_around(const FreeSpace& space, double radius,
                                   const std::vector<Corner>& corners, const Point& place) {
   std::vector<VertexId> seen;
   for (const std::uint32_t i : detail::nearest_corners(
-           corners, place, kMostTried,
+           corners, place, detail::kPlanning.looked_at,
            [&](std::uint32_t j) { return detail::may_turn(corners[j], place); })) {
     if (!space.is_free(place, corners[i].place, radius)) continue;
     seen.push_back(VertexId{i});
@@ -61,30 +53,29 @@ std::vector<VertexId> look_around(const FreeSpace& space, double radius,
 class Learning {
  public:
   explicit Learning(const Roadmap& roadmap)
-      : roadmap_(roadmap),
-        space_(roadmap.esdf),
-        merging_(roadmap, kMergeDistance * roadmap.min_clearance) {
+      : roadmap_(roadmap), space_(roadmap.esdf), merging_(roadmap, roadmap.min_clearance) {
     BlockCells cells = number_cells(roadmap.esdf.layout);
     widest_ = widest_of_cells(roadmap, cells);
     tangent_.cell_of_block = std::move(cells.cell_of_block);
   }
 
   TangentGraph run(std::size_t most_pairs) {
-    std::size_t more = kFirstPairs;
-    while (pairs_ + more + kAskedPairs <= most_pairs) {
+    std::size_t more = detail::kPlanning.first_pairs;
+    while (pairs_ + more + detail::kPlanning.asked_pairs <= most_pairs) {
       learn(sample(more));
       if (!link()) break;
-      const std::vector<SampledPath> unseen = sample(kAskedPairs);
+      const std::vector<SampledPath> unseen = sample(detail::kPlanning.asked_pairs);
       const double known = share_known(unseen);
-      if (known < kHopeless) break;
+      if (known < detail::kPlanning.hopeless) break;
       learn(unseen);
       more = pairs_;
-      if (known < kKnown) continue;
+      if (known < detail::kPlanning.known) continue;
       if (!link()) break;
       auto hubs = detail::label_hubs_within(tangent_.graph);
       if (!hubs) break;
       tangent_.hubs = *std::move(hubs);
       list_seen();
+      tangent_.wider = widen_corners(roadmap_.esdf, tangent_);
       return std::move(tangent_);
     }
     return {};  // too much to learn: queries had better not rely on it
@@ -115,7 +106,7 @@ class Learning {
     std::vector<const SampledPath*> asked;
     for (const SampledPath& path : paths)
       if (asked.empty() || asked.back()->from != path.from) asked.push_back(&path);
-    if (asked.size() < kLeastAsked) return 0.0;
+    if (5 * asked.size() < detail::kPlanning.asked_pairs) return 0.0;
     std::vector<char> is_known(asked.size());
     parallel_for_each_index(asked.size(), [&](std::size_t i) { is_known[i] = knows(*asked[i]); });
     return static_cast<double>(std::count(is_known.begin(), is_known.end(), 1)) /
@@ -124,7 +115,7 @@ class Learning {
 
   /// Whether there is a route about as short as a path.
   bool knows(const SampledPath& path) const {
-    const double enough = kAboutAsShort * length_of(path.waypoints);
+    const double enough = detail::kPlanning.as_found * length_of(path.waypoints);
     const Point &start = path.waypoints.front(), &goal = path.waypoints.back();
     const double radius = roadmap_.min_clearance;
     Sources first;

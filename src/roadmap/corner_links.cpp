@@ -6,29 +6,13 @@
 #include <limits>
 
 #include "best_first_search.hpp"
+#include "paths/planning_constants.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/roadmap/roadmap.hpp"
 
 namespace ridgeway::detail {
 namespace {
-
-constexpr std::size_t kNeighbours = 16;  // a corner is linked to the nearest of those it can see
-constexpr double kStretch = 1.005;       // an edge goes that saves less than this over others
-constexpr double kOverTangent = 0.2;     // sine of the angle above a corner's tangent plane
-
-Corner corner_at(const EsdfMap& esdf, VoxelId id, std::uint32_t part) {
-  Corner corner{centre_of(esdf.layout.index_of(id), esdf.voxel_size), Point::Zero(), part};
-  const auto distance = [&](int dx, int dy, int dz) {
-    const VoxelId near = esdf.layout.step(id, dx, dy, dz);
-    const double d = near == kNoVoxel ? 0.0 : esdf.distance(near);
-    return std::isinf(d) ? 0.0 : d;
-  };
-  const Point rise(distance(1, 0, 0) - distance(-1, 0, 0), distance(0, 1, 0) - distance(0, -1, 0),
-                   distance(0, 0, 1) - distance(0, 0, -1));
-  corner.outward = rise / (2.0 * esdf.voxel_size);
-  return corner;
-}
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
@@ -37,7 +21,7 @@ std::vector<Pair> visible_pairs(const FreeSpace& space, double radius,
                                 const std::vector<Corner>& corners, std::vector<Pair> pairs) {
   std::vector<std::vector<std::uint32_t>> near(corners.size());
   parallel_for_each_index(corners.size(), [&](std::size_t i) {
-    near[i] = nearest_corners(corners, corners[i].place, kNeighbours, [&](std::uint32_t j) {
+    near[i] = nearest_corners(corners, corners[i].place, kPlanning.linked, [&](std::uint32_t j) {
       return j != i && corners[j].part == corners[i].part &&
              may_turn(corners[i], corners[j].place) && may_turn(corners[j], corners[i].place);
     });
@@ -70,7 +54,7 @@ class Spanner {
         search_(corners.size(), std::numeric_limits<double>::infinity()) {}
 
   bool add(const Pair& pair, double length) {
-    if (has_way(pair, kStretch * length)) return false;
+    if (has_way(pair, kPlanning.link_saving * length)) return false;
     links_[pair.first].emplace_back(pair.second, length);
     links_[pair.second].emplace_back(pair.first, length);
     return true;
@@ -99,16 +83,29 @@ class Spanner {
 
 }  // namespace
 
+Point outward_at(const EsdfMap& esdf, VoxelId id) {
+  const auto distance = [&](int dx, int dy, int dz) {
+    const VoxelId near = esdf.layout.step(id, dx, dy, dz);
+    const double d = near == kNoVoxel ? 0.0 : esdf.distance(near);
+    return std::isinf(d) ? 0.0 : d;
+  };
+  const Point rise(distance(1, 0, 0) - distance(-1, 0, 0), distance(0, 1, 0) - distance(0, -1, 0),
+                   distance(0, 0, 1) - distance(0, 0, -1));
+  return rise / (2.0 * esdf.voxel_size);
+}
+
 std::vector<Corner> corners_of(const Roadmap& roadmap, const MergedCorners& merged) {
+  const EsdfMap& esdf = roadmap.esdf;
   std::vector<Corner> corners;
   for (std::size_t i = 0; i < merged.voxels.size(); ++i)
-    corners.push_back(corner_at(roadmap.esdf, merged.voxels[i], merged.parts[i]));
+    corners.push_back({centre_of(esdf.layout.index_of(merged.voxels[i]), esdf.voxel_size),
+                       outward_at(esdf, merged.voxels[i]), merged.parts[i]});
   return corners;
 }
 
 bool may_turn(const Corner& corner, const Point& from) {
   const Point along = from - corner.place;
-  return along.dot(corner.outward) <= kOverTangent * along.norm();
+  return along.dot(corner.outward) <= kPlanning.over_tangent * along.norm();
 }
 
 SparseGraph link_corners(const Roadmap& roadmap, const MergedCorners& merged,

@@ -12,8 +12,11 @@
 
 namespace ridgeway::detail {
 
-/// A corner and the direction away from what it goes around: the gradient of the distance, shorter
-/// where obstacles of several sides meet.
+/// The direction away from what a place is beside: the gradient of the distance, of length 1, or
+/// shorter where obstacles of several sides meet.
+Point outward_at(const EsdfMap& esdf, VoxelId id);
+
+/// A corner and the direction away from what it goes around.
 struct Corner {
   Point place, outward;
   std::uint32_t part;  ///< connected part of the sparse graph

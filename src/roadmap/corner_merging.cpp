@@ -6,11 +6,11 @@
 #include <limits>
 #include <numeric>
 
+#include "paths/planning_constants.hpp"
 namespace ridgeway::detail {
 namespace {
 
-constexpr std::size_t kStandIns = 4;  // corners that may stand for one
-constexpr std::uint32_t kNoCorner = 0xffffffffu;
+constexpr std::uint32_t kNone = 0xffffffffu;
 
 }  // namespace
 
@@ -27,14 +27,13 @@ void CornerMerging::add(const SampledPath& path) {
   const auto place_of = [&](VoxelId id) {
     return centre_of(esdf_.layout.index_of(id), esdf_.voxel_size);
   };
-  std::uint32_t last = kNoCorner;
+  std::uint32_t last = kNone;
   for (std::size_t i = 0; i < chain.size(); ++i) {
     const Point place = place_of(chain[i]);
     const Point next = i + 1 < chain.size() ? place_of(chain[i + 1]) : place;
-    std::uint32_t own =
-        stand_in(place, path.part, last == kNoCorner ? nullptr : &places_[last], next);
-    if (own == kNoCorner) own = insert(chain[i], place, path.part);
-    if (last != kNoCorner && own != last) steps_.emplace_back(std::minmax(last, own));
+    std::uint32_t own = stand_in(place, path.part, last == kNone ? nullptr : &places_[last], next);
+    if (own == kNone) own = insert(chain[i], place, path.part);
+    if (last != kNone && own != last) steps_.emplace_back(std::minmax(last, own));
     last = own;
   }
 }
@@ -74,8 +73,7 @@ VoxelId CornerMerging::voxel_for(const Point& corner) const {
   for (int i = 0; i < 8; ++i) {
     const VoxelIndex v = first + VoxelIndex{i & 1, i >> 1 & 1, i >> 2};
     const VoxelId id = esdf_.layout.find(v);
-    if (!esdf_.is_open(id) || esdf_.squared[id] < least)
-      continue;
+    if (!esdf_.is_open(id) || esdf_.squared[id] < least) continue;
     const double distance = (centre_of(v, s) - corner).squaredNorm();
     if (distance >= nearest) continue;
     nearest = distance;
@@ -110,13 +108,13 @@ std::uint32_t CornerMerging::stand_in(const Point& corner, std::uint32_t part, c
     }
   }
   std::sort(near.begin(), near.end());
-  for (std::size_t i = 0; i < std::min(near.size(), kStandIns); ++i) {
+  for (std::size_t i = 0; i < std::min(near.size(), kPlanning.merge_tries); ++i) {
     const Point& place = places_[near[i].second];
     if ((before == nullptr || space_.is_free(*before, place, radius_)) &&
         space_.is_free(place, next, radius_))
       return near[i].second;
   }
-  return kNoCorner;
+  return kNone;
 }
 
 }  // namespace ridgeway::detail

@@ -7,15 +7,15 @@
 #include "attach_way.hpp"
 #include "common/random.hpp"
 #include "graph_search.hpp"
+#include "paths/planning_constants.hpp"
 #include "paths/shorten.hpp"
 #include "ridgeway/common/parallel.hpp"
 
 namespace ridgeway::detail {
 namespace {
 
-constexpr int kRoutes = 2;        // between two places
-constexpr float kPenalty = 1.6f;  // on edges that the first of them took
-constexpr int kTries = 1000;      // to meet a traversable voxel
+constexpr int kRoutes = 2;    // between two places
+constexpr int kTries = 1000;  // to meet a traversable voxel
 
 VoxelId random_voxel(const Roadmap& roadmap, Random& random) {
   const VoxelField<Direction>& next = roadmap.attach.next;
@@ -55,7 +55,8 @@ std::vector<SampledPath> tight_paths(const Roadmap& roadmap, const GraphComponen
     for (const VoxelId id : start.voxels) path.push_back(centre(id));
     for (std::size_t i = 1; i < vertices.size(); ++i) {
       path.push_back(roadmap.graph.vertices[number(vertices[i])].position);
-      penalty[number(edge_between(roadmap.graph, vertices[i - 1], vertices[i]))] = kPenalty;
+      penalty[number(edge_between(roadmap.graph, vertices[i - 1], vertices[i]))] =
+          kPlanning.shunning;
     }
     for (auto id = goal.voxels.rbegin() + 1; id < goal.voxels.rend(); ++id)
       path.push_back(centre(*id));

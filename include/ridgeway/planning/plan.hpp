@@ -61,8 +61,13 @@ struct PlanConfig {
   bool shorten = true;  ///< pull the path tight; otherwise as the search found it
   /// Settle for the tangent graph's route where it has one, though moving corners would make it a
   /// little shorter: a percent or two as a rule, but some paths are detours. Nothing else is new
-  /// where it has none, at larger radii, or with prefer_clearance.
+  /// where it has none, or with prefer_clearance.
   bool quick = false;
+  /// Go on until a short path is at most so many times as long as the bound below which no path can
+  /// be (PlanResult::within), or the time limit has passed, or all is searched that there is:
+  /// seconds, where the bound is far from what is possible. 0: only as long as that mostly pays.
+  double within = 0.0;
+  static constexpr double kBestWithin = 1.02;                   ///< as near as pays at any price
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds
   /// What distance from walls is worth: a metre of a path at a distance d from the nearest obstacle
   /// costs 1 + prefer_clearance * (radius / d)^2. At 0 paths are as short as can be; at 1 they keep
@@ -86,7 +91,8 @@ struct PlanConfig {
   double robot_height = 0.0;
 
   /// Throws InputError naming the bad field (a radius or time limit not above 0, prefer_clearance
-  /// negative or above 1e6, NaN anywhere, bad limits, a planner that samples).
+  /// negative or above 1e6, within neither 0 nor 1 and more, NaN anywhere, bad limits, a planner
+  /// that samples).
   void validate() const;
 };
 
@@ -107,7 +113,7 @@ struct Escape {
 
 /// Where a start or goal was moved to.
 struct Moved {
-  double distance = 0.0;       ///< metres; 0 where it was not
+  double distance = 0.0;        ///< metres; 0 where it was not
   Point place = Point::Zero();  ///< world
 };
 
@@ -119,6 +125,9 @@ struct PlanResult {
   /// World frame; start first, goal last: two or more where ok, else none.
   std::vector<Point> waypoints;
   double length = 0.0;  ///< metres
+  /// The length is at most so many times that of the shortest path: over a bound that none is
+  /// below, the straight line between start and goal. 1: there is no shorter one.
+  double within = 1.0;
   /// Smallest distance along the path, without its escapes, to an obstacle, metres: to what is
   /// occupied and, under UnknownPolicy::kObstacle, to what is unknown. How near the path comes to
   /// either of them under any policy: Surroundings (esdf/surroundings.hpp).

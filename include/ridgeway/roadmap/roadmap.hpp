@@ -35,6 +35,38 @@ struct ClearanceTree {
   std::vector<VoxelIndex> place;  ///< where the way to the parent is narrowest
 };
 
+/// All of traversable space, coarsely: cubes of 4 x 4 x 4 voxels, in each one place to pass, and
+/// straight segments between the places of neighbouring cells. Where space is open it knows the
+/// sides on which obstacles can be passed, at any radius, which curves through the middle of space
+/// do not. Narrow places may be missing: what it does not connect, the sparse graph does.
+/// Not in the file: found when a roadmap is built or loaded.
+struct CellGraph {
+  static constexpr int kSide = 4;      ///< of a cell, voxels
+  static constexpr int kPerBlock = 8;  ///< cells
+  static constexpr std::uint8_t kNoPlace = 64;
+  static constexpr std::uint16_t kNoPart = 0xffff;  ///< no part, or one of too many
+
+  struct Cell {
+    std::uint8_t place = kNoPlace;  ///< the voxel in the cell, x fastest
+    /// How wide a robot passes the edges in the directions 14 to 26 (voxel/neighbourhood.hpp): one
+    /// of 1, 1.25, 1.5 or 2 times the smallest radius from 1, 2, 3 or 4 on; 0: no edge. The cell
+    /// beyond has those of the others.
+    std::array<std::uint8_t, 13> widths{};
+    std::uint16_t part = kNoPart;  ///< connected part of this graph
+  };
+  std::vector<Cell> cells;  ///< by block in order (BlockLayout::rank), then x, y, z in the block
+
+  /// Lengths of ways from landmarks to each block, voxels, about: the way between two blocks is
+  /// hardly shorter than the difference. By block in order; 0 where no way leads.
+  static constexpr std::size_t kLandmarks = 3;
+  using Lengths = std::vector<std::array<float, kLandmarks>>;
+  Lengths lengths;       ///< over all edges
+  Lengths lengths_wide;  ///< over those of the widest robots
+};
+
+/// Every segment is verified by the free-space predicate. Deterministic.
+CellGraph build_cell_graph(const EsdfMap& esdf, double min_clearance);
+
 /// Everything a query needs, in the local frame of `esdf`; to_world(esdf, point) and to_local lead
 /// from it to the world and back; what is saved to and loaded from a `.ridge` file.
 /// Immutable during queries: any number of threads may plan on one Roadmap.
@@ -46,8 +78,9 @@ struct Roadmap {
   AttachField attach;
   ClearanceTree tree;
   Landmarks landmarks;     ///< of the graph; not in the file, placed when it is loaded
+  CellGraph cells;         ///< of the field; not in the file, found when it is loaded
   TangentGraph tangents;   ///< ways close around corners; may be empty
-  bool is_settled = true;  ///< false: a LiveRoadmap's, its tangents not learnt yet
+  bool is_settled = true;  ///< false: a LiveRoadmap's, its cells and tangents not learnt yet
   std::string source;      ///< the map it was built from, for people
   std::string config;      ///< the configuration it was built with, as JSON text, for people
 };

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace ridgeway::detail {
+
+/// What queries, and the learning of corners for them, trade length against time by: every number
+/// that could as well be another one. Each says its unit and what more of it costs. Lengths are in
+/// voxels or radii; `docs/performance.md` has what each is worth.
+struct PlanningConstants {
+  // The cell graph (roadmap/build_cell_graph.cpp, roadmap/cell_search.cpp).
+  double cell_room = 1.5;      ///< voxels beyond the widest radius that a cell's place may be wide
+  double cell_centring = 0.5;  ///< voxels of width that a voxel off the middle is worth
+  double cell_weight = 1.2;    ///< of A*'s heuristic: less is slower, and paths a little shorter
+  int most_cells = 1000;       ///< taken by a search before it gives up: a third of a millisecond
+  int most_cells_again = 400;  ///< the same where a path is known
+  double landmark_share = 0.93;  ///< of lengths by landmarks that paths are hardly shorter than
+  double winding = 1.1;  ///< of ways over straight lines on average: landmarks say more than those
+
+  // What a query tries (planning/plan.cpp). Lengths over what a path may be expected to have.
+  double near = 1.03;      ///< good enough at any price: no ways past what blocks it are looked for
+  double believed = 1.06;  ///< good enough for a path over corners
+  double far = 1.12;       ///< too long to be believed: the sparse graph is searched as well
+  double as_found = 1.1;   ///< a route over cells or corners over its tight path, at most
+  int voxel_reach = 32;    ///< of twice as many voxels is a path for which their square is searched
+
+  // Ways past what blocks a stretch (planning/detour.cpp).
+  int detour_rays = 6;             ///< around the stretch
+  int detour_corners = 2;          ///< of a way
+  std::size_t detour_stretch = 3;  ///< segments that a way may replace
+  double detour_excess = 0.02;  ///< of the path's length that a stretch is too long: worth a look
+
+  // Pulling tight (paths/shorten.cpp).
+  int tight_bisections = 6;   ///< of a move
+  double tight_gain = 2e-3;   ///< of the path's length: what a move must gain
+  double corner_gain = 1e-2;  ///< the same between corners that were learnt tight
+  double skip_step = 30.0;    ///< radii between the places that skipping may choose from
+
+  // Where clearance is preferred, and alternatives (planning/path_cost.cpp, deformation.cpp,
+  // alternatives.cpp, route_enumeration.cpp).
+  double look_step = 0.5;         ///< radii between looks along a path
+  double cost_slack = 1e-3;       ///< of a cost, by which its sum over looks may be off
+  double deform_radius = 0.75;    ///< radii at which two paths see each other all along
+  double shrinks_to = 0.6;        ///< of its length: shorter a route seldom becomes
+  int shortenings = 3;            ///< of an alternative
+  double apart = 4.0;             ///< radii along a path between places that may not meet
+  std::size_t most_forks = 5000;  ///< gone on from before the enumeration gives up
+  int most_alike = 4;             ///< routes to a fork that deform into each other
+
+  // Learning corners (roadmap/build_tangent_graph.cpp, corner_*.cpp).
+  std::size_t first_pairs = 250;  ///< of places to learn from at first
+  std::size_t asked_pairs = 100;  ///< of places between which new paths show how much is known
+  double known = 0.85;            ///< of the paths: enough is learnt
+  double hopeless = 0.75;         ///< of the paths: less, and the map does without corners
+  float shunning = 1.6f;          ///< factor on edges that the first of two routes took
+  std::size_t merge_tries = 4;    ///< corners that may stand for one
+  std::size_t linked = 16;        ///< nearest corners that one is linked to
+  double link_saving = 1.005;     ///< of other ways over an edge: less, and it goes
+  double over_tangent = 0.2;      ///< sine of the angle above a corner's tangent plane
+  std::size_t looked_at = 72;     ///< corners from a cell, for those that it sees
+};
+
+inline constexpr PlanningConstants kPlanning{};
+
+/// Radii, over the smallest, that edges of the cell graph are looked at for.
+inline constexpr std::array<double, 4> kRadiusLevels{1.0, 1.25, 1.5, 2.0};
+
+}  // namespace ridgeway::detail

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include "roadmap/cell_search.hpp"
+#include "route.hpp"
+
+namespace ridgeway::detail {
+
+/// Between ends that space connects: a route over the cell graph, pulled tight; empty where that
+/// graph has none. `known`: length of a path that it has to be shorter than, metres, 0 for none:
+/// then the search is a short one.
+CellRoute path_over_cells(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query,
+                          const Attachment& attachment, double known, const Deadline& deadline);
+
+/// A route pulled tight; empty where it becomes clear that it will not be shorter than `longest`,
+/// metres.
+Route shorten_below(const FreeSpace& space, Route route, double radius, double longest,
+                    const Deadline& deadline);
+
+/// A tight path, or one over ways past what blocks stretches of it, pulled tight.
+Route past_what_blocks(const EsdfMap& esdf, const FreeSpace& space, const RouteQuery& query,
+                       Route path, const Deadline& deadline);
+
+/// A path shorter than `length`, metres, by a search over voxels, pulled tight; empty where it
+/// finds none within its limit.
+Route path_over_voxels(const EsdfMap& esdf, const FreeSpace& space, const RouteQuery& query,
+                       double length, const Deadline& deadline);
+
+/// The shortest path over voxels at any angle (search_any_angle), pulled tight; empty where time is
+/// up.
+Route shortest_over_voxels(const EsdfMap& esdf, const FreeSpace& space, const RouteQuery& query,
+                           const Deadline& deadline);
+
+/// Where clearance is preferred: the cheapest of a short path and of routes as found, pulled tight
+/// only as far as they get no costlier.
+Route cheapest(const FreeSpace& space, const RouteQuery& query, std::vector<Route> as_found,
+               Route short_path, const Deadline& deadline);
+
+}  // namespace ridgeway::detail

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "cell_neighbours.hpp"
+#include "paths/planning_constants.hpp"
+#include "ridgeway/common/parallel.hpp"
+#include "ridgeway/esdf/free_space.hpp"
+
+namespace ridgeway {
+namespace {
+
+using detail::CellId;
+using detail::CellLattice;
+using detail::kPlanning;
+using detail::kRadiusLevels;
+
+struct PlaceInCell {
+  double off;          ///< its centre from that of the cell, weighed, voxels
+  std::uint8_t place;  ///< as CellGraph::Cell has it
+};
+
+/// The voxels of a cell, those nearest to its centre first.
+std::array<PlaceInCell, CellGraph::kNoPlace> from_centre_out() {
+  std::array<PlaceInCell, CellGraph::kNoPlace> places{};
+  const double middle = 0.5 * (CellGraph::kSide - 1);
+  for (std::uint8_t i = 0; i < CellGraph::kNoPlace; ++i) {
+    const Point off((i & 3) - middle, (i >> 2 & 3) - middle, (i >> 4) - middle);
+    places[i] = {kPlanning.cell_centring * off.norm(), i};
+  }
+  std::stable_sort(places.begin(), places.end(),
+                   [](const PlaceInCell& a, const PlaceInCell& b) { return a.off < b.off; });
+  return places;
+}
+
+class CellGraphBuilder {
+ public:
+  CellGraphBuilder(const EsdfMap& esdf, double radius)
+      : esdf_(esdf), space_(esdf), lattice_(esdf.layout), radius_(radius) {
+    for (std::size_t i = 0; i < thresholds_.size(); ++i)
+      thresholds_[i] = least_clearance(radius * kRadiusLevels[i], esdf.voxel_size);
+  }
+
+  CellGraph run() {
+    const std::size_t count = std::size_t{CellGraph::kPerBlock} * esdf_.layout.block_count();
+    cells_.resize(count);
+    parallel_for_each_index(
+        esdf_.layout.block_count(),
+        [&](std::size_t rank) {
+          if (!has_room(static_cast<std::uint32_t>(rank))) return;
+          for (CellId i = 0; i < CellGraph::kPerBlock; ++i)
+            choose_place(static_cast<CellId>(rank) * CellGraph::kPerBlock + i);
+        },
+        16);
+    parallel_for_each_index(
+        count, [&](std::size_t i) { link(static_cast<CellId>(i)); }, 64);
+    number_parts();
+    return {std::move(cells_), {}, {}};
+  }
+
+ private:
+  VoxelId voxel_of(CellId cell, std::uint8_t place) const {
+    const std::uint32_t slot = esdf_.layout.slot_at(cell / CellGraph::kPerBlock);
+    const auto coordinate = [&](int axis) {
+      return (cell >> axis & 1u) * CellGraph::kSide + (place >> 2 * axis & 3u);
+    };
+    return slot * kBlockVoxels +
+           (coordinate(0) | coordinate(1) << kBlockBits | coordinate(2) << 2 * kBlockBits);
+  }
+  Point place_of(CellId cell) const {
+    return centre_of(lattice_.voxel_at(cell, cells_[cell].place), esdf_.voxel_size);
+  }
+
+  /// Whether the robot may fit on a voxel of a block.
+  bool has_room(std::uint32_t rank) const {
+    const VoxelId first = esdf_.layout.slot_at(rank) * kBlockVoxels;
+    std::uint32_t widest = 0;
+    for (VoxelId id = first; id < first + kBlockVoxels; ++id)
+      widest = std::max(widest, esdf_.squared[id]);
+    return widest >= least_clearance(radius_, esdf_.voxel_size);
+  }
+
+  /// Wide, but no wider than the widest robots need to turn, and near the middle: there most
+  /// neighbours are in sight.
+  void choose_place(CellId cell) {
+    static const auto kPlaces = from_centre_out();
+    const double enough = kRadiusLevels.back() * radius_ / esdf_.voxel_size + kPlanning.cell_room;
+    double best = -std::numeric_limits<double>::infinity();
+    for (const auto& [off, place] : kPlaces) {
+      if (enough - off <= best) return;  // so are those after it
+      const VoxelId id = voxel_of(cell, place);
+      if (esdf_.squared[id] < thresholds_.front() || !esdf_.is_open(id)) continue;
+      if (!space_.is_within_limits(id)) continue;
+      const double width = 0.5 * std::sqrt(static_cast<double>(esdf_.squared[id]));
+      if (const double worth = std::min(width, enough) - off; worth > best) {
+        best = worth;
+        cells_[cell].place = place;
+      }
+    }
+  }
+
+  void link(CellId cell) {
+    if (cells_[cell].place == CellGraph::kNoPlace) return;
+    for (int d = kCentre + 1; d < 27; ++d) {
+      const CellId other = lattice_.neighbour(cell, d);
+      if (other == detail::kNoCell || cells_[other].place == CellGraph::kNoPlace) continue;
+      cells_[cell].widths[static_cast<std::size_t>(d - kCentre - 1)] = width_between(cell, other);
+    }
+  }
+
+  /// How many of the levels of radii pass between two places. Only for the smallest robot single
+  /// obstacles are looked at.
+  std::uint8_t width_between(CellId a, CellId b) const {
+    const SquaredHalves from = esdf_.squared[voxel_of(a, cells_[a].place)],
+                        to = esdf_.squared[voxel_of(b, cells_[b].place)];
+    const VoxelIndex along =
+        lattice_.voxel_at(b, cells_[b].place) - lattice_.voxel_at(a, cells_[a].place);
+    const SquaredHalves bound =
+        FreeSpace::move_bound(from, to, along.x * along.x + along.y * along.y + along.z * along.z);
+    const SquaredHalves ends = from < to ? from : to;
+    const Point place = place_of(a), other = place_of(b);
+    if (!space_.is_within_limits(place, other)) return 0;
+    const bool is_known = esdf_.unknown == UnknownPolicy::kObstacle ||
+                          (bound >= thresholds_.front() && space_.is_known_free(place, other));
+    std::uint8_t width = levels_below(ends);
+    const std::uint8_t sure = is_known ? levels_below(bound) : 0;
+    for (; width > sure; --width) {
+      const double radius = radius_ * kRadiusLevels[width - 1];
+      if (width > 1 ? space_.is_clearly_free(place, other, radius)
+                    : space_.is_free(place, other, radius))
+        break;
+    }
+    return width;
+  }
+
+  std::uint8_t levels_below(SquaredHalves clearance) const {
+    std::uint8_t levels = 0;
+    while (levels < thresholds_.size() && clearance >= thresholds_[levels]) ++levels;
+    return levels;
+  }
+
+  void number_parts() {
+    std::vector<CellId> open;
+    std::uint16_t part = 0;
+    for (CellId first = 0; first < cells_.size(); ++first) {
+      if (cells_[first].place == CellGraph::kNoPlace || cells_[first].part != CellGraph::kNoPart)
+        continue;
+      if (part == CellGraph::kNoPart) return;
+      cells_[first].part = part;
+      for (open.assign(1, first); !open.empty();) {
+        const CellId cell = open.back();
+        open.pop_back();
+        for (int d = 0; d < 27; ++d) {
+          if (d == kCentre) continue;
+          const CellId next = lattice_.neighbour(cell, d);
+          if (next == detail::kNoCell || detail::edge_width(cells_, cell, next, d) == 0 ||
+              cells_[next].part != CellGraph::kNoPart)
+            continue;
+          cells_[next].part = part;
+          open.push_back(next);
+        }
+      }
+      ++part;
+    }
+  }
+
+  const EsdfMap& esdf_;
+  const FreeSpace space_;
+  const CellLattice lattice_;
+  const double radius_;
+  std::array<SquaredHalves, kRadiusLevels.size()> thresholds_;
+  std::vector<CellGraph::Cell> cells_;
+};
+
+}  // namespace
+
+CellGraph build_cell_graph(const EsdfMap& esdf, double min_clearance) {
+  if (esdf.planar) return {};  // its cells would be layers beside the one that flights are in
+  CellGraph graph = CellGraphBuilder(esdf, min_clearance).run();
+  detail::place_cell_landmarks(esdf.layout, graph);
+  return graph;
+}
+
+}  // namespace ridgeway

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include "ridgeway/roadmap/roadmap.hpp"
+#include "ridgeway/voxel/neighbourhood.hpp"
+
+namespace ridgeway::detail {
+
+/// Place of a cell in CellGraph::cells.
+using CellId = std::uint32_t;
+inline constexpr CellId kNoCell = 0xffffffffu;
+
+/// Where the cells of a layout lie, and which are beside each other.
+class CellLattice {
+ public:
+  explicit CellLattice(const BlockLayout& layout) : layout_(layout) {}
+
+  /// The cell that holds a voxel, or kNoCell where its block is not allocated.
+  CellId cell_of(const VoxelIndex& v) const {
+    const std::uint32_t slot = layout_.find_block(block_of(v));
+    if (slot == BlockLayout::kNoBlock) return kNoCell;
+    return layout_.rank(slot) * CellGraph::kPerBlock + octant_of(v);
+  }
+
+  /// The first voxel of a cell.
+  VoxelIndex first_voxel(CellId cell) const {
+    const BlockIndex& b = layout_.block(layout_.slot_at(cell / CellGraph::kPerBlock));
+    const auto bit = [&](unsigned k) { return CellGraph::kSide * static_cast<int>(cell >> k & 1); };
+    return {kBlockSide * b.x + bit(0), kBlockSide * b.y + bit(1), kBlockSide * b.z + bit(2)};
+  }
+
+  /// The voxel at a place of a cell.
+  VoxelIndex voxel_at(CellId cell, std::uint8_t place) const {
+    return first_voxel(cell) + VoxelIndex{place & 3, place >> 2 & 3, place >> 4};
+  }
+
+  CellId neighbour(CellId cell, int direction) const {
+    const VoxelIndex there = octant_beyond(cell, direction);
+    std::uint32_t rank = cell / CellGraph::kPerBlock;
+    if (const int beyond = direction_of(there); beyond != kCentre) {
+      const std::uint32_t slot = layout_.neighbour_block(layout_.slot_at(rank), beyond);
+      if (slot == BlockLayout::kNoBlock) return kNoCell;
+      rank = layout_.rank(slot);
+    }
+    return rank * CellGraph::kPerBlock +
+           static_cast<CellId>((there.x & 1) | (there.y & 1) << 1 | (there.z & 1) << 2);
+  }
+
+  /// In which direction the block of that neighbour lies.
+  static int block_direction(CellId cell, int direction) {
+    return direction_of(octant_beyond(cell, direction));
+  }
+
+ private:
+  /// Counted in cells from the first one of the cell's block.
+  static VoxelIndex octant_beyond(CellId cell, int direction) {
+    const auto bit = [&](unsigned k) { return static_cast<int>(cell >> k & 1); };
+    return VoxelIndex{bit(0), bit(1), bit(2)} + offset_of(direction);
+  }
+  static int direction_of(const VoxelIndex& octant) {
+    return (octant.x >> 1) + 1 + 3 * ((octant.y >> 1) + 1) + 9 * ((octant.z >> 1) + 1);
+  }
+  static CellId octant_of(const VoxelIndex& v) {
+    return static_cast<CellId>((v.x >> 2 & 1) | (v.y >> 2 & 1) << 1 | (v.z >> 2 & 1) << 2);
+  }
+
+  const BlockLayout& layout_;
+};
+
+/// Width of the edge from a cell to its neighbour in a direction, as CellGraph::Cell has it.
+inline std::uint8_t edge_width(const std::vector<CellGraph::Cell>& cells, CellId from, CellId to,
+                               int direction) {
+  return direction > kCentre ? cells[from].widths[static_cast<std::size_t>(direction - kCentre - 1)]
+                             : cells[to].widths[static_cast<std::size_t>(kCentre - 1 - direction)];
+}
+
+/// Lengths from landmarks to all blocks, where straight lines say little.
+void place_cell_landmarks(const BlockLayout& layout, CellGraph& graph);
+
+}  // namespace ridgeway::detail

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "cell_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+#include "cell_neighbours.hpp"
+#include "paths/planning_constants.hpp"
+
+namespace ridgeway::detail {
+namespace {
+
+constexpr float kFar = std::numeric_limits<float>::infinity();
+
+/// What a search knows of the cells that it has met: a hash table, as they are few of many.
+class MetCells {
+ public:
+  struct Met {
+    CellId cell = kNoCell, from = kNoCell;
+    float cost = kFar;  ///< voxels
+  };
+
+  Met& operator[](CellId cell) {
+    if (2 * count_ >= table_.size()) grow();
+    return place_of(cell);
+  }
+
+ private:
+  Met& place_of(CellId cell) {
+    std::size_t i = cell * 2654435761u & (table_.size() - 1);  // Knuth's multiplicative hash
+    while (table_[i].cell != cell) {
+      if (table_[i].cell == kNoCell) {
+        table_[i].cell = cell;
+        ++count_;
+        break;
+      }
+      i = (i + 1) & (table_.size() - 1);
+    }
+    return table_[i];
+  }
+
+  void grow() {
+    std::vector<Met> old(4 * table_.size());
+    old.swap(table_);
+    count_ = 0;
+    for (const Met& met : old)
+      if (met.cell != kNoCell) place_of(met.cell) = met;
+  }
+
+  std::vector<Met> table_ = std::vector<Met>(512);
+  std::size_t count_ = 0;
+};
+
+/// Cells around a place on the way from an end. Whether they are in sight of it is looked at only
+/// where that counts.
+struct Approach {
+  enum class Sight : std::uint8_t { kUnknown, kYes, kNo };
+  struct Join {
+    CellId cell;
+    float length;  ///< of the segment to its place, voxels
+    Sight sight = Sight::kUnknown;
+  };
+  Point place;              ///< metres
+  std::size_t walked = 0;   ///< voxels of the way that lead to the place; 0: the end itself
+  std::vector<Join> joins;  ///< the nearest first
+};
+
+/// How many levels of radii an edge has to let through for a radius over the smallest; the widest
+/// have to be looked at beyond all levels.
+static std::size_t width_for(double factor) {
+  std::size_t width = 1;
+  while (width < kRadiusLevels.size() && factor > kRadiusLevels[width - 1] * (1.0 + 1e-9)) ++width;
+  return width;
+}
+
+const CellGraph::Lengths& lengths_for(const CellGraph& cells, double factor) {
+  return width_for(factor) == kRadiusLevels.size() ? cells.lengths_wide : cells.lengths;
+}
+
+class CellSearch {
+ public:
+  CellSearch(const Roadmap& roadmap, const FreeSpace& space, const CellQuery& query)
+      : esdf_(roadmap.esdf),
+        cells_(roadmap.cells.cells),
+        space_(space),
+        query_(query),
+        lattice_(roadmap.esdf.layout),
+        is_beyond_levels_(query.radius >
+                          kRadiusLevels.back() * roadmap.min_clearance * (1.0 + 1e-9)),
+        least_width_(width_for(query.radius / roadmap.min_clearance)),
+        lengths_(lengths_for(roadmap.cells, query.radius / roadmap.min_clearance)),
+        goal_((query.goal / roadmap.esdf.voxel_size).cast<float>()),
+        longest_(static_cast<float>(query.longest / roadmap.esdf.voxel_size)) {}
+
+  CellRoute run() {
+    Approach out = look_around(query_.start, 0), in = look_around(query_.goal, 0);
+    while (!have_common_part(out, in)) {
+      const bool can_walk = walk_on(query_.from, out);
+      if (!walk_on(query_.to, in) && !can_walk) return {};
+    }
+    aim_at(in.joins.front().cell);
+    const CellId last = search(out, in);
+    CellRoute result{
+        {}, last != kNoCell, out.walked == 0 && in.walked == 0, taken_ >= query_.most_cells};
+    if (last != kNoCell) result.waypoints = route_over(out, in, last);
+    return result;
+  }
+
+ private:
+  using Place = Eigen::Vector3f;  // voxels
+
+  /// Where a cell is passed that begins at a voxel.
+  Place place_in(CellId cell, const VoxelIndex& first) const {
+    const int place = cells_[cell].place;
+    return {static_cast<float>(first.x + (place & 3)) + 0.5f,
+            static_cast<float>(first.y + (place >> 2 & 3)) + 0.5f,
+            static_cast<float>(first.z + (place >> 4)) + 0.5f};
+  }
+  Point point_of(CellId cell) const {
+    return centre_of(lattice_.voxel_at(cell, cells_[cell].place), esdf_.voxel_size);
+  }
+  Point point_of_voxel(VoxelId id) const {
+    return centre_of(esdf_.layout.index_of(id), esdf_.voxel_size);
+  }
+
+  Approach look_around(const Point& place, std::size_t walked) const {
+    Approach approach{place, walked, {}};
+    const CellId own = lattice_.cell_of(voxel_at(place, esdf_.voxel_size));
+    for (int d = 0; d < 27 && own != kNoCell; ++d) {
+      const CellId cell = lattice_.neighbour(own, d);
+      if (cell == kNoCell || cells_[cell].part == CellGraph::kNoPart) continue;
+      const double length = (point_of(cell) - place).norm() / esdf_.voxel_size;
+      approach.joins.push_back({cell, static_cast<float>(length)});
+    }
+    std::stable_sort(
+        approach.joins.begin(), approach.joins.end(),
+        [](const Approach::Join& a, const Approach::Join& b) { return a.length < b.length; });
+    return approach;
+  }
+
+  bool sees(const Approach& approach, Approach::Join& join) const {
+    if (join.sight == Approach::Sight::kUnknown)
+      join.sight = space_.is_free(approach.place, point_of(join.cell), query_.radius)
+                       ? Approach::Sight::kYes
+                       : Approach::Sight::kNo;
+    return join.sight == Approach::Sight::kYes;
+  }
+
+  /// Looks around from a cell farther along the way; false at its end.
+  bool walk_on(const AttachWay& way, Approach& approach) const {
+    if (approach.walked >= way.voxels.size()) return false;
+    const std::size_t walked = std::min(approach.walked + CellGraph::kSide, way.voxels.size());
+    approach = look_around(point_of_voxel(way.voxels[walked - 1]), walked);
+    return true;
+  }
+
+  bool have_common_part(Approach& a, Approach& b) const {
+    for (Approach::Join& x : a.joins)
+      for (Approach::Join& y : b.joins)
+        if (cells_[x.cell].part == cells_[y.cell].part && sees(a, x) && sees(b, y)) return true;
+    return false;
+  }
+
+  struct Open {
+    float estimate, cost;
+    CellId cell;
+    bool operator<(const Open& other) const {  // the queue's top is the best
+      return estimate != other.estimate ? estimate > other.estimate : cell > other.cell;
+    }
+  };
+
+  void aim_at(CellId goal) {
+    if (lengths_.empty()) return;
+    goal_lengths_ = lengths_[goal / CellGraph::kPerBlock];
+  }
+
+  /// Of the way to the goal, about, voxels.
+  float rest_from(CellId cell, const Place& place) const {
+    float rest = (place - goal_).norm();
+    if (lengths_.empty()) return rest;
+    constexpr auto kShare = static_cast<float>(kPlanning.landmark_share);
+    const auto& own = lengths_[cell / CellGraph::kPerBlock];
+    for (std::size_t k = 0; k < own.size(); ++k)
+      rest = std::max(rest, kShare * std::abs(own[k] - goal_lengths_[k]));
+    return rest;
+  }
+
+  void reach(CellId cell, float cost, CellId from, float rest, MetCells::Met& met) {
+    met.cost = cost;
+    met.from = from;
+    open_.push({cost + static_cast<float>(kPlanning.cell_weight) * rest, cost, cell});
+  }
+
+  /// The last cell of the best route found, or kNoCell.
+  CellId search(Approach& out, Approach& in) {
+    for (Approach::Join& join : out.joins)
+      if (sees(out, join)) {
+        const Place place = place_in(join.cell, lattice_.first_voxel(join.cell));
+        reach(join.cell, join.length, join.cell, rest_from(join.cell, place), met_[join.cell]);
+      }
+    float best = longest_;
+    CellId best_last = kNoCell;
+    for (; !open_.empty() && taken_ < query_.most_cells; ++taken_) {
+      const Open next = open_.top();
+      open_.pop();
+      if (best_last != kNoCell && next.estimate >= best) break;
+      if (next.cost > met_[next.cell].cost) continue;
+      for (Approach::Join& join : in.joins)
+        if (join.cell == next.cell && next.cost + join.length < best && sees(in, join)) {
+          best = next.cost + join.length;
+          best_last = next.cell;
+        }
+      expand(next, best);
+    }
+    return best_last;
+  }
+
+  /// `best`: length that ways have to stay below, voxels.
+  void expand(const Open& here, float best) {
+    const VoxelIndex first = lattice_.first_voxel(here.cell);
+    const Place place = place_in(here.cell, first);
+    for (int d = 0; d < 27; ++d) {
+      if (d == kCentre) continue;
+      const CellId next = lattice_.neighbour(here.cell, d);
+      if (next == kNoCell) continue;
+      const std::size_t width = edge_width(cells_, here.cell, next, d);
+      if (width < least_width_) continue;
+      const VoxelIndex& o = offset_of(d);
+      const Place there =
+          place_in(next, first + VoxelIndex{CellGraph::kSide * o.x, CellGraph::kSide * o.y,
+                                            CellGraph::kSide * o.z});
+      const float cost = here.cost + (there - place).norm(), rest = rest_from(next, there);
+      if (cost + rest >= best) continue;
+      MetCells::Met& met = met_[next];
+      if (cost < met.cost && (!is_beyond_levels_ || is_free(here.cell, next)))
+        reach(next, cost, here.cell, rest, met);
+    }
+  }
+
+  bool is_free(CellId a, CellId b) const {
+    return space_.is_free(point_of(a), point_of(b), query_.radius);
+  }
+
+  std::vector<Point> route_over(const Approach& out, const Approach& in, CellId last) {
+    std::vector<Point> route{query_.goal};
+    for (std::size_t i = 0; i < in.walked; ++i)
+      route.push_back(point_of_voxel(query_.to.voxels[i]));
+    for (CellId cell = last;; cell = met_[cell].from) {
+      route.push_back(point_of(cell));
+      if (met_[cell].from == cell) break;
+    }
+    for (std::size_t i = out.walked; i-- > 0;)
+      route.push_back(point_of_voxel(query_.from.voxels[i]));
+    route.push_back(query_.start);
+    std::reverse(route.begin(), route.end());
+    return route;
+  }
+
+  const EsdfMap& esdf_;
+  const std::vector<CellGraph::Cell>& cells_;
+  const FreeSpace& space_;
+  const CellQuery& query_;
+  const CellLattice lattice_;
+  const bool is_beyond_levels_;  ///< edges may be free that the widest robots pass
+  const std::size_t least_width_;
+  const CellGraph::Lengths& lengths_;
+  std::array<float, CellGraph::kLandmarks> goal_lengths_{};
+  const Place goal_;
+  const float longest_;
+  MetCells met_;
+  std::priority_queue<Open> open_;
+  int taken_ = 0;  ///< cells
+};
+
+}  // namespace
+
+double length_between(const Roadmap& roadmap, VoxelId a, VoxelId b) {
+  const CellGraph::Lengths& lengths = roadmap.cells.lengths;
+  if (lengths.empty()) return 0.0;
+  const auto& from = lengths[roadmap.esdf.layout.rank(a / kBlockVoxels)];
+  const auto& to = lengths[roadmap.esdf.layout.rank(b / kBlockVoxels)];
+  float length = 0.0f;
+  for (std::size_t k = 0; k < from.size(); ++k)
+    length = std::max(length, std::abs(from[k] - to[k]));
+  return kPlanning.landmark_share * length * roadmap.esdf.voxel_size;
+}
+
+CellRoute search_cells(const Roadmap& roadmap, const FreeSpace& space, const CellQuery& query) {
+  if (roadmap.cells.cells.empty()) return {};
+  return CellSearch(roadmap, space, query).run();
+}
+
+}  // namespace ridgeway::detail

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/planning/plan.hpp"
+#include "ridgeway/roadmap/build_roadmap.hpp"
+#include "support/places.hpp"
+#include "support/random_maps.hpp"
+
+namespace ridgeway {
+namespace {
+
+constexpr double kVoxel = 0.1, kRadius = 0.1;
+
+/// A box of free space with random obstacles.
+Roadmap random_roadmap(std::mt19937& random) {
+  std::vector<std::array<VoxelIndex, 2>> boxes;
+  for (int i = 0; i < 7; ++i) {
+    const auto at = [&](int most) {
+      return 1 + static_cast<int>(random() % static_cast<unsigned>(most));
+    };
+    const VoxelIndex low{at(12), at(12), at(7)};
+    boxes.push_back({low, low + VoxelIndex{at(5), at(5), at(5)}});
+  }
+  const OccupancyMap map =
+      testing::make_map(kVoxel, {0, 0, 0}, {14, 14, 9}, [&](const VoxelIndex& v) {
+        const bool is_solid = std::any_of(boxes.begin(), boxes.end(), [&](const auto& box) {
+          return v.x >= box[0].x && v.x < box[1].x && v.y >= box[0].y && v.y < box[1].y &&
+                 v.z >= box[0].z && v.z < box[1].z;
+        });
+        return is_solid ? VoxelState::kOccupied : VoxelState::kFree;
+      });
+  return build_roadmap(map, {.min_clearance = kRadius}).roadmap;
+}
+
+/// The shortest path over all traversable voxel centres that see each other: an upper bound on the
+/// shortest path of all, which a false lower bound would have to stay below.
+double shortest_over_centres(const Roadmap& roadmap, const std::vector<VoxelId>& places,
+                             std::size_t start, std::size_t goal) {
+  const EsdfMap& esdf = roadmap.esdf;
+  const FreeSpace space(esdf);
+  std::vector<Point> at;
+  for (const VoxelId id : places)
+    at.push_back(centre_of(esdf.layout.index_of(id), esdf.voxel_size));
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  std::vector<double> cost(at.size(), kFar);
+  std::vector<bool> is_done(at.size());
+  cost[start] = 0.0;
+  for (;;) {  // A*
+    std::size_t best = at.size();
+    const auto estimate = [&](std::size_t i) { return cost[i] + (at[i] - at[goal]).norm(); };
+    for (std::size_t i = 0; i < at.size(); ++i)
+      if (!is_done[i] && cost[i] < kFar && (best == at.size() || estimate(i) < estimate(best)))
+        best = i;
+    if (best == at.size() || best == goal) return cost[goal];
+    is_done[best] = true;
+    for (std::size_t i = 0; i < at.size(); ++i)
+      if (const double own = cost[best] + (at[i] - at[best]).norm();
+          own < cost[i] && space.is_free(at[best], at[i], kRadius))
+        cost[i] = own;
+  }
+}
+
+TEST(Within, HoldsAgainstTheShortestPathByBruteForce) {
+  std::mt19937 random(1);
+  int bent = 0, shorter_by_more = 0;
+  for (int map = 0; map < 12; ++map) {
+    SCOPED_TRACE(map);
+    const Roadmap roadmap = random_roadmap(random);
+    const EsdfMap& esdf = roadmap.esdf;
+    const std::vector<VoxelId> places = testing::traversable_places(esdf, kRadius);
+    for (int i = 0; i < 5; ++i) {
+      const std::size_t from = random() % places.size(), to = random() % places.size();
+      const Point start = to_world(esdf, centre_of(esdf.layout.index_of(places[from]), kVoxel));
+      const Point goal = to_world(esdf, centre_of(esdf.layout.index_of(places[to]), kVoxel));
+      const double shortest = shortest_over_centres(roadmap, places, from, to);
+      const PlanResult usual = plan(roadmap, start, goal);
+      const PlanResult best = plan(roadmap, start, goal, {.within = PlanConfig::kBestWithin});
+      ASSERT_EQ(usual.ok(), !std::isinf(shortest));
+      ASSERT_EQ(best.ok(), usual.ok());
+      if (!usual.ok()) continue;
+      for (const PlanResult* result : {&usual, &best}) {
+        EXPECT_GE(result->within, 1.0);
+        EXPECT_LE(result->length, result->within * shortest * (1.0 + 1e-9));
+      }
+      const PlanResult exact = plan(roadmap, start, goal, {.planner = Planner::kEsdf});
+      const PlanResult theta = plan(roadmap, start, goal, {.planner = Planner::kThetaStar});
+      EXPECT_LE(usual.length, 1.15 * exact.length);
+      EXPECT_LE(best.length, usual.length * (1.0 + 1e-9));
+      if (best.within > PlanConfig::kBestWithin) {
+        EXPECT_LE(best.length, 1.01 * theta.length);
+      }
+      bent += usual.waypoints.size() > 2;
+      shorter_by_more += best.length < 0.999 * usual.length;
+    }
+  }
+  EXPECT_GT(bent, 25);
+  EXPECT_GT(shorter_by_more, 0);
+}
+
+TEST(Within, RefusesWhatIsNoFactor) {
+  std::mt19937 random(1);
+  const Roadmap roadmap = random_roadmap(random);
+  for (const double bad : {-1.0, 0.5, 0.999, std::nan(""), std::numeric_limits<double>::infinity()})
+    EXPECT_THROW(plan(roadmap, {0.5, 0.5, 0.5}, {1, 1, 1}, {.within = bad}), InputError);
+}
+
+}  // namespace
+}  // namespace ridgeway
