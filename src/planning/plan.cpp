@@ -116,7 +116,7 @@ class Answering {
 
   bool is_enough(const detail::TangentPath& tangents) const {
     if (config_.within > 0.0) return excess(tangents.waypoints) <= config_.within;
-    return config_.quick || over_expected(tangents.waypoints) <= detail::kPlanning.believed;
+    return config_.quick || over_expected(tangents.waypoints) <= detail::kPlanning.near;
   }
 
   /// How many times the bound a path is long; infinite for none.
