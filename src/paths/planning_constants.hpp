@@ -21,17 +21,17 @@ struct PlanningConstants {
   double winding = 1.1;  ///< of ways over straight lines on average: landmarks say more than those
 
   // What a query tries (planning/plan.cpp). Lengths over what a path may be expected to have.
-  double near = 1.03;      ///< good enough at any price: no ways past what blocks it are looked for
-  double believed = 1.06;  ///< good enough for a path over corners
-  double far = 1.12;       ///< too long to be believed: the sparse graph is searched as well
-  double as_found = 1.1;   ///< a route over cells or corners over its tight path, at most
-  int voxel_reach = 32;    ///< of twice as many voxels is a path for which their square is searched
+  double near = 1.05;  ///< good enough: nothing else is asked, nor ways past what blocks it tried
+  double far = 1.12;   ///< too long to be believed: the sparse graph is searched as well
+  double as_found = 1.1;  ///< a route over cells or corners over its tight path, at most
+  int voxel_reach = 32;   ///< of twice as many voxels is a path for which their square is searched
 
   // Ways past what blocks a stretch (planning/detour.cpp).
   int detour_rays = 6;             ///< around the stretch
+  int detour_tries = 3;            ///< places on a ray,
+  double detour_widening = 1.35;   ///< each so many times as far off as the one before
   int detour_corners = 2;          ///< of a way
   std::size_t detour_stretch = 3;  ///< segments that a way may replace
-  double detour_excess = 0.02;  ///< of the path's length that a stretch is too long: worth a look
 
   // Pulling tight (paths/shorten.cpp).
   int tight_bisections = 6;   ///< of a move
@@ -51,16 +51,17 @@ struct PlanningConstants {
   int most_alike = 4;             ///< routes to a fork that deform into each other
 
   // Learning corners (roadmap/build_tangent_graph.cpp, corner_*.cpp).
-  std::size_t first_pairs = 250;  ///< of places to learn from at first
-  std::size_t asked_pairs = 100;  ///< of places between which new paths show how much is known
-  double known = 0.85;            ///< of the paths: enough is learnt
-  double hopeless = 0.75;         ///< of the paths: less, and the map does without corners
-  float shunning = 1.6f;          ///< factor on edges that the first of two routes took
-  std::size_t merge_tries = 4;    ///< corners that may stand for one
-  std::size_t linked = 16;        ///< nearest corners that one is linked to
-  double link_saving = 1.005;     ///< of other ways over an edge: less, and it goes
-  double over_tangent = 0.2;      ///< sine of the angle above a corner's tangent plane
-  std::size_t looked_at = 72;     ///< corners from a cell, for those that it sees
+  std::size_t first_pairs = 250;    ///< of places to learn from at first
+  std::size_t asked_pairs = 100;    ///< of places between which new paths show how much is known
+  double known = 0.85;              ///< of the paths: enough is learnt
+  double hopeless = 0.75;           ///< of the paths: less, and the map does without corners
+  float shunning = 1.6f;            ///< factor on edges that the first of two routes took
+  std::size_t merge_tries = 4;      ///< corners that may stand for one
+  std::size_t linked = 16;          ///< nearest corners that one is linked to
+  double link_saving = 1.005;       ///< of other ways over an edge: less, and it goes
+  double over_tangent = 0.2;        ///< sine of the angle above a corner's tangent plane
+  std::size_t looked_at = 72;       ///< corners from a cell, for those that it sees
+  std::size_t wide_labels = 50000;  ///< of hubs, to make them for wider robots too: time to build
 };
 
 inline constexpr PlanningConstants kPlanning{};

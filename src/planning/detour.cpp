@@ -64,31 +64,35 @@ Detour find_detour(const EsdfMap& esdf, const FreeSpace& space, const Point& a, 
     const Point direction = std::cos(angle) * u + std::sin(angle) * v;
     const auto length_over = [&](const Point& p) { return (p - a).norm() + (b - p).norm(); };
     const double farthest = 0.5 * budget;
-    const double offset = first_fit(esdf, blocked, direction, radius, farthest);
-    const Point p = blocked + offset * direction;
-    const double limit = best.found() ? best.length : budget;
-    if (offset > farthest || length_over(p) >= limit) continue;
-    if (!space.is_free(p, radius)) continue;
-    const double left = (p - a).norm(), right = (b - p).norm();
-    const bool left_free = space.is_free(a, p, radius);
-    if (!left_free && corners < 2) continue;
-    Way way_left{{}, left_free};
-    const Way way_right =
-        way_between(esdf, space, p, b, radius, limit - left, left_free ? corners - 1 : 0);
-    if (!way_right.free) continue;
-    if (!left_free) way_left = way_between(esdf, space, a, p, radius, limit - right, corners - 1);
-    if (!way_left.free) continue;
-    Detour found;
-    found.corners = std::move(way_left.corners);
-    found.corners.push_back(p);
-    found.corners.insert(found.corners.end(), way_right.corners.begin(), way_right.corners.end());
-    Point last = a;
-    for (const Point& corner : found.corners) {
-      found.length += (corner - last).norm();
-      last = corner;
+    double offset = first_fit(esdf, blocked, direction, radius, farthest);
+    for (int attempt = 0; attempt < kPlanning.detour_tries;
+         ++attempt, offset *= kPlanning.detour_widening) {
+      const Point p = blocked + offset * direction;
+      const double limit = best.found() ? best.length : budget;
+      if (offset > farthest || length_over(p) >= limit) break;
+      if (!space.is_free(p, radius)) continue;
+      const double left = (p - a).norm(), right = (b - p).norm();
+      const bool left_free = space.is_free(a, p, radius);
+      if (!left_free && corners < 2) continue;
+      Way way_left{{}, left_free};
+      const Way way_right =
+          way_between(esdf, space, p, b, radius, limit - left, left_free ? corners - 1 : 0);
+      if (!way_right.free) continue;
+      if (!left_free) way_left = way_between(esdf, space, a, p, radius, limit - right, corners - 1);
+      if (!way_left.free) continue;
+      Detour found;
+      found.corners = std::move(way_left.corners);
+      found.corners.push_back(p);
+      found.corners.insert(found.corners.end(), way_right.corners.begin(), way_right.corners.end());
+      Point last = a;
+      for (const Point& corner : found.corners) {
+        found.length += (corner - last).norm();
+        last = corner;
+      }
+      found.length += (b - last).norm();
+      if (found.length < limit) best = std::move(found);
+      break;
     }
-    found.length += (b - last).norm();
-    if (found.length < limit) best = std::move(found);
   }
   return best;
 }
@@ -103,7 +107,7 @@ std::vector<Point> redirect(const EsdfMap& esdf, const FreeSpace& space, std::ve
       const auto first = path.begin() + static_cast<std::ptrdiff_t>(i);
       const auto last = first + static_cast<std::ptrdiff_t>(stretch);
       const double length = length_of({first, last + 1});
-      if (length - (*last - *first).norm() < kPlanning.detour_excess * total) continue;
+      if (length - (*last - *first).norm() < (kPlanning.near - 1.0) * total) continue;
       const Detour detour =
           find_detour(esdf, space, *first, *last, radius, length * (1.0 - kPlanning.tight_gain),
                       kPlanning.detour_corners);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -116,6 +117,8 @@ class Answering {
   detail::TangentPath path_over_corners() {
     if (!config_.shorten || config_.planner != Planner::kGraph || !space_.is_for_sphere())
       return {};
+    // The smallest robot's corners are of one part of space; that part may fall apart for others.
+    if (query_.radius > roadmap_.min_clearance * (1.0 + 1e-9) && !is_connected()) return {};
     detail::TangentPath tangents =
         detail::plan_tangents(roadmap_.tangents, space_, query_, config_.quick, deadline_);
     result_.seconds.search = tangents.search_seconds;
@@ -124,9 +127,20 @@ class Answering {
     return tangents;
   }
 
+  /// The ways of both ends to the graph.
+  const detail::Attachment& attach() {
+    if (!attachment_) attachment_ = detail::attach(roadmap_, space_, query_);
+    return *attachment_;
+  }
+
+  /// Whether they show that moves between voxels lead from end to end.
+  bool is_connected() {
+    return attach().reach == detail::Reach::kConnected || attach().reach == detail::Reach::kJoined;
+  }
+
   bool is_enough(const detail::TangentPath& tangents) const {
     if (config_.within > 0.0) return excess(tangents.waypoints) <= config_.within;
-    return config_.quick || over_expected(tangents.waypoints) <= detail::kPlanning.believed;
+    return config_.quick || over_expected(tangents.waypoints) <= detail::kPlanning.near;
   }
 
   /// How many times the bound a path is long; infinite for none.
@@ -150,19 +164,16 @@ class Answering {
       began = now;
     };
     const bool is_over_graph = config_.planner == Planner::kGraph;
-    detail::Attachment attachment;
-    if (is_over_graph || config_.planner == Planner::kDiagram)
-      attachment = detail::attach(roadmap_, space_, query_);
+    if (!is_over_graph && config_.planner != Planner::kDiagram) attachment_.emplace();  // unused
+    attach();
     lap(result_.seconds.attach);
-    const bool is_connected =
-        attachment.reach == detail::Reach::kConnected || attachment.reach == detail::Reach::kJoined;
-    if (wants_short() && is_over_graph && is_connected && !space_.is_narrowed()) {
-      search_cells(attachment, known);
+    if (wants_short() && is_over_graph && is_connected() && !space_.is_narrowed()) {
+      search_cells(known);
       lap(result_.seconds.shorten);
       if (is_plausible(known) && accept(known, {})) return PlanStatus::kOk;
     }
     detail::RouteResult found =
-        detail::find_route(roadmap_, space_, query_, attachment, config_.planner, deadline_);
+        detail::find_route(roadmap_, space_, query_, attach(), config_.planner, deadline_);
     lap(result_.seconds.search);
     result_.answered_by = found.answered_by;
     if (found.status == detail::SearchStatus::kTimeout && known.empty())
@@ -182,10 +193,10 @@ class Answering {
   }
 
   /// Makes what is known shorter by way of the cells where they have something shorter.
-  void search_cells(const detail::Attachment& attachment, Route& known) {
+  void search_cells(Route& known) {
     const bool knows_any = !known.empty();
     detail::CellRoute cells = detail::path_over_cells(
-        roadmap_, space_, query_, attachment, knows_any ? length_of(known) : 0.0, deadline_);
+        roadmap_, space_, query_, attach(), knows_any ? length_of(known) : 0.0, deadline_);
     is_sure_ = cells.is_direct && (cells.found || (knows_any && !cells.gave_up));
     known = improve(shorter(std::move(known), std::move(cells.waypoints)));
   }
@@ -232,14 +243,12 @@ class Answering {
                                 .run();
     if (!short_path.ok()) return short_path.status;
     const double began = seconds_now();
-    const detail::Attachment attachment = detail::attach(roadmap_, space_, query_);
     std::vector<Route> routes;
     for (const double preference : {query_.prefer_clearance, 0.0}) {
       detail::RouteQuery query = query_;
       query.prefer_clearance = preference;
       routes.push_back(
-          detail::find_route(roadmap_, space_, query, attachment, config_.planner, deadline_)
-              .route);
+          detail::find_route(roadmap_, space_, query, attach(), config_.planner, deadline_).route);
       if (routes.back().empty()) routes.pop_back();
     }
     Route best =
@@ -255,6 +264,7 @@ class Answering {
   const PlanConfig& config_;
   const Deadline& deadline_;
   detail::RouteQuery query_;
+  std::optional<detail::Attachment> attachment_;
   PlanResult result_;
   bool is_sure_ = false;  ///< the cells had a way from end to end, or none that is shorter
 };

@@ -110,7 +110,7 @@ class CellGraphBuilder {
     }
   }
 
-  /// How many of the levels of radii pass between two places. Only for the smallest robot single
+  /// How many of the levels of radii pass between two places. Only for small robots single
   /// obstacles are looked at.
   std::uint8_t width_between(CellId a, CellId b) const {
     const SquaredHalves from = esdf_.squared[voxel_of(a, cells_[a].place)],
@@ -128,7 +128,7 @@ class CellGraphBuilder {
     const std::uint8_t sure = is_known ? levels_below(bound) : 0;
     for (; width > sure; --width) {
       const double radius = radius_ * kRadiusLevels[width - 1];
-      if (width > 1 ? space_.is_clearly_free(place, other, radius)
+      if (width > 2 ? space_.is_clearly_free(place, other, radius)
                     : space_.is_free(place, other, radius))
         break;
     }

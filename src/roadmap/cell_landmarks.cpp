@@ -64,10 +64,10 @@ class BlockGraph {
   }
   float length(std::uint32_t rank) const { return search_.cost(rank); }
 
-  /// Of the part that has the most blocks, the first one, and the one farthest from that; with
-  /// how long ways from there and straight lines are, summed over its blocks.
+  /// Of the part that has the most blocks: the one farthest from the first, and how long ways from
+  /// the first and straight lines are, summed over all.
   struct Part {
-    std::uint32_t first = 0, farthest = 0;
+    std::uint32_t farthest = 0;
     std::size_t blocks = 0;
     double ways = 0.0, straight = 0.0;  ///< voxels
   };
@@ -76,7 +76,7 @@ class BlockGraph {
     Part largest;
     for (std::uint32_t rank = 0; rank < links_.size(); ++rank) {
       if (links_[rank] == 0 || is_seen[rank] != 0) continue;
-      Part part{rank, rank, 0, 0.0, 0.0};
+      Part part;
       part.farthest = search_from(rank, [&](std::uint32_t reached) {
         part.ways += length(reached);
         part.straight += (middles_[reached] - middles_[rank]).norm();
@@ -104,7 +104,6 @@ class BlockGraph {
   const std::uint8_t least_width_;
   std::vector<Middle> middles_;       // by rank
   std::vector<std::uint32_t> links_;  // by rank: a bit for each direction
-  std::size_t count_ = 0;
   BestFirstSearch<std::uint32_t, float> search_;
 };
 
@@ -134,7 +133,9 @@ void place_cell_landmarks(const BlockLayout& layout, CellGraph& graph) {
     BlockGraph blocks(layout, graph.cells, i == 0 ? 1 : kRadiusLevels.size());
     const BlockGraph::Part part = blocks.largest_part();
     if (part.ways <= kPlanning.winding * part.straight) return;
-    lengths.assign(layout.block_count(), {});
+    CellGraph::Lengths::value_type nothing;
+    nothing.fill(std::numeric_limits<float>::quiet_NaN());
+    lengths.assign(layout.block_count(), nothing);
     place_landmarks_from(part.farthest, blocks, lengths);
   });
 }

@@ -182,7 +182,7 @@ class CellSearch {
     if (lengths_.empty()) return rest;
     constexpr auto kShare = static_cast<float>(kPlanning.landmark_share);
     const auto& own = lengths_[cell / CellGraph::kPerBlock];
-    for (std::size_t k = 0; k < own.size(); ++k)
+    for (std::size_t k = 0; k < own.size(); ++k)  // what is no number does not count
       rest = std::max(rest, kShare * std::abs(own[k] - goal_lengths_[k]));
     return rest;
   }
@@ -282,7 +282,7 @@ double length_between(const Roadmap& roadmap, VoxelId a, VoxelId b) {
   const auto& from = lengths[roadmap.esdf.layout.rank(a / kBlockVoxels)];
   const auto& to = lengths[roadmap.esdf.layout.rank(b / kBlockVoxels)];
   float length = 0.0f;
-  for (std::size_t k = 0; k < from.size(); ++k)
+  for (std::size_t k = 0; k < from.size(); ++k)  // what is no number does not count
     length = std::max(length, std::abs(from[k] - to[k]));
   return kPlanning.landmark_share * length * roadmap.esdf.voxel_size;
 }

@@ -74,7 +74,8 @@ SparseGraph widened(const EsdfMap& esdf, const SparseGraph& narrow, double radiu
 
 std::vector<TangentGraph::Wider> widen_corners(const EsdfMap& esdf, const TangentGraph& tangents) {
   std::vector<TangentGraph::Wider> result;
-  if (tangents.empty()) return result;
+  if (tangents.empty() || tangents.hubs.labels.size() > detail::kPlanning.wide_labels)
+    return result;
   for (const double level : detail::kRadiusLevels) {
     const double radius = level * tangents.graph.min_clearance;
     if (level == 1.0 || radius > esdf.max_distance - 2.0 * esdf.voxel_size) continue;

@@ -12,6 +12,7 @@
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
+#include "roadmap/cell_search.hpp"
 #include "support/places.hpp"
 #include "support/random_maps.hpp"
 
@@ -104,6 +105,41 @@ TEST(Within, HoldsAgainstTheShortestPathByBruteForce) {
   }
   EXPECT_GT(bent, 25);
   EXPECT_GT(shorter_by_more, 0);
+}
+
+/// A corridor of 1.5 m that turns back four times, in a hall of 8 x 6 m.
+OccupancyMap serpentine() {
+  return testing::make_map(kVoxel, {0, 0, 0}, {79, 59, 9}, [](const VoxelIndex& v) {
+    const bool is_border = v.x == 0 || v.y == 0 || v.z == 0 || v.x == 79 || v.y == 59 || v.z == 9;
+    const bool is_open = (v.x / 16) % 2 == 0 ? v.y >= 45 : v.y < 15;
+    const bool is_wall = v.x % 16 == 0 && !is_open;
+    return is_border || is_wall ? VoxelState::kOccupied : VoxelState::kFree;
+  });
+}
+
+TEST(Within, LandmarksForetellHowLongWindingWaysAre) {
+  const Roadmap roadmap = build_roadmap(serpentine(), {.min_clearance = kRadius}).roadmap;
+  const EsdfMap& esdf = roadmap.esdf;
+  ASSERT_FALSE(roadmap.cells.lengths.empty());
+  std::mt19937 random(1);
+  const std::vector<VoxelId> places = testing::traversable_places(esdf, kRadius);
+  int winding = 0, foretold = 0;
+  for (int i = 0; i < 100; ++i) {
+    const VoxelId from = places[random() % places.size()], to = places[random() % places.size()];
+    const auto place = [&](VoxelId id) {
+      return to_world(esdf, centre_of(esdf.layout.index_of(id), esdf.voxel_size));
+    };
+    const PlanResult exact = plan(roadmap, place(from), place(to), {.planner = Planner::kEsdf});
+    ASSERT_TRUE(exact.ok());
+    const double expected = detail::length_between(roadmap, from, to);
+    // Blocks are 0.8 m wide: a short way may be said to be longer than it is.
+    EXPECT_LE(expected, 1.05 * exact.length + 0.8);
+    if (exact.length < 1.5 * (place(from) - place(to)).norm()) continue;
+    ++winding;
+    foretold += expected > 0.8 * exact.length;
+  }
+  EXPECT_GT(winding, 40);
+  EXPECT_GT(2 * foretold, winding);
 }
 
 TEST(Within, RefusesWhatIsNoFactor) {

@@ -57,7 +57,8 @@ struct CellGraph {
   std::vector<Cell> cells;  ///< by block in order (BlockLayout::rank), then x, y, z in the block
 
   /// Lengths of ways from landmarks to each block, voxels, about: the way between two blocks is
-  /// hardly shorter than the difference. By block in order; 0 where no way leads.
+  /// hardly shorter than the difference. By block in order; no number where no
+  /// way leads. Empty where ways are hardly longer than straight lines.
   static constexpr std::size_t kLandmarks = 3;
   using Lengths = std::vector<std::array<float, kLandmarks>>;
   Lengths lengths;       ///< over all edges

@@ -95,7 +95,7 @@ TangentGraph build_tangent_graph(const Roadmap& roadmap, const TangentConfig& co
 
 /// The corners of a tangent graph for robots of 1.25, 1.5 and 2 times its radius; none where the
 /// map does not know distances as far.
-std::vector<TangentGraph::Wider> widen_corners(const EsdfMap& esdf, const TangentGraph& taut);
+std::vector<TangentGraph::Wider> widen_corners(const EsdfMap& esdf, const TangentGraph& tangents);
 
 /// Numbers the cells of a layout, in the order of their first blocks.
 struct BlockCells {
