@@ -56,8 +56,8 @@ TEST(Cylinder, IsFreeWhereItSharesNoVolumeWithAnObstacleOnTheWay) {
       const Point b = a + 0.8 * along;
       std::vector<VoxelIndex> near;  // all that can be touched on the way
       for (const VoxelIndex& cube : cubes)
-        if ((centre_of(cube, 0.1) - a).norm() < 2.0) near.push_back(cube);
-      constexpr int kPieces = 400;
+        if ((centre_of(cube, 0.1) - a).norm() < 1.3) near.push_back(cube);
+      constexpr int kPieces = 100;
       double least = std::numeric_limits<double>::infinity();
       for (int k = 0; k <= kPieces; ++k)
         least = std::min(least, gap((a + (b - a) * k / kPieces) / 0.1, radius / 0.1,
