@@ -116,6 +116,7 @@ void update_distances(LiveField& field) {
   sweep(AlongX{field}, field.due, field.passed);
   sweep(AlongY{field}, field.passed, field.due);
   sweep(AlongZ{field}, field.due, field.changed);
+  field.first_of_last = field.first_new;
   field.first_new = blocks;
 }
 

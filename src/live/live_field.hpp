@@ -48,6 +48,7 @@ struct LiveField {
   std::vector<std::pair<VoxelId, VoxelState>>
       before;                   ///< voxels whose state changed, and from what
   std::uint32_t first_new = 0;  ///< slots from here on are not swept yet
+  std::uint32_t first_of_last = 0;  ///< and from here on they came with the last update
   MarkedVoxels flipped;         ///< those that became obstacles or ceased to be
   MarkedVoxels changed;         ///< those whose distance or site the last update changed
   MarkedVoxels due, passed;     ///< for updates: what a sweep has to look at

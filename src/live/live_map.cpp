@@ -68,7 +68,8 @@ void add_blocks(LiveField& field, std::span<const BlockIndex> blocks) {
   field.in_plane.grow(esdf.layout, {solid ? std::int16_t{0} : kNoWay, 0});
   esdf.squared.grow(esdf.layout, solid ? 0 : kNoSite);
   esdf.site.grow(esdf.layout, SiteOffset{});
-  for (MarkedVoxels* marked : {&field.flipped, &field.changed, &field.due, &field.passed})
+  field.flipped.grow_voxels(esdf.layout);
+  for (MarkedVoxels* marked : {&field.changed, &field.due, &field.passed})
     marked->grow(esdf.layout);
 }
 

@@ -132,7 +132,7 @@ void update_ridges(LiveRidges& ridges, const LiveField& field) {
     mask->grow(esdf.layout);
   for (MarkedVoxels* marked :
        {&ridges.changed_space, &ridges.changed_gvd, &ridges.changed_thick, &ridges.seen})
-    marked->grow(esdf.layout);
+    marked->grow_voxels(esdf.layout);
   remake(
       field.changed.slots,
       [&](std::uint32_t slot) { return traversable_in_block(esdf, ridges.radius, slot); },

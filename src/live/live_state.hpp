@@ -18,6 +18,7 @@
 #include "live_ridges.hpp"
 #include "live_window.hpp"
 #include "ridgeway/live/live_roadmap.hpp"
+#include "roadmap/remembered_space.hpp"
 #include "scan_log.hpp"
 #include "shared_memory.hpp"
 
@@ -55,6 +56,7 @@ struct LiveRoadmap::State {
     detail::LiveRidges ridges;
     detail::LiveBasins basins;
     detail::LiveAttach attach;
+    std::unique_ptr<detail::SegmentMemory> segments;  // that the graph was fitted by
   };
 
   explicit State(const LiveConfig& given);

@@ -20,6 +20,16 @@ std::vector<VoxelChange> all_of(const OccupancyMap& map) {
   return changes;
 }
 
+/// Blocks in which anything that a segment's clearance depends on is another than before the last
+/// update, and those that came with it.
+std::vector<std::uint32_t> changed_since(const LiveField& field) {
+  std::vector<std::uint32_t> slots = field.changed.slots;
+  slots.insert(slots.end(), field.flipped.slots.begin(), field.flipped.slots.end());
+  for (std::uint32_t slot = field.first_of_last; slot < field.esdf.layout.block_count(); ++slot)
+    slots.push_back(slot);
+  return slots;
+}
+
 }  // namespace
 
 void LiveRoadmap::State::update(std::span<const VoxelChange> changes, const VoxelIndex& first,
@@ -79,6 +89,9 @@ void LiveRoadmap::State::bring_up_to_date(std::span<const VoxelChange> changes,
   snapshot = std::move(next);
   ++version;
   if (other) now = std::move(other);
+  now->segments->forget_unasked();
+  constexpr std::size_t kUsual = 50'000;  // changes of an update
+  if (now->field.before.capacity() > kUsual) decltype(now->field.before)().swap(now->field.before);
 }
 
 /// A map without blocks.
@@ -86,7 +99,8 @@ LiveRoadmap::State::Live LiveRoadmap::State::nothing(const VoxelIndex& origin) c
   return {LiveField(config.fusion.voxel_size, origin, detail::distances_config(config.build)),
           {.radius = config.build.min_clearance, .config = detail::ridges_of(config.build)},
           {},
-          {}};
+          {},
+          std::make_unique<detail::SegmentMemory>()};
 }
 
 /// The same map in fields of their own, to which it is one change.
@@ -115,6 +129,7 @@ std::shared_ptr<const Roadmap> LiveRoadmap::State::built_on(Live& live, detail::
   build.seconds.gvd = lap.seconds();
   update_basins(live.basins, field, live.ridges);
   build.seconds.kernel = lap.seconds();
+  live.segments->change(field.esdf.layout, changed_since(field));
   if (build.traversable_voxels == 0) return nullptr;
   BuildResult result;
   result.report = build;
@@ -126,7 +141,7 @@ std::shared_ptr<const Roadmap> LiveRoadmap::State::built_on(Live& live, detail::
   const Progress none;
   detail::StageClock clock(none);
   detail::build_on_watershed(live.ridges.traversable, live.ridges.edges, std::move(watershed),
-                             config.build, result, clock);
+                             config.build, result, clock, live.segments.get());
   result.roadmap.attach = share(live.attach, field.esdf.layout, result.roadmap.attach);
   return published(std::move(result), build);
 }

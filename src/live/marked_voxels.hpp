@@ -22,9 +22,14 @@ struct MarkedVoxels {
     voxels.grow(layout);
     lowered.grow(layout);
   }
+  /// Where it is not for sweeps.
+  void grow_voxels(const BlockLayout& layout) { voxels.grow(layout); }
 
   void clear() {
-    for (const std::uint32_t slot : slots) voxels.block(slot) = lowered.block(slot) = {};
+    for (const std::uint32_t slot : slots) {
+      voxels.block(slot) = {};
+      if (lowered.block_count() > 0) lowered.block(slot) = {};
+    }
     slots.clear();
   }
 

@@ -9,7 +9,7 @@
 #include "common/require.hpp"
 #include "graph_of_curves.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/esdf/free_space.hpp"
+#include "remembered_space.hpp"
 #include "segment_fitting.hpp"
 #include "vertex_selection.hpp"
 
@@ -24,14 +24,15 @@ using detail::Segment;
 
 /// Straight segments of all curves, each pair of ends once, in ascending order.
 std::vector<Segment> fit_all(const EsdfMap& esdf, const DiagramCurves& diagram,
-                             const std::vector<Curve>& curves, const GraphConfig& config) {
+                             const std::vector<Curve>& curves, const GraphConfig& config,
+                             detail::SegmentMemory* memory) {
   const detail::FitConfig fit{
       config.min_clearance,
       config.widest_kept > 0.0 ? config.widest_kept : 3.0 * config.min_clearance,
       config.split_deviation > 0.0 ? config.split_deviation : 2.0 * esdf.voxel_size};
   std::vector<std::vector<Segment>> of_curve(curves.size());
   parallel_for_each_index(curves.size(), [&](std::size_t i) {
-    detail::fit_segments(esdf, diagram, curves[i], fit, of_curve[i]);
+    detail::fit_segments(esdf, diagram, curves[i], fit, memory, of_curve[i]);
   });
   std::vector<Segment> segments;
   for (const std::vector<Segment>& of_one : of_curve)
@@ -49,7 +50,7 @@ std::vector<Segment> fit_all(const EsdfMap& esdf, const DiagramCurves& diagram,
 
 SparseGraph make_graph(const EsdfMap& esdf, const DiagramCurves& diagram,
                        std::vector<DiagramNumber> vertices, const std::vector<Segment>& segments,
-                       double min_clearance) {
+                       double min_clearance, detail::SegmentMemory* memory) {
   for (const Segment& s : segments) vertices.insert(vertices.end(), {s.from, s.to});
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
@@ -64,7 +65,7 @@ SparseGraph make_graph(const EsdfMap& esdf, const DiagramCurves& diagram,
     graph.vertices.push_back({esdf.layout.index_of(id), diagram.position[v], esdf.distance(id)});
   }
   graph.edges.resize(segments.size());
-  const FreeSpace space(esdf);
+  const detail::RememberedSpace space(esdf, memory);
   parallel_for_each_index(
       segments.size(),
       [&](std::size_t i) {
@@ -98,7 +99,7 @@ SparseGraph build_graph(const EsdfMap& esdf, const VoxelMask& diagram, const Gra
 }
 
 SparseGraph detail::build_graph(const EsdfMap& esdf, const DiagramCurves& curves,
-                                const GraphConfig& config) {
+                                const GraphConfig& config, SegmentMemory* memory) {
   const double s = esdf.voxel_size;
   // On a coarse lattice a junction is a clump of a few voxels, however small the radius.
   const double prune_voxels = std::max(config.prune_radius / s, 2.0);
@@ -107,8 +108,8 @@ SparseGraph detail::build_graph(const EsdfMap& esdf, const DiagramCurves& curves
   // A loop round even the thinnest obstacle is longer than this.
   const double shortest_loop = 4.0 * config.min_clearance / s;
   const std::vector<Curve> pieces = detail::follow_curves(curves, flood, shortest_loop);
-  return make_graph(esdf, curves, vertices, fit_all(esdf, curves, pieces, config),
-                    config.min_clearance);
+  return make_graph(esdf, curves, vertices, fit_all(esdf, curves, pieces, config, memory),
+                    config.min_clearance, memory);
 }
 
 AttachField build_attach_field(const EsdfMap& esdf, const VoxelMask& diagram,

@@ -120,7 +120,8 @@ void build_on_distances(VoxelMask traversable, const BuildConfig& config, BuildR
 }
 
 void build_on_watershed(VoxelMask traversable, VoxelMask edges, Watershed watershed,
-                        const BuildConfig& config, BuildResult& result, StageClock& clock) {
+                        const BuildConfig& config, BuildResult& result, StageClock& clock,
+                        SegmentMemory* memory) {
   Roadmap& roadmap = result.roadmap;
   const EsdfMap& esdf = roadmap.esdf;
   BuildReport& report = result.report;
@@ -149,10 +150,11 @@ void build_on_watershed(VoxelMask traversable, VoxelMask edges, Watershed waters
   clock.begin("graph");
   if (config.paper_diagram) diagram = std::move(edges);
   require_memory_for(diagram, kGraphBytesPerDiagramVoxel);
-  const detail::DiagramCurves curves = detail::index_diagram(esdf, diagram, config.min_clearance);
-  roadmap.graph = detail::build_graph(esdf, curves, graph_of(config));
+  const DiagramCurves curves = index_diagram(esdf, diagram, config.min_clearance, memory);
+  roadmap.graph = detail::build_graph(esdf, curves, graph_of(config), memory);
   if (config.simplify)
-    roadmap.graph = simplify_graph(esdf, roadmap.graph, simplification_of(config));
+    roadmap.graph =
+        detail::simplify_graph(esdf, roadmap.graph, simplification_of(config), memory);
   roadmap.tree = build_clearance_tree(esdf, roadmap.graph, basins);
   roadmap.landmarks = place_landmarks(roadmap.graph);
   report.graph_components = connected_components(roadmap.graph).count;

@@ -13,6 +13,8 @@
 /// Parts of build_roadmap, for those who have the results of its first stages already.
 namespace ridgeway::detail {
 
+class SegmentMemory;
+
 /// Times the stages one after the other and reports each to the caller.
 class StageClock {
  public:
@@ -51,9 +53,11 @@ EsdfMap distances_of(OccupancyMap map, const BuildConfig& config);
 void build_on_distances(VoxelMask traversable, const BuildConfig& config, BuildResult& result,
                         StageClock& clock);
 
-/// And from the edges of the diagram, thinned, and the watershed of what is traversable.
+/// And from the edges of the diagram, thinned, and the watershed of what is traversable. `memory`:
+/// of segments, where the map is one that changes.
 void build_on_watershed(VoxelMask traversable, VoxelMask edges, Watershed watershed,
-                        const BuildConfig& config, BuildResult& result, StageClock& clock);
+                        const BuildConfig& config, BuildResult& result, StageClock& clock,
+                        SegmentMemory* memory = nullptr);
 
 /// What is learnt of a roadmap that is complete but for this, and the total of all seconds. Queries
 /// do without, slower.

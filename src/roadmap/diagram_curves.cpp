@@ -9,7 +9,6 @@
 
 #include "best_first_search.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/esdf/free_space.hpp"
 
 namespace ridgeway::detail {
 
@@ -18,7 +17,7 @@ namespace {
 constexpr SquaredHalves kMeasuredByTheOther(-1.0);  // clearance that the move back has
 
 /// A move to each neighbour in a diagram, its clearance known to the first of the two.
-std::vector<DiagramMove> moves_to_neighbours(const FreeSpace& space, const DiagramCurves& curves,
+std::vector<DiagramMove> moves_to_neighbours(const RememberedSpace& space, const DiagramCurves& curves,
                                              DiagramNumber from, Cube27 neighbours) {
   constexpr std::array<float, 4> kLengths{0.0f, 1.0f, 1.41421356f, 1.73205081f};
   std::vector<DiagramMove> moves;
@@ -50,9 +49,10 @@ DiagramNumber DiagramCurves::find(VoxelId id) const {
   return it != last && *it == id ? static_cast<DiagramNumber>(it - voxels.begin()) : kNowhere;
 }
 
-DiagramCurves index_diagram(const EsdfMap& esdf, const VoxelMask& diagram, double min_clearance) {
+DiagramCurves index_diagram(const EsdfMap& esdf, const VoxelMask& diagram, double min_clearance,
+                            SegmentMemory* memory) {
   const SquaredHalves threshold = least_clearance(min_clearance, esdf.voxel_size);
-  const FreeSpace space(esdf);
+  const RememberedSpace space(esdf, memory);
   DiagramCurves curves;
   curves.layout = &esdf.layout;
   curves.voxels = diagram.members(esdf.layout);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "remembered_space.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
 
@@ -41,7 +42,9 @@ struct DiagramCurves {
   DiagramNumber find(VoxelId id) const;
 };
 
-DiagramCurves index_diagram(const EsdfMap& esdf, const VoxelMask& diagram, double min_clearance);
+/// `memory`: of segments, where the map is one that changes.
+DiagramCurves index_diagram(const EsdfMap& esdf, const VoxelMask& diagram, double min_clearance,
+                            SegmentMemory* memory = nullptr);
 
 /// For every diagram voxel the widest way along the diagram to one of the given vertices, the
 /// shortest among equally wide ones.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "ridgeway/esdf/free_space.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -39,8 +38,8 @@ Farthest farthest_from_line(const DiagramCurves& curves, const Curve& curve, std
 }  // namespace
 
 void fit_segments(const EsdfMap& esdf, const DiagramCurves& curves, const Curve& curve,
-                  const FitConfig& config, std::vector<Segment>& segments) {
-  const FreeSpace space(esdf);
+                  const FitConfig& config, SegmentMemory* memory, std::vector<Segment>& segments) {
+  const RememberedSpace space(esdf, memory);
   std::vector<SquaredHalves> width(curve.size() - 1);  // of each move
   for (std::size_t i = 0; i + 1 < curve.size(); ++i)
     width[i] = clearance_between(curves, curve[i], curve[i + 1]);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -9,8 +8,9 @@
 
 #include "common/require.hpp"
 #include "editable_graph.hpp"
+#include "graph_of_curves.hpp"
+#include "remembered_space.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/roadmap/build_graph.hpp"
 
 namespace ridgeway {
@@ -33,8 +33,9 @@ struct Candidate {
 
 class Simplification {
  public:
-  Simplification(const EsdfMap& esdf, const SparseGraph& graph, const SimplifyConfig& config)
-      : space_(esdf),
+  Simplification(const EsdfMap& esdf, const SparseGraph& graph, const SimplifyConfig& config,
+                 detail::SegmentMemory* memory)
+      : space_(esdf, memory),
         radius_(graph.min_clearance),
         widest_kept_(config.widest_kept > 0.0 ? std::max(config.widest_kept, graph.min_clearance)
                                               : 2.0 * graph.min_clearance),
@@ -68,8 +69,8 @@ class Simplification {
   /// Clearance of a link, or something wider than all that is kept. Most new links are soon
   /// replaced by others, so how wide they are beyond that is measured in the end.
   double clearance_that_counts(Number from, Number to) const {
-    const std::array<Point, 2> ends{graph_.at(from), graph_.at(to)};
-    return space_.clearance(ends, widest_kept_ + config_.width_step * radius_);
+    return space_.clearance(graph_.at(from), graph_.at(to),
+                            widest_kept_ + config_.width_step * radius_);
   }
 
   void measure_new_links() {
@@ -236,7 +237,7 @@ class Simplification {
     return changed;
   }
 
-  const FreeSpace space_;
+  const detail::RememberedSpace space_;
   const double radius_, widest_kept_;
   const SimplifyConfig& config_;
   EditableGraph graph_;
@@ -258,8 +259,13 @@ void SimplifyConfig::validate() const {
 
 SparseGraph simplify_graph(const EsdfMap& esdf, const SparseGraph& graph,
                            const SimplifyConfig& config) {
+  return detail::simplify_graph(esdf, graph, config, nullptr);
+}
+
+SparseGraph detail::simplify_graph(const EsdfMap& esdf, const SparseGraph& graph,
+                                   const SimplifyConfig& config, SegmentMemory* memory) {
   config.validate();
-  return Simplification(esdf, graph, config).run();
+  return Simplification(esdf, graph, config, memory).run();
 }
 
 }  // namespace ridgeway

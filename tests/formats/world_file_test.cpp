@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "common/random.hpp"
 #include "ridgeway/common/error.hpp"
 #include "sensing/world_generators.hpp"
@@ -34,6 +36,36 @@ TEST(WorldFile, GivesBackWhatWasSaved) {
   ASSERT_EQ(loaded.cylinders.size(), world.cylinders.size());
   EXPECT_EQ(loaded.cylinders.back().height, world.cylinders.back().height);
   EXPECT_EQ(loaded.spheres.at(0).radius, 0.25);
+}
+
+TEST(WorldFile, KeepsSolidsThatComeAndGo) {
+  const TemporaryFolder folder;
+  write_whole(folder / "door.yaml",
+              "timed:\n"
+              "  - from: 6\n"
+              "    until: 14.5\n"
+              "    boxes:\n"
+              "      - {centre: [1, 2, 3], size: [0.5, 1, 2]}\n"
+              "  - until: 2\n"
+              "    spheres: [{centre: [0, 0, 1], radius: 0.25}]\n"
+              "    cylinders: [{centre: [4, 0, 1], radius: 0.5, height: 2}]\n");
+  save_world(load_world(folder / "door.yaml"), folder / "again.yaml");
+  for (const char* file : {"door.yaml", "again.yaml"}) {
+    const World world = load_world(folder / file);
+    ASSERT_EQ(world.timed.size(), 2u) << file;
+    EXPECT_EQ(world.timed[0].from, 6.0);
+    EXPECT_EQ(world.timed[0].until, 14.5);
+    EXPECT_EQ(world.timed[0].boxes.at(0).size, Eigen::Vector3d(0.5, 1.0, 2.0));
+    EXPECT_TRUE(std::isinf(world.timed[1].from));
+    EXPECT_EQ(world.timed[1].spheres.at(0).radius, 0.25);
+    EXPECT_EQ(world.timed[1].cylinders.at(0).height, 2.0);
+  }
+  for (const char* bad : {"timed:\n  - {from: 3, until: 3}\n",
+                          "timed:\n  - {boxes: [{centre: [0, 0, 0], size: [1, 0, 1]}]}\n",
+                          "timed:\n  - {meshes: []}\n", "timed: 4\n"}) {
+    write_whole(folder / "bad.yaml", bad);
+    EXPECT_THROW(load_world(folder / "bad.yaml"), InputError) << bad;
+  }
 }
 
 TEST(WorldFile, TheHouseIsThatOfThePaper) {

@@ -6,8 +6,10 @@
 
 #include <deque>
 #include <random>
+#include <string>
 
 #include "house_flight.hpp"
+#include "ridgeway/mapping/world_map.hpp"
 #include "support/random_changes.hpp"
 
 namespace ridgeway {
@@ -53,6 +55,26 @@ TEST(Snapshots, ShareTheMemoryOfBlocksThatAreTheSame) {
   EXPECT_EQ(share_of_memory(before->esdf.squared, settled->esdf.squared), 1.0);
   EXPECT_EQ(live.snapshot(), settled);
   EXPECT_EQ(live.settled(), settled);
+}
+
+TEST(Snapshots, ALiveRoadmapTakesNoMoreThanTwoOfABatchBuild) {
+  const auto taken = [] { return mallinfo2().uordblks + mallinfo2().hblkhd; };
+  const World world = make_house();
+  const std::vector<VoxelChange> changes =
+      testing::changes_to(occupancy_of(world, 0.1, {{0.0, 0.0, 0.0}, {15.0, 10.0, 5.0}}));
+  const BuildConfig build = {.min_clearance = 0.3, .max_distance = 4.0, .tangent_pairs = 0};
+  const std::size_t before = taken();
+  LiveRoadmap live({.build = build});
+  live.set_voxels(std::span(changes).first(changes.size() / 2));
+  live.set_voxels(changes);
+  const std::size_t of_live = taken() - before;
+  const OccupancyMap map = live.map();
+  const std::size_t between = taken();
+  const BuildResult batch = build_roadmap(map, build);
+  const std::size_t of_batch = taken() - between;
+  RecordProperty("live", std::to_string(of_live));
+  RecordProperty("batch", std::to_string(of_batch));
+  EXPECT_LE(of_live, 2 * of_batch) << of_batch;
 }
 
 TEST(Snapshots, AThousandThatAreTakenAndDroppedLeaveNothing) {

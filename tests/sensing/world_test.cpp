@@ -125,6 +125,33 @@ TEST(World, RaysAlongTheAxesAndFromInside) {
   EXPECT_TRUE(std::isinf(surface_distance(World{}, Point::Zero()).distance));
 }
 
+TEST(World, SolidsComeAndGo) {
+  World world;
+  world.boxes.push_back({{9.0, 0.0, 0.0}, {2.0, 2.0, 2.0}});
+  TimedSolids door;
+  door.from = 3.0;
+  door.until = 5.0;
+  door.boxes.push_back({{5.0, 0.0, 0.0}, {2.0, 2.0, 2.0}});
+  door.spheres.push_back({{0.0, 5.0, 0.0}, 1.0});
+  world.timed.push_back(door);
+  const auto ahead = [&](double time) {
+    return cast_ray(world_at(world, time), Point::Zero(), Eigen::Vector3d::UnitX());
+  };
+  EXPECT_EQ(cast_ray(world, Point::Zero(), Eigen::Vector3d::UnitX()), 8.0);
+  EXPECT_EQ(ahead(2.999), 8.0);
+  EXPECT_EQ(ahead(3.0), 4.0);
+  EXPECT_EQ(ahead(4.999), 4.0);
+  EXPECT_EQ(ahead(5.0), 8.0);
+  EXPECT_EQ(cast_ray(world_at(world, 4.0), Point::Zero(), Eigen::Vector3d::UnitY()), 4.0);
+  EXPECT_TRUE(world_at(world, 4.0).timed.empty());
+  EXPECT_NO_THROW(validate_world(world));
+  world.timed[0].spheres[0].radius = 0.0;
+  EXPECT_THROW(validate_world(world), InputError);
+  world.timed[0] = {};
+  world.timed[0].from = std::nan("");
+  EXPECT_THROW(validate_world(world), InputError);
+}
+
 TEST(World, SolidsWithoutASizeAreRefused) {
   const auto refused = [](const auto& spoil) {
     World world = random_world(1);

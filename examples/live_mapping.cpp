@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+//
+// example_live_mapping RECORDING: a roadmap that follows a sensor in one thread while another plans
+// on it, from where the sensor was first to where it is now.
+#include <atomic>
+#include <cstdio>
+#include <exception>
+#include <thread>
+
+#include "ridgeway/live/graph_delta.hpp"
+#include "ridgeway/live/live_roadmap.hpp"
+#include "ridgeway/planning/plan.hpp"
+#include "ridgeway/recordings/depth_sequence.hpp"
+
+namespace {
+
+/// Plans on the last snapshot until all scans are in; each snapshot stays as it is meanwhile.
+void plan_meanwhile(const ridgeway::LiveRoadmap& live, const ridgeway::Point& start,
+                    const std::atomic<std::size_t>& scans, const ridgeway::DepthSequence& all) {
+  std::shared_ptr<const ridgeway::Roadmap> last;
+  ridgeway::PlanResult path;
+  while (scans < all.frames.size()) {
+    const std::shared_ptr<const ridgeway::Roadmap> now = live.snapshot();
+    if (!now || now == last) continue;
+    if (path.ok() && last) {
+      const ridgeway::GraphDelta delta = ridgeway::delta_between(*last, *now);
+      if (ridgeway::may_be_invalid(path.waypoints, now->min_clearance, delta) &&
+          !ridgeway::still_safe(path.waypoints, now->min_clearance, *now))
+        std::printf("the path is blocked now\n");
+    }
+    const std::size_t at = scans > 0 ? scans - 1 : 0;
+    path = ridgeway::plan(*now, start, all.frames[at].T_world_camera.translation());
+    if (path.ok()) std::printf("after %zu scans: a path of %.2f m\n", at + 1, path.length);
+    last = now;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: example_live_mapping RECORDING\n");
+    return 1;
+  }
+  const ridgeway::DepthSequence all = ridgeway::open_sequence(argv[1]);
+  ridgeway::LiveRoadmap live({.fusion = {.voxel_size = 0.2, .clear_radius = 0.5},
+                              .build = {.min_clearance = 0.3, .max_distance = 3.0}});
+  std::atomic<std::size_t> scans = 0;
+  const ridgeway::Point start = all.frames.front().T_world_camera.translation();
+  std::thread planner([&] { plan_meanwhile(live, start, scans, all); });
+  try {
+    for (const ridgeway::DepthFrame& frame : all.frames) {
+      live.integrate(ridgeway::read_frame(all, frame), all.camera, frame.T_world_camera);
+      ++scans;
+    }
+  } catch (...) {
+    scans = all.frames.size();
+    planner.join();
+    throw;
+  }
+  planner.join();
+  if (const auto map = live.settled())
+    std::printf("%zu vertices, %zu edges\n", map->graph.vertices.size(), map->graph.edges.size());
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
+}
