@@ -230,7 +230,7 @@ TEST_F(HostileRidge, CountsThatTheHeaderDoesNotAllowAreRefusedBeforeTheyAreInfla
            {"taut_edges", "400000000", "more edges than the vertices can have"}}) {
     const std::string message = refusal_with(
         "", [](Bytes&) {},
-        [&](std::string& header) {
+        [key = key, count = count](std::string& header) {
           const std::size_t at = header.find('"' + key + "\": ", header.find("counts")),
                             first = at + key.size() + 4;
           ASSERT_NE(at, std::string::npos);
