@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "arguments.hpp"
@@ -17,6 +14,7 @@
 #include "files/atomic_file.hpp"
 #include "files/read_file.hpp"
 #include "files/temporary.hpp"
+#include "growing_recording.hpp"
 #include "json.hpp"
 #include "recording.hpp"
 #include "ridgeway/common/error.hpp"
@@ -81,61 +79,13 @@ void replay_frame(LiveRoadmap& live, const LiveOptions& options, const std::file
     verify_by_batch(live, options, frame.string(), replay);
 }
 
-/// Frames of a folder that may still be written to: each once, those first that come first.
-class Frames {
- public:
-  explicit Frames(const LiveOptions& options) : options_(options) {}
-
-  /// The next frames; false where none came for as long as the user waits.
-  bool find(DepthSequence& sequence, std::vector<DepthFrame>& next) {
-    const Stopwatch idle;
-    for (;;) {
-      next.clear();
-      try {
-        sequence = open_sequence(options_.folder, {});
-        for (const DepthFrame& frame : sequence.frames)
-          if (!done_.contains(frame.image.string())) next.push_back(frame);
-      } catch (const InputError&) {  // nothing yet, or a line that is not whole
-        if (idle.seconds() >= options_.follow) throw;
-      }
-      if (!next.empty()) return true;
-      if (idle.seconds() >= options_.follow) return false;
-      std::this_thread::sleep_for(kPause);
-    }
-  }
-  void done(const DepthFrame& frame) { done_.insert(frame.image.string()); }
-  bool is_last(const DepthFrame& frame) const {
-    return !options_.until.empty() && frame.image.filename() == options_.until;
-  }
-
- private:
-  static constexpr std::chrono::milliseconds kPause{100};
-
-  const LiveOptions& options_;
-  std::set<std::string> done_;
-};
-
-/// Of an image that is still being written, once it is whole; nothing for one that never is.
-std::optional<DepthImage> read_when_whole(const DepthSequence& sequence, const DepthFrame& frame,
-                                          double longest) {
-  const Stopwatch watch;
-  for (;;) {
-    try {
-      return read_frame(sequence, frame);
-    } catch (const InputError&) {  // real recordings have damaged ones
-      if (watch.seconds() >= std::min(longest, 1.0)) return std::nullopt;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
-}
-
 void replay_images(const LiveOptions& options, const Globals& globals, LiveRoadmap& live,
                    Replay& replay) {
   DepthSequence sequence;
   std::vector<DepthFrame> next;
-  Frames frames(options);
+  GrowingRecording frames(options.folder, options.follow, options.until);
   ProgressBar bar(globals);
-  while (frames.find(sequence, next)) {
+  while (frames.find(sequence, next, bar)) {
     replay.without_pose = sequence.without_pose;
     for (const DepthFrame& frame : next) {
       frames.done(frame);

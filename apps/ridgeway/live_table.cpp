@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "files/atomic_file.hpp"
 #include "pictures/scatter.hpp"
@@ -144,17 +145,26 @@ void write_scans(const std::vector<LiveScan>& scans, const std::string& folder) 
   if (folder.empty() || scans.empty()) return;
   const std::filesystem::path path = folder;
   write_text_file(path / "live_scans.csv", csv_of(scans));
+  constexpr std::size_t kMostPoints = 50;
+  const std::size_t together = (scans.size() + kMostPoints - 1) / kMostPoints;
   ScatterChart chart;
-  chart.title = "From scan to snapshot, by stage";
+  chart.title = "From scan to snapshot, by stage: medians of " + std::to_string(together) +
+                (together == 1 ? " scan" : " scans");
   chart.x_label = "scan";
   chart.y_label = "milliseconds";
   chart.log_y = true;
   for (const Time& time : kTimes) {
     ScatterSeries series{time.name, {}, SeriesStyle::kLine};
-    for (std::size_t i = 0; i < scans.size(); ++i)
-      if (const double seconds = time.seconds(scans[i]);
-          seconds > 0.0 && (scans[i].is_judged || !time.of_judged))
-        series.points.emplace_back(static_cast<double>(i + 1), 1e3 * seconds);
+    for (std::size_t first = 0; first < scans.size(); first += together) {
+      std::vector<double> values;
+      for (std::size_t i = first; i < std::min(first + together, scans.size()); ++i)
+        if (const double seconds = time.seconds(scans[i]);
+            seconds > 0.0 && (scans[i].is_judged || !time.of_judged))
+          values.push_back(1e3 * seconds);
+      if (!values.empty())
+        series.points.emplace_back(static_cast<double>(first) + 0.5 * static_cast<double>(together),
+                                   spread_of(std::move(values)).median);
+    }
     if (time.is_drawn && !series.points.empty()) chart.series.push_back(series);
   }
   for (const char* extension : {".png", ".svg"})

@@ -46,12 +46,12 @@ struct LiveField {
 
   // Of the last update, and what it worked with.
   std::vector<std::pair<VoxelId, VoxelState>>
-      before;                   ///< voxels whose state changed, and from what
-  std::uint32_t first_new = 0;  ///< slots from here on are not swept yet
+      before;                       ///< voxels whose state changed, and from what
+  std::uint32_t first_new = 0;      ///< slots from here on are not swept yet
   std::uint32_t first_of_last = 0;  ///< and from here on they came with the last update
-  MarkedVoxels flipped;         ///< those that became obstacles or ceased to be
-  MarkedVoxels changed;         ///< those whose distance or site the last update changed
-  MarkedVoxels due, passed;     ///< for updates: what a sweep has to look at
+  MarkedVoxels flipped;             ///< those that became obstacles or ceased to be
+  MarkedVoxels changed;             ///< those whose distance or site the last update changed
+  MarkedVoxels due, passed;         ///< for updates: what a sweep has to look at
 
   /// Of a map without any block.
   LiveField(double voxel_size, const VoxelIndex& origin, const EsdfConfig& config);

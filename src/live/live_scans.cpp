@@ -160,6 +160,7 @@ UpdateReport LiveRoadmap::State::correct_poses(std::span<const PoseCorrection> c
   TsdfFusion part = fusion.within_blocks(std::vector<BlockIndex>(redone.begin(), redone.end()));
   for (const std::uint32_t frame : needed) fuse_logged(part, frame, poses[frame]);
   std::vector<Point> places;
+  places.reserve(poses.size());
   for (const Eigen::Isometry3d& pose : poses) places.emplace_back(pose.translation());
   try {
     fusion.take_over(part, places);

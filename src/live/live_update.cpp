@@ -96,11 +96,13 @@ void LiveRoadmap::State::bring_up_to_date(std::span<const VoxelChange> changes,
 
 /// A map without blocks.
 LiveRoadmap::State::Live LiveRoadmap::State::nothing(const VoxelIndex& origin) const {
-  return {LiveField(config.fusion.voxel_size, origin, detail::distances_config(config.build)),
-          {.radius = config.build.min_clearance, .config = detail::ridges_of(config.build)},
-          {},
-          {},
-          std::make_unique<detail::SegmentMemory>()};
+  Live live{LiveField(config.fusion.voxel_size, origin, detail::distances_config(config.build)),
+            {.radius = config.build.min_clearance, .config = detail::ridges_of(config.build)},
+            {},
+            {},
+            nullptr};
+  live.segments = std::make_unique<detail::SegmentMemory>();
+  return live;
 }
 
 /// The same map in fields of their own, to which it is one change.
@@ -181,7 +183,7 @@ std::shared_ptr<const Roadmap> LiveRoadmap::State::built_in_batch(detail::Lap& l
 /// The last snapshot with what is learnt. For any thread: what takes long is done without the
 /// lock, on a snapshot that stays as it is.
 std::shared_ptr<const Roadmap> LiveRoadmap::State::settled() {
-  const std::shared_ptr<const Roadmap> last = [&] {
+  std::shared_ptr<const Roadmap> last = [&] {
     const std::lock_guard lock(mutex);
     return snapshot;
   }();

@@ -8,8 +8,8 @@
 
 #include "common/require.hpp"
 #include "graph_of_curves.hpp"
-#include "ridgeway/common/parallel.hpp"
 #include "remembered_space.hpp"
+#include "ridgeway/common/parallel.hpp"
 #include "segment_fitting.hpp"
 #include "vertex_selection.hpp"
 

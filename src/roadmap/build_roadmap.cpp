@@ -153,8 +153,7 @@ void build_on_watershed(VoxelMask traversable, VoxelMask edges, Watershed waters
   const DiagramCurves curves = index_diagram(esdf, diagram, config.min_clearance, memory);
   roadmap.graph = detail::build_graph(esdf, curves, graph_of(config), memory);
   if (config.simplify)
-    roadmap.graph =
-        detail::simplify_graph(esdf, roadmap.graph, simplification_of(config), memory);
+    roadmap.graph = detail::simplify_graph(esdf, roadmap.graph, simplification_of(config), memory);
   roadmap.tree = build_clearance_tree(esdf, roadmap.graph, basins);
   roadmap.landmarks = place_landmarks(roadmap.graph);
   report.graph_components = connected_components(roadmap.graph).count;

@@ -121,24 +121,21 @@ template <typename Find>
 double RememberedSpace::ask(double kind, const Point& a, const Point& b, double reach,
                             const Find& find) const {
   if (memory_ == nullptr || std::isinf(reach)) return find();
-  const Eigen::Vector3d around =
-      Eigen::Vector3d::Constant(reach / esdf_.voxel_size + kAround);
+  const Eigen::Vector3d around = Eigen::Vector3d::Constant(reach / esdf_.voxel_size + kAround);
   return memory_->answer({kind, a.x(), a.y(), a.z(), b.x(), b.y(), b.z()},
                          a.cwiseMin(b) / esdf_.voxel_size - around,
                          a.cwiseMax(b) / esdf_.voxel_size + around, find);
 }
 
 bool RememberedSpace::is_free(const Point& a, const Point& b, double radius) const {
-  return ask(radius, a, b, radius,
-             [&] { return space_.is_free(a, b, radius) ? 1.0 : 0.0; }) != 0.0;
+  return ask(radius, a, b, radius, [&] { return space_.is_free(a, b, radius) ? 1.0 : 0.0; }) != 0.0;
 }
 
 double RememberedSpace::clearance(const Point& a, const Point& b) const {
   const double reach = memory_ == nullptr ? 0.0
                                           : std::min(farthest_obstacle(a), farthest_obstacle(b)) +
                                                 0.5 * (b - a).norm();
-  return ask(kClearance, a, b, reach,
-             [&] { return space_.clearance(a, b); });
+  return ask(kClearance, a, b, reach, [&] { return space_.clearance(a, b); });
 }
 
 double RememberedSpace::clearance(const Point& a, const Point& b, double at_most) const {

@@ -22,7 +22,6 @@ struct Segment {
 /// straight line, while that is farther than `split_deviation` or the line is not free at the
 /// clearance that the curve has (at most `widest_kept`). A single move of the curve always holds.
 void fit_segments(const EsdfMap& esdf, const DiagramCurves& curves, const Curve& curve,
-                  const FitConfig& config, SegmentMemory* memory,
-                  std::vector<Segment>& segments);
+                  const FitConfig& config, SegmentMemory* memory, std::vector<Segment>& segments);
 
 }  // namespace ridgeway::detail
