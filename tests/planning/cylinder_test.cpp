@@ -36,7 +36,7 @@ TEST(Cylinder, IsFreeWhereItSharesNoVolumeWithAnObstacleOnTheWay) {
   int free = 0, shut = 0;
   for (unsigned seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
-    const OccupancyMap map = testing::random_map(seed, 10);
+    const OccupancyMap map = testing::random_map(seed, 14);
     const EsdfMap esdf = compute_esdf(map);
     const auto cubes = testing::all_obstacles(map, UnknownPolicy::kObstacle);
     std::vector<VoxelId> open;
@@ -54,9 +54,12 @@ TEST(Cylinder, IsFreeWhereItSharesNoVolumeWithAnObstacleOnTheWay) {
       if (i % 4 == 1) along.x() = along.y() = 0.0;
       if (i % 7 == 0) along.setZero();
       const Point b = a + 0.8 * along;
+      const Point reach(radius + 0.2, radius + 0.2, 0.5 * height + 0.2);
       std::vector<VoxelIndex> near;  // all that can be touched on the way
       for (const VoxelIndex& cube : cubes)
-        if ((centre_of(cube, 0.1) - a).norm() < 1.3) near.push_back(cube);
+        if (((centre_of(cube, 0.1) - a.cwiseMin(b)).array() > -reach.array()).all() &&
+            ((centre_of(cube, 0.1) - a.cwiseMax(b)).array() < reach.array()).all())
+          near.push_back(cube);
       constexpr int kPieces = 100;
       double least = std::numeric_limits<double>::infinity();
       for (int k = 0; k <= kPieces; ++k)
