@@ -65,8 +65,7 @@ class AnyAngleSearch {
   }
 
   bool is_traversable(VoxelId id) const {
-    return esdf_.squared[id] >= threshold_ && esdf_.is_open(id) &&
-           space_.is_within_limits(id);
+    return esdf_.squared[id] >= threshold_ && esdf_.is_open(id) && space_.is_within_limits(id);
   }
 
   bool is_in_sight(VoxelId a, VoxelId b) const {

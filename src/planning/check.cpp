@@ -77,9 +77,8 @@ bool holds_clearance(const FreeSpace& space, const PlanResult& result, double ra
   return result.clearance >= space.inner_radius(radius) * (1.0 - 1e-9);
 }
 
-void summarise(const Roadmap& roadmap, const CheckConfig& config,
-               const std::vector<Query>& queries, std::vector<Outcome>& outcomes,
-               CheckReport& report) {
+void summarise(const Roadmap& roadmap, const CheckConfig& config, const std::vector<Query>& queries,
+               std::vector<Outcome>& outcomes, CheckReport& report) {
   const FlightLimits limits = detail::limits_of(roadmap.esdf, config.limits);
   const FreeSpace space(roadmap.esdf, limits, roadmap.min_clearance, config.robot_height);
   std::vector<double> ratios, microseconds, raw, esdf;

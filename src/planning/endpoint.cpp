@@ -28,8 +28,7 @@ Endpoint find_endpoint(const FreeSpace& space, const Point& point, double radius
 
   const SquaredHalves threshold = least_clearance(space.inner_radius(radius), esdf.voxel_size);
   const auto joins = [&](VoxelId id) {
-    return esdf.is_open(id) && esdf.squared[id] >= threshold &&
-           space.is_within_limits(id) &&
+    return esdf.is_open(id) && esdf.squared[id] >= threshold && space.is_within_limits(id) &&
            space.is_free(point, centre_of(esdf.layout.index_of(id), esdf.voxel_size), radius);
   };
   if (joins(home)) return {EndpointStatus::kOk, home};  // no centre is nearer

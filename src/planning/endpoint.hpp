@@ -6,7 +6,13 @@
 
 namespace ridgeway::detail {
 
-enum class EndpointStatus : std::uint8_t { kOk, kOutsideMap, kUnknown, kInCollision, kOutsideLimits };
+enum class EndpointStatus : std::uint8_t {
+  kOk,
+  kOutsideMap,
+  kUnknown,
+  kInCollision,
+  kOutsideLimits
+};
 
 /// Where a point joins the voxel lattice.
 struct Endpoint {

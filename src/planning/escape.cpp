@@ -47,8 +47,7 @@ EscapeResult find_escape(const FreeSpace& space, const Point& point, double radi
   PlacesAround places(esdf, point, space.inner_radius(radius), kFarthest * radius);
   for (std::optional<Point> place; !deadline.has_passed() && (place = places.next(deadline));)
     if (space.is_known_free(point, *place) && space.is_within_limits(point, *place) &&
-        space.is_free(*place, radius) &&
-        rises(space, point, *place, esdf.voxel_size, deadline))
+        space.is_free(*place, radius) && rises(space, point, *place, esdf.voxel_size, deadline))
       return {SearchStatus::kFound, *place};
   return {deadline.has_passed() ? SearchStatus::kTimeout : SearchStatus::kNoRoute};
 }

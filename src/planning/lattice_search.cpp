@@ -102,8 +102,7 @@ LatticePath search_lattice(const FreeSpace& space, VoxelId start, VoxelId goal, 
       const VoxelIndex& o = offset_of(d);
       const VoxelId next = esdf.layout.step(best->voxel, stride * o.x, stride * o.y, stride * o.z);
       if (d == kCentre || next == kNoVoxel || esdf.squared[next] < threshold ||
-          !esdf.is_open(next) ||
-          (options.within != nullptr && !options.within->test(next)) ||
+          !esdf.is_open(next) || (options.within != nullptr && !options.within->test(next)) ||
           !space.is_within_limits(next))
         continue;
       SearchMemory::Block& there = memory.block_of(next);

@@ -55,7 +55,8 @@ namespace {
 
 /// Between places where the robot fits.
 PlanResult plan_between(const Roadmap& roadmap, const FreeSpace& space, const Point& start,
-                        const Point& goal, double radius, const PlanConfig& config, const Deadline& deadline) {
+                        const Point& goal, double radius, const PlanConfig& config,
+                        const Deadline& deadline) {
   const EsdfMap& esdf = roadmap.esdf;
   const double began = seconds_now();
   PlanResult result;
@@ -65,7 +66,8 @@ PlanResult plan_between(const Roadmap& roadmap, const FreeSpace& space, const Po
     result.seconds.total = seconds_now() - began;
     return std::move(result);
   };
-  if (space.inner_radius(radius) < roadmap.min_clearance * (1.0 - 1e-9)) return finish(PlanStatus::kRadiusTooSmall);
+  if (space.inner_radius(radius) < roadmap.min_clearance * (1.0 - 1e-9))
+    return finish(PlanStatus::kRadiusTooSmall);
   const detail::QueryEnds ends = detail::find_ends(space, start, goal, radius);
   if (ends.status != PlanStatus::kOk) return finish(ends.status);
 
@@ -77,7 +79,8 @@ PlanResult plan_between(const Roadmap& roadmap, const FreeSpace& space, const Po
     return finish(PlanStatus::kOk);
   }
   const detail::RouteQuery query{ends.from, ends.to, start, goal, radius, config.prefer_clearance};
-  const bool may_ask_tangents = config.shorten && space.is_for_sphere() && config.planner == Planner::kGraph &&
+  const bool may_ask_tangents = config.shorten && space.is_for_sphere() &&
+                                config.planner == Planner::kGraph &&
                                 radius <= roadmap.tangents.graph.min_clearance * (1.0 + 1e-9);
   detail::TangentPath tangents;
   if (may_ask_tangents)
@@ -130,7 +133,8 @@ detail::EscapeResult escape_from(const FreeSpace& space, const Point& point, dou
 }
 
 PlanResult plan_with_escapes(const Roadmap& roadmap, const FreeSpace& space, const Point& start,
-                             const Point& goal, double radius, const PlanConfig& config, const Deadline& deadline) {
+                             const Point& goal, double radius, const PlanConfig& config,
+                             const Deadline& deadline) {
   const double began = seconds_now();
   const EsdfMap& esdf = roadmap.esdf;
   const detail::EscapeResult out = escape_from(space, start, radius, deadline);

@@ -107,13 +107,13 @@ Reach compare_ways(const Roadmap& roadmap, const RouteQuery& query, const Attach
   return from_is_pocket || to_is_pocket ? Reach::kApart : Reach::kUnclear;
 }
 
-void search_voxels(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query, Planner planner,
-                   const Deadline& deadline, RouteResult& result) {
+void search_voxels(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query,
+                   Planner planner, const Deadline& deadline, RouteResult& result) {
   const bool any_angle = planner == Planner::kThetaStar;
   result.answered_by = any_angle ? Planner::kThetaStar : Planner::kEsdf;
-  LatticePath path =
-      any_angle ? search_any_angle(space, query.from, query.to, query.radius, deadline)
-                : search_lattice(space, query.from, query.to, query.radius, {}, deadline);
+  LatticePath path = any_angle
+                         ? search_any_angle(space, query.from, query.to, query.radius, deadline)
+                         : search_lattice(space, query.from, query.to, query.radius, {}, deadline);
   result.status = path.status;
   if (path.status == SearchStatus::kFound)
     result.route = route_over_voxels(roadmap.esdf, query, path.voxels);
@@ -129,8 +129,8 @@ void search_diagram(const Roadmap& roadmap, const FreeSpace& space, const RouteQ
   };
   cut_at_diagram(from.voxels);
   cut_at_diagram(to.voxels);
-  LatticePath path = search_lattice(space, from.voxels.back(), to.voxels.back(),
-                                    query.radius, {.within = &roadmap.diagram.voxels}, deadline);
+  LatticePath path = search_lattice(space, from.voxels.back(), to.voxels.back(), query.radius,
+                                    {.within = &roadmap.diagram.voxels}, deadline);
   result.answered_by = Planner::kDiagram;
   result.status = path.status;
   if (path.status != SearchStatus::kFound) return;
@@ -142,8 +142,8 @@ void search_diagram(const Roadmap& roadmap, const FreeSpace& space, const RouteQ
 
 }  // namespace
 
-RouteResult find_route(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query, Planner planner,
-                       const Deadline& deadline) {
+RouteResult find_route(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query,
+                       Planner planner, const Deadline& deadline) {
   RouteResult result;
   const double began = seconds_now();
   if (planner == Planner::kEsdf || planner == Planner::kThetaStar) {

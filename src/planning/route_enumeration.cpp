@@ -79,9 +79,8 @@ bool RouteEnumeration::is_wide_enough(const Link& link) const {
 }
 
 bool RouteEnumeration::may_be_taken(VertexId from, const Link& link) const {
-  return space_.is_narrowed()
-             ? space_.is_free(place_of(from), place_of(link.vertex), query_.radius)
-             : is_wide_enough(link);
+  return space_.is_narrowed() ? space_.is_free(place_of(from), place_of(link.vertex), query_.radius)
+                              : is_wide_enough(link);
 }
 
 Point RouteEnumeration::place_of(VertexId v) const {

@@ -16,9 +16,9 @@
 
 namespace ridgeway::detail {
 
-/// Routes from start to goal within the limits that pass no vertex of the graph twice, by increasing length. Start
-/// and goal are joined to the vertices that the attach field leads to, and to those that they see
-/// and do not see past another.
+/// Routes from start to goal within the limits that pass no vertex of the graph twice, by
+/// increasing length. Start and goal are joined to the vertices that the attach field leads to, and
+/// to those that they see and do not see past another.
 ///
 /// A route to a fork is followed no further where it deforms into a shorter one over some of the
 /// same vertices: whatever goes on from it goes on from the other.

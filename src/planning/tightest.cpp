@@ -36,8 +36,7 @@ VoxelId even_voxel(const EsdfMap& esdf, const FreeSpace& space, const Point& p, 
     const auto even = [&](int at, int bit) { return (at & ~1) + 2 * (at & 1 & (i >> bit)); };
     const VoxelIndex near{even(v.x, 0), even(v.y, 1), even(v.z, 2)};
     const VoxelId id = esdf.layout.find(near);
-    if (esdf.is_open(id) && esdf.squared[id] >= threshold &&
-        space.is_within_limits(id) &&
+    if (esdf.is_open(id) && esdf.squared[id] >= threshold && space.is_within_limits(id) &&
         space.is_free(p, centre_of(near, esdf.voxel_size), radius))
       return id;
   }

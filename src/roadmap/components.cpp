@@ -93,8 +93,8 @@ ComponentReport SpaceParts::report(double radius, const std::vector<VoxelId>& as
   level.sink_to(least_clearance(radius, esdf_.voxel_size));
   std::vector<std::size_t> component_of(basins_.peaks.size(), kNoComponent);  // by set
   ComponentReport report;
-  report.components =
-      count_components(esdf_, traversable_voxels(esdf_, radius, within_limits_), level, component_of);
+  report.components = count_components(esdf_, traversable_voxels(esdf_, radius, within_limits_),
+                                       level, component_of);
   for (const VoxelId id : asked) report.asked.push_back(component_of[level.set_of(id)]);
   while (const Pass* pass = level.next_pass()) {
     const std::size_t a = component_of[level.set_of(pass->from)];

@@ -55,9 +55,9 @@ TEST_F(CliLimits, GoForEveryFormOfPlanTrajectoryAndCheck) {
   const Json routes = run(plan(map, {"--height", band, "--alternatives", "2"})).json();
   for (const Json& route : routes["routes"])
     for (const Json& p : route["waypoints"]) EXPECT_NEAR(p[2].get<double>(), 1.0, 0.1 + 1e-7);
-  const Json flown = run({"trajectory", map, "--from", "-2,1,1", "--to", "2,1,1", "--json",
-                          "--height", band})
-                         .json();
+  const Json flown =
+      run({"trajectory", map, "--from", "-2,1,1", "--to", "2,1,1", "--json", "--height", band})
+          .json();
   ASSERT_EQ(flown["status"], "ok");
   for (const Json& sample : flown["samples"])
     EXPECT_NEAR(sample["position"][2].get<double>(), 1.0, 0.1 + 1e-7);
@@ -71,7 +71,8 @@ TEST_F(CliLimits, GoForEveryFormOfPlanTrajectoryAndCheck) {
 TEST_F(CliLimits, OfABuildAreKeptInItsFile) {
   ASSERT_EQ(build_rooms("band.ridge", {"--height", "0.9,1.1"}).code, 0);
   const Json info = run({"info", path("band.ridge"), "--json"}).json();
-  EXPECT_EQ(info["config"]["limits"]["keep_in"], Json({nullptr, nullptr, 0.9, nullptr, nullptr, 1.1}));
+  EXPECT_EQ(info["config"]["limits"]["keep_in"],
+            Json({nullptr, nullptr, 0.9, nullptr, nullptr, 1.1}));
   EXPECT_EQ(info["limits"]["keep_in"], Json({nullptr, nullptr, 0.9, nullptr, nullptr, 1.1}));
   EXPECT_GT(info["graph"]["edges"].get<int>(), 0);
   const Json json = run(plan(path("band.ridge"), {})).json();
@@ -118,9 +119,9 @@ TEST_F(CliLimits, SnapMovesAnEndAndSaysSo) {
   asked[7] = "0.1";
   EXPECT_EQ(run(asked).json()["status"], "start_in_collision");
   EXPECT_FALSE(run(plan(map, {"--snap", "1"})).json().contains("moved_start"));
-  expect_refused({"plan", map, "--from", "-2,1,1", "--to", "2,1,1", "--snap", "1", "--planner",
-                  "rrtconnect"},
-                 {"--snap"});
+  expect_refused(
+      {"plan", map, "--from", "-2,1,1", "--to", "2,1,1", "--snap", "1", "--planner", "rrtconnect"},
+      {"--snap"});
 }
 
 TEST_F(CliLimits, InfoTellsWhatIsAtAPlaceAndWhatIsInTheWay) {
@@ -146,8 +147,8 @@ TEST_F(CliLimits, InfoTellsWhatIsAtAPlaceAndWhatIsInTheWay) {
 
 TEST_F(CliLimits, FreeUnknownSpaceIsPlannedThroughAndCounted) {
   // The scan of an office corridor: much of what is around it was never seen.
-  ASSERT_EQ(run({"build", kScan, "-o", path("free.ridge"), "--voxel-size", "0.2",
-                 "--min-clearance", "0.4", "--unknown", "free"})
+  ASSERT_EQ(run({"build", kScan, "-o", path("free.ridge"), "--voxel-size", "0.2", "--min-clearance",
+                 "0.4", "--unknown", "free"})
                 .code,
             0);
   EXPECT_EQ(run({"info", path("free.ridge"), "--json"}).json()["unknown_policy"], "free");
@@ -173,8 +174,7 @@ TEST_F(CliLimits, PlanarMapsAreBuiltSavedAndChecked) {
   EXPECT_EQ(run({"plan", map, "--from", "-2,1,0", "--to", "2,1,7", "--json"}).json()["length"],
             json["length"]);
   EXPECT_TRUE(run({"check", map, "--queries", "60", "--json"}).json()["clean"]);
-  const Json flown =
-      run({"trajectory", map, "--from", "-2,1,1", "--to", "2,1,1", "--json"}).json();
+  const Json flown = run({"trajectory", map, "--from", "-2,1,1", "--to", "2,1,1", "--json"}).json();
   ASSERT_EQ(flown["status"], "ok");
   EXPECT_NE(flown["step"], "stop_and_go");
   for (const Json& sample : flown["samples"])
@@ -196,8 +196,8 @@ TEST_F(CliLimits, CylindersPassWhereTheyFit) {
             "no_route");
   EXPECT_EQ(run(plan(map, {"--radius", "0.3", "--robot-height", "2.2"})).json()["status"],
             "start_in_collision");
-  EXPECT_TRUE(run({"check", map, "--queries", "15", "--robot-height", "0.8", "--json"})
-                  .json()["clean"]);
+  EXPECT_TRUE(
+      run({"check", map, "--queries", "15", "--robot-height", "0.8", "--json"}).json()["clean"]);
   const Json flown = run({"trajectory", map, "--from", "-2,1,1", "--to", "2,1,1", "--radius",
                           "0.55", "--robot-height", "0.4", "--json"})
                          .json();
@@ -207,10 +207,9 @@ TEST_F(CliLimits, CylindersPassWhereTheyFit) {
 TEST_F(CliLimits, AlternativesAreWrittenAndFlown) {
   const std::string map = rooms();
   // Two ways past a box in the left room.
-  const Json routes =
-      run(plan(map, {"--alternatives", "3", "--keep-out", "-2.2,-0.5,0,-1.2,0.5,2", "-o",
-                     path("way.json")}))
-          .json();
+  const Json routes = run(plan(map, {"--alternatives", "3", "--keep-out", "-2.2,-0.5,0,-1.2,0.5,2",
+                                     "-o", path("way.json")}))
+                          .json();
   ASSERT_GE(routes["routes"].size(), 1u);
   EXPECT_TRUE(exists("way-1.json"));
   EXPECT_FALSE(exists("way.json"));

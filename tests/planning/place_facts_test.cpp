@@ -58,9 +58,9 @@ TEST(PlaceFacts, TheirWaysAreTheWidestByFlooding) {
     SCOPED_TRACE(seed);
     Roadmap roadmap;
     try {
-      roadmap = build_roadmap(testing::random_map(seed, 20),
-                              {.min_clearance = 0.15, .tangent_pairs = 0})
-                    .roadmap;
+      roadmap =
+          build_roadmap(testing::random_map(seed, 20), {.min_clearance = 0.15, .tangent_pairs = 0})
+              .roadmap;
     } catch (const InputError&) {
       continue;
     }
@@ -74,8 +74,8 @@ TEST(PlaceFacts, TheirWaysAreTheWidestByFlooding) {
       ASSERT_EQ(facts.status, PlanStatus::kOk);
       for (const ComponentJoin& way : facts.ways) {
         ++ways;
-        const VoxelId other = esdf.layout.find(
-            voxel_at(facts.report.components[way.b].widest, esdf.voxel_size));
+        const VoxelId other =
+            esdf.layout.find(voxel_at(facts.report.components[way.b].widest, esdf.voxel_size));
         const auto joined_at = [&](double radius) {
           const testing::Regions at = testing::regions_at(esdf, radius);
           return at.label.count(id) > 0 && at.label.count(other) > 0 &&

@@ -107,7 +107,7 @@ struct Escape {
 
 /// Where a start or goal was moved to.
 struct Moved {
-  double distance = 0.0;       ///< metres; 0 where it was not
+  double distance = 0.0;        ///< metres; 0 where it was not
   Point place = Point::Zero();  ///< world
 };
 

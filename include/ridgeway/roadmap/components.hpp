@@ -34,8 +34,8 @@ struct Component {
 /// that is too narrow. `a` and `b` index the components; the joins form a forest.
 struct ComponentJoin {
   std::size_t a = 0, b = 0;
-  double radius = 0.0;  ///< metres
-  Point place;          ///< world
+  double radius = 0.0;              ///< metres
+  Point place;                      ///< world
   Blocker by = Blocker::kObstacle;  ///< what is nearest there; of equally near ones the obstacle
 };
 
