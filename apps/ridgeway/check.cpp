@@ -90,8 +90,7 @@ int run(const CheckOptions& options, const Globals& globals) {
   const Roadmap roadmap = load_roadmap(options.file);
   ProgressBar bar(globals);
   CheckReport report;
-  const bool complete =
-      completes([&] { check_roadmap(roadmap, config, bar.callback(), report); });
+  const bool complete = completes([&] { check_roadmap(roadmap, config, bar.callback(), report); });
   bar.clear();
   if (!options.paths.empty()) write_text_file(options.paths, paths_json(report).dump() + "\n");
   if (globals.json)

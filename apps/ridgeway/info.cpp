@@ -80,8 +80,7 @@ Json json_of(const ComponentReport& report) {
                           {"volume", c.volume},
                           {"widest", cli::json_of(c.widest)},
                           {"clearance", c.clearance}});
-  for (const ComponentJoin& j : report.joins)
-    joins.push_back(json_of(j));
+  for (const ComponentJoin& j : report.joins) joins.push_back(json_of(j));
   return {{"components", std::move(components)}, {"joins", std::move(joins)}};
 }
 
@@ -221,8 +220,7 @@ void print_place(const PlaceFacts& facts, const Point& at) {
                   ", between " + blocker_text(way.by));
   }
   if (facts.ways.size() > kShownComponents)
-    print_row("", "and " + count_text(facts.ways.size() - kShownComponents) +
-                      " more (see --json)");
+    print_row("", "and " + count_text(facts.ways.size() - kShownComponents) + " more (see --json)");
   const std::size_t shut = all.size() - 1 - facts.ways.size();
   if (shut > 0) print_row("", count_text(shut) + " components that no robot reaches from here");
 }

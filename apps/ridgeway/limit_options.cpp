@@ -13,8 +13,9 @@ namespace ridgeway::cli {
 using Json = nlohmann::ordered_json;
 
 void add_limit_options(Command& command, LimitOptions& options) {
-  command.tuple("--height", options.height, 2, "LOW,HIGH",
-                "The robot's centre stays between these heights, metres; no walls, as --bounds are");
+  command.tuple(
+      "--height", options.height, 2, "LOW,HIGH",
+      "The robot's centre stays between these heights, metres; no walls, as --bounds are");
   command.box("--keep-in", options.keep_in,
               "The robot's centre stays in the box x0,y0,z0,x1,y1,z1, metres");
   command.boxes("--keep-out", options.keep_out,

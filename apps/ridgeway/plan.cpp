@@ -46,9 +46,9 @@ SamplingConfig sampling_config(const PlanOptions& options, double radius) {
 void validate(const PlanOptions& options) {
   if (is_sampling(options.chosen()) &&
       (options.prefer_clearance != 0.0 || options.escape || options.snap != 0.0))
-    throw InputError(options.escape         ? "--escape"
+    throw InputError(options.escape        ? "--escape"
                      : options.snap != 0.0 ? "--snap"
-                                            : "--prefer-clearance",
+                                           : "--prefer-clearance",
                      "is of planners that do not sample",
                      "leave it out with --planner " + options.planner);
   if (is_sampling(options.chosen()))

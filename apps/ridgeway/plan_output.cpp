@@ -66,13 +66,12 @@ void print_result(AnswerFacts& facts, const Answer& answer, const Query& query) 
   print_moved("goal", result.moved_goal);
   print_escape("start", result.escape_start);
   print_escape("goal", result.escape_goal);
-  print_row("unknown space",
-            text_of(around.unknown) + " m away at the nearest, " +
-                text_of(100.0 * around.unknown_share, 1) +
-                " % of the length nearer than the radius; asked to " +
-                (result.unknown == UnknownPolicy::kObstacle ? "keep clear of it"
-                 : result.unknown == UnknownPolicy::kIgnore ? "ignore it"
-                                                            : "take it for free"));
+  print_row("unknown space", text_of(around.unknown) + " m away at the nearest, " +
+                                 text_of(100.0 * around.unknown_share, 1) +
+                                 " % of the length nearer than the radius; asked to " +
+                                 (result.unknown == UnknownPolicy::kObstacle ? "keep clear of it"
+                                  : result.unknown == UnknownPolicy::kIgnore ? "ignore it"
+                                                                             : "take it for free"));
   if (result.unknown == UnknownPolicy::kFree)
     print_row("", text_of(100.0 * around.unknown_inside, 1) + " % of the length lies in it");
   print_row("time", seconds_text(s.total) + " (attach " + seconds_text(s.attach) + ", search " +

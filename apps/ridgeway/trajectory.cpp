@@ -17,8 +17,8 @@
 #include "json.hpp"
 #include "limit_options.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/formats/path_io.hpp"
 #include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/formats/path_io.hpp"
 #include "ridgeway/planning/many_goals.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
@@ -73,11 +73,11 @@ void print_result(const PlanResult& path, const TrajectoryResult& flown, double 
                         " waypoints, " + seconds_text(path.seconds.total));
   print_row("trajectory", text_of(flown.duration) + " s, " + std::string(name_of(flown.step)) +
                               "; stop and go " + text_of(flown.stop_and_go_duration) + " s");
-  for (const auto& [end, moved] : {std::pair("start", path.moved_start),
-                                   std::pair("goal", path.moved_goal)})
+  for (const auto& [end, moved] :
+       {std::pair("start", path.moved_start), std::pair("goal", path.moved_goal)})
     if (moved.distance > 0.0)
-      print_row("moved", std::string("the ") + end + " by " + text_of(moved.distance) +
-                             " m, to " + point_text(moved.place));
+      print_row("moved", std::string("the ") + end + " by " + text_of(moved.distance) + " m, to " +
+                             point_text(moved.place));
   print_row("at most", text_of(flown.peaks.speed) + " m/s, " + text_of(flown.peaks.acceleration) +
                            " m/s^2, yaw " + text_of(flown.peaks.yaw_rate / kDegree, 1) +
                            " degrees/s");
@@ -182,11 +182,11 @@ int run(const TrajectoryOptions& options, const Globals& globals) {
   const Course course = find_course(options, roadmap, radius);
   const PlanResult& path = course.path;
   if (!path.ok())
-    return report_none(
-        std::string(name_of(path.status)),
-        AnswerFacts(roadmap, options.escape, config.flight_limits).reason(course.query, path.status),
-        Json::parse(plan_json(path)), globals);
-  const TrajectoryResult flown = plan_trajectory(roadmap.esdf, path, config);
+    return report_none(std::string(name_of(path.status)),
+                       AnswerFacts(roadmap, options.escape, config.flight_limits)
+                           .reason(course.query, path.status),
+                       Json::parse(plan_json(path)), globals);
+  const TrajectoryResult flown = fly_plan(roadmap.esdf, path, config);
   if (!flown.ok())
     return report_none(std::string(name_of(flown.status)), explain_no_trajectory(flown),
                        Json::parse(trajectory_json(path, flown, options.step)), globals);

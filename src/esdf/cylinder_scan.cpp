@@ -46,14 +46,16 @@ bool is_clear_of_layer(const EsdfMap& esdf, const Vector& from, const Vector& to
   const Vector reach(radius, radius, 0.0);
   const VoxelIndex low = voxel_at(Vector(a.cwiseMin(b) - reach), 1.0);
   const VoxelIndex high = voxel_at(Vector(a.cwiseMax(b) + reach), 1.0);
-  const BlockIndex first = block_of({low.x, low.y, layer}), last = block_of({high.x, high.y, layer});
+  const BlockIndex first = block_of({low.x, low.y, layer}),
+                   last = block_of({high.x, high.y, layer});
   for (int by = first.y; by <= last.y; ++by)
     for (int bx = first.x; bx <= last.x; ++bx) {
       const VoxelIndex corner = voxel_of({bx, by, first.z}, 0);
       const std::uint32_t slot = esdf.layout.find_block({bx, by, first.z});
       if (slot == BlockLayout::kNoBlock) {
-        if (esdf.is_obstacle(kNoVoxel) && !is_clear_of(a, b, radius, corner.x, corner.y,
-                                                       corner.x + kBlockSide, corner.y + kBlockSide))
+        if (esdf.is_obstacle(kNoVoxel) &&
+            !is_clear_of(a, b, radius, corner.x, corner.y, corner.x + kBlockSide,
+                         corner.y + kBlockSide))
           return false;
         continue;
       }
@@ -67,15 +69,14 @@ bool is_clear_of_layer(const EsdfMap& esdf, const Vector& from, const Vector& to
   return true;
 }
 
-bool piece_is_free(const EsdfMap& esdf, const Vector& a, const Vector& b,
-                   double radius, double half_height) {
+bool piece_is_free(const EsdfMap& esdf, const Vector& a, const Vector& b, double radius,
+                   double half_height) {
   const int first = floor_to_int(std::min(a.z(), b.z()) - half_height);
   const int last = floor_to_int(std::max(a.z(), b.z()) + half_height);
   for (int layer = first; layer <= last; ++layer) {
     const Part part = part_in_layer(a.z(), b.z(), layer, half_height);
     if (!part.is_empty() &&
-        !is_clear_of_layer(esdf, a + part.begin * (b - a), a + part.end * (b - a), layer,
-                           radius))
+        !is_clear_of_layer(esdf, a + part.begin * (b - a), a + part.end * (b - a), layer, radius))
       return false;
   }
   return true;

@@ -153,9 +153,9 @@ EsdfMap compute_esdf(OccupancyMap map, const EsdfConfig& config) {
     esdf.state = move_to_layout(map.layout, map.state, esdf.layout, VoxelState::kUnknown);
   }
   esdf.obstacle = find_obstacles(esdf.layout, esdf.state, esdf.unknown);
-  NearestSites nearest = solid_unknown ? detail::sweep_distances(esdf.layout, esdf.obstacle, true,
-                                                                esdf.planar)
-                                       : sweep_through_unknown(esdf, farthest);
+  NearestSites nearest =
+      solid_unknown ? detail::sweep_distances(esdf.layout, esdf.obstacle, true, esdf.planar)
+                    : sweep_through_unknown(esdf, farthest);
   esdf.squared = std::move(nearest.squared);
   esdf.site = std::move(nearest.offset);
   drop_far_sites(esdf, farthest);

@@ -83,9 +83,8 @@ void FlightLimits::validate() const {
 
 bool operator==(const FlightLimits& a, const FlightLimits& b) {
   const auto is_same = [](const Box& c, const Box& d) { return c.min == d.min && c.max == d.max; };
-  return is_same(a.keep_in, b.keep_in) &&
-         std::equal(a.keep_out.begin(), a.keep_out.end(), b.keep_out.begin(), b.keep_out.end(),
-                    is_same);
+  return is_same(a.keep_in, b.keep_in) && std::equal(a.keep_out.begin(), a.keep_out.end(),
+                                                     b.keep_out.begin(), b.keep_out.end(), is_same);
 }
 
 FlightLimits both_of(const FlightLimits& a, const FlightLimits& b) {

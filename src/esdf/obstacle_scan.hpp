@@ -32,9 +32,9 @@ class ObstacleScan {
       : solid_(solid), a_(a), b_(b), low_(a.cwiseMin(b)), high_(a.cwiseMax(b)) {}
 
   ObstacleScan(const EsdfMap& esdf, const Eigen::Vector3d& a, const Eigen::Vector3d& b)
-      : ObstacleScan({esdf.layout, esdf.obstacle, esdf.unknown == UnknownPolicy::kObstacle,
-                      esdf.planar},
-                     a, b) {
+      : ObstacleScan(
+            {esdf.layout, esdf.obstacle, esdf.unknown == UnknownPolicy::kObstacle, esdf.planar}, a,
+            b) {
     const VoxelIndex middle = voxel_at(0.5 * (a + b), 1.0);
     const VoxelId id = esdf.layout.find(middle);
     if (id == kNoVoxel || esdf.squared[id] == kNoSite) return;

@@ -70,7 +70,7 @@ OccupancyMap flatten(const OccupancyMap& map, double low, double high) {
   for (const auto& [place, columns] : plan) {
     VoxelState* states = flat.state.block(flat.layout.find_block({place.second, place.first, 0}));
     for (std::size_t i = 0; i < 64; ++i) {
-      const VoxelState state = columns.occupied[i]                 ? VoxelState::kOccupied
+      const VoxelState state = columns.occupied[i]                   ? VoxelState::kOccupied
                                : columns.free[i] == last - first + 1 ? VoxelState::kFree
                                                                      : VoxelState::kUnknown;
       any |= state != VoxelState::kUnknown;
@@ -78,9 +78,9 @@ OccupancyMap flatten(const OccupancyMap& map, double low, double high) {
     }
   }
   if (!any)
-    throw InputError("map", "is nowhere known from " + number_text(low) + " to " +
-                                number_text(high) + " m",
-                     "give other heights to planar");
+    throw InputError(
+        "map", "is nowhere known from " + number_text(low) + " to " + number_text(high) + " m",
+        "give other heights to planar");
   flat = normalised(std::move(flat));
   flat.planar = true;
   return flat;

@@ -33,9 +33,8 @@ void save_roadmap(const Roadmap& roadmap, const std::filesystem::path& path) {
   for (RidgeSectionSource& section : voxel_sections(roadmap)) {
     sections.push_back(std::move(section));
   }
-  write_ridge_container(
-      path, header_text(header_of(roadmap)), sections,
-      needs_newest(roadmap.esdf) ? kRidgeVersion : kRidgeVersionWithoutLimits);
+  write_ridge_container(path, header_text(header_of(roadmap)), sections,
+                        needs_newest(roadmap.esdf) ? kRidgeVersion : kRidgeVersionWithoutLimits);
 }
 
 Roadmap load_roadmap(const std::filesystem::path& path) {

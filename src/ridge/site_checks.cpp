@@ -128,8 +128,8 @@ class SiteChecks {
         if (!may_be(sites.distance[top], distance, growth(part_of(esdf_.site[next], axis))) ||
             !may_be(distance, sites.distance[top], growth(-sites.offset[axis][top])))
           return false;
-      } else if (esdf_.unknown == UnknownPolicy::kObstacle &&
-                 !(esdf_.planar && axis == 2) && sites.distance[top] > 1) {
+      } else if (esdf_.unknown == UnknownPolicy::kObstacle && !(esdf_.planar && axis == 2) &&
+                 sites.distance[top] > 1) {
         return false;
       }
     }

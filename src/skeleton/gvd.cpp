@@ -228,8 +228,8 @@ VoxelMask::Block traversable_in_block(const EsdfMap& esdf, double radius, std::u
   const VoxelState* state = esdf.state.block(slot);
   const std::uint32_t* squared = esdf.squared.block(slot);
   const UnknownPolicy unknown = esdf.unknown;
-  VoxelMask::Block block = block_where(
-      [&](int v) { return is_open(state[v], unknown) & (squared[v] >= least); });
+  VoxelMask::Block block =
+      block_where([&](int v) { return is_open(state[v], unknown) & (squared[v] >= least); });
   if (within_limits && esdf.limits.any()) keep_within_limits(esdf, slot, block);
   return block;
 }

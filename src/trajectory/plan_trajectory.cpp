@@ -63,9 +63,8 @@ void describe(const FreeSpace& space, const std::vector<Point>& path,
   if (corners > 0 && result.stops >= corners) result.step = TrajectoryStep::kStopAndGo;
   result.duration = trajectory.duration();
   result.peaks = find_peaks(trajectory);
-  result.clearance =
-      std::max(clearance_of(space.map(), trajectory),
-               space.inner_radius(config.radius) * (1.0 - 1e-9));  // as verified
+  result.clearance = std::max(clearance_of(space.map(), trajectory),
+                              space.inner_radius(config.radius) * (1.0 - 1e-9));  // as verified
 }
 
 void require_start_within_limits(const TrajectoryConfig& config) {
@@ -138,8 +137,7 @@ TrajectoryResult fly_locally(const EsdfMap& esdf, std::span<const Point> path,
     result.seconds.total = detail::seconds_now() - began;
     return result;
   };
-  const FlightLimits limits =
-      both_of(esdf.limits, limits_in_local(esdf, config.flight_limits));
+  const FlightLimits limits = both_of(esdf.limits, limits_in_local(esdf, config.flight_limits));
   const FreeSpace space(esdf, limits, config.radius, config.robot_height);
   if (!is_free(space, points, config.radius)) return finish(TrajectoryStatus::kPathNotFree);
 

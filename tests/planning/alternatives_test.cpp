@@ -298,9 +298,9 @@ TEST(Alternatives, AreApartSomewhereByTheRadiusAtLeast) {
     SCOPED_TRACE(seed);
     Roadmap roadmap;
     try {
-      roadmap = build_roadmap(testing::random_map(seed, 24),
-                              {.min_clearance = 0.1, .tangent_pairs = 50})
-                    .roadmap;
+      roadmap =
+          build_roadmap(testing::random_map(seed, 24), {.min_clearance = 0.1, .tangent_pairs = 50})
+              .roadmap;
     } catch (const InputError&) {
       continue;
     }

@@ -36,7 +36,7 @@ TEST(Cylinder, IsFreeWhereItSharesNoVolumeWithAnObstacleOnTheWay) {
   int free = 0, shut = 0;
   for (unsigned seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
-    const OccupancyMap map = testing::random_map(seed, 10);
+    const OccupancyMap map = testing::random_map(seed, 14);
     const EsdfMap esdf = compute_esdf(map);
     const auto cubes = testing::all_obstacles(map, UnknownPolicy::kObstacle);
     std::vector<VoxelId> open;
@@ -54,14 +54,17 @@ TEST(Cylinder, IsFreeWhereItSharesNoVolumeWithAnObstacleOnTheWay) {
       if (i % 4 == 1) along.x() = along.y() = 0.0;
       if (i % 7 == 0) along.setZero();
       const Point b = a + 0.8 * along;
+      const Point reach(radius + 0.2, radius + 0.2, 0.5 * height + 0.2);
       std::vector<VoxelIndex> near;  // all that can be touched on the way
       for (const VoxelIndex& cube : cubes)
-        if ((centre_of(cube, 0.1) - a).norm() < 1.3) near.push_back(cube);
+        if (((centre_of(cube, 0.1) - a.cwiseMin(b)).array() > -reach.array()).all() &&
+            ((centre_of(cube, 0.1) - a.cwiseMax(b)).array() < reach.array()).all())
+          near.push_back(cube);
       constexpr int kPieces = 100;
       double least = std::numeric_limits<double>::infinity();
       for (int k = 0; k <= kPieces; ++k)
-        least = std::min(least, gap((a + (b - a) * k / kPieces) / 0.1, radius / 0.1,
-                                    0.5 * height / 0.1, near));
+        least = std::min(
+            least, gap((a + (b - a) * k / kPieces) / 0.1, radius / 0.1, 0.5 * height / 0.1, near));
       const double step = (b - a).norm() / 0.1 / kPieces;
       if (least > step + 1e-6) {
         EXPECT_TRUE(space.is_free(a, b, radius)) << i;
@@ -118,9 +121,9 @@ TEST(Cylinder, PlansExactlyWhereVoxelsAreConnectedForIt) {
     const double radius = seed % 2 == 0 ? 0.22 : 0.11, height = seed % 2 == 0 ? 0.22 : 0.48;
     Roadmap roadmap;
     try {
-      roadmap = build_roadmap(testing::random_map(seed, 20),
-                              {.min_clearance = 0.1, .tangent_pairs = 50})
-                    .roadmap;
+      roadmap =
+          build_roadmap(testing::random_map(seed, 20), {.min_clearance = 0.1, .tangent_pairs = 50})
+              .roadmap;
     } catch (const InputError&) {
       continue;
     }
@@ -176,23 +179,20 @@ TEST(Cylinder, GoesWhereNoSphereOfItsRadiusGoes) {
   EXPECT_EQ(flat.answered_by, Planner::kGraph);
   EXPECT_GE(flat.clearance, 0.15 * (1 - 1e-9));
   // A slit 0.5 m wide and 2 m high: a slim and tall one passes; lying across it would not.
-  const Roadmap tall = room_with_wall(
-      [](const VoxelIndex& v) { return v.y >= 18 && v.y < 23; }, 0.2);
-  EXPECT_TRUE(plan(tall, Point(1, 2, 1.1), Point(5, 2, 1.1), {.radius = 0.24, .robot_height = 1.6})
-                  .ok());
-  EXPECT_EQ(plan(tall, Point(1, 2, 1.1), Point(5, 2, 1.1), {.radius = 0.26, .robot_height = 1.6})
-                .status,
-            PlanStatus::kNoRoute);
+  const Roadmap tall =
+      room_with_wall([](const VoxelIndex& v) { return v.y >= 18 && v.y < 23; }, 0.2);
+  EXPECT_TRUE(
+      plan(tall, Point(1, 2, 1.1), Point(5, 2, 1.1), {.radius = 0.24, .robot_height = 1.6}).ok());
+  EXPECT_EQ(
+      plan(tall, Point(1, 2, 1.1), Point(5, 2, 1.1), {.radius = 0.26, .robot_height = 1.6}).status,
+      PlanStatus::kNoRoute);
   EXPECT_EQ(plan(tall, start, goal, {.radius = 0.24, .robot_height = 1.6}).status,
             PlanStatus::kStartInCollision);  // it would stand in the floor
 }
 
 TEST(Cylinder, ChecksAlternativesAndBadHeights) {
   const Roadmap doors = room_with_wall(
-      [](const VoxelIndex& v) {
-        return (v.y >= 5 && v.y < 15) || (v.y >= 26 && v.y < 36);
-      },
-      0.2);
+      [](const VoxelIndex& v) { return (v.y >= 5 && v.y < 15) || (v.y >= 26 && v.y < 36); }, 0.2);
   const CheckReport report = check_roadmap(doors, {.queries = 60, .robot_height = 1.0});
   EXPECT_TRUE(report.is_clean());
   EXPECT_EQ(report.graph_ok, 60u);

@@ -177,8 +177,9 @@ FlightLimits random_limits(std::mt19937& random, const Box& bounds) {
   limits.keep_in.max[axis] = bounds.max[axis] - 0.3 * share() * extent[axis];
   for (unsigned i = 0; i < random() % 3; ++i) {
     const Point low = bounds.min + Point(share(), share(), share()).cwiseProduct(extent);
-    limits.keep_out.push_back({low, low + 0.4 * Point(share(), share(), share() + 0.2)
-                                                .cwiseProduct(extent) + Point::Constant(0.01)});
+    limits.keep_out.push_back(
+        {low, low + 0.4 * Point(share(), share(), share() + 0.2).cwiseProduct(extent) +
+                  Point::Constant(0.01)});
   }
   return limits;
 }
@@ -211,9 +212,9 @@ void judge_plans(const Roadmap& roadmap, const FlightLimits& limits, const PlanC
       result.ok() ? ++answers.routes : ++answers.none;
       expect_within(limits, result.waypoints);
       for (std::size_t k = 1; k < result.waypoints.size(); ++k)
-        ASSERT_TRUE(FreeSpace(esdf, FlightLimits{})
-                        .is_free(result.waypoints[k - 1], result.waypoints[k],
-                                 roadmap.min_clearance));
+        ASSERT_TRUE(
+            FreeSpace(esdf, FlightLimits{})
+                .is_free(result.waypoints[k - 1], result.waypoints[k], roadmap.min_clearance));
     }
   }
 }

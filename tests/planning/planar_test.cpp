@@ -166,7 +166,8 @@ TEST(Planar, PathsStayInThePlaneAndAreFoundWhereThereAreSome) {
         places.push_back(esdf.layout.index_of(id));
     std::mt19937 random(seed);
     for (int i = 0; i < 4; ++i) {
-      const VoxelIndex from = places[random() % places.size()], to = places[random() % places.size()];
+      const VoxelIndex from = places[random() % places.size()],
+                       to = places[random() % places.size()];
       Point start = to_world(esdf, centre_of(from, 0.1)), goal = to_world(esdf, centre_of(to, 0.1));
       start.z() += 0.7;  // heights do not count
       const PlanResult result = plan(roadmap, start, goal);

@@ -54,7 +54,8 @@ TEST(Snap, MovesAnEndInAWallToTheNearestPlaceAndSaysSo) {
   EXPECT_TRUE(plan(rooms(), start, Point(-0.5, 1, 1), {.snap = 2.0}).ok());
   FlightLimits limits;
   limits.keep_in.max.x() = 2.0;
-  const PlanResult limited = plan(rooms(), start, Point(2.2, 1, 1), {.limits = limits, .snap = 1.0});
+  const PlanResult limited =
+      plan(rooms(), start, Point(2.2, 1, 1), {.limits = limits, .snap = 1.0});
   ASSERT_TRUE(limited.ok());
   EXPECT_LE(limited.moved_goal.place.x(), 2.0);
 }
@@ -79,9 +80,9 @@ TEST(Snap, IsTheNearestReachablePlaceByBruteForce) {
     SCOPED_TRACE(seed);
     std::optional<Roadmap> roadmap;
     try {
-      roadmap = build_roadmap(testing::random_map(seed, 20),
-                              {.min_clearance = 0.1, .tangent_pairs = 50})
-                    .roadmap;
+      roadmap =
+          build_roadmap(testing::random_map(seed, 20), {.min_clearance = 0.1, .tangent_pairs = 50})
+              .roadmap;
     } catch (const InputError&) {
       continue;
     }

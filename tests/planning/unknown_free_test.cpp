@@ -49,10 +49,10 @@ TEST(UnknownIsFree, AnswersAsFloodingDoesAndKeepsItsPathsOffWhatIsOccupied) {
   for (unsigned seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE(seed);
     const OccupancyMap map = testing::random_map(seed, 20);
-    const Roadmap roadmap = build_roadmap(map, {.min_clearance = 0.1,
-                                                .unknown = UnknownPolicy::kFree,
-                                                .tangent_pairs = 50})
-                                .roadmap;
+    const Roadmap roadmap =
+        build_roadmap(map,
+                      {.min_clearance = 0.1, .unknown = UnknownPolicy::kFree, .tangent_pairs = 50})
+            .roadmap;
     const EsdfMap& esdf = roadmap.esdf;
     const OccupancyMap filled = all_but_occupied(map);
     const EsdfMap judge = compute_esdf(filled, {.unknown = UnknownPolicy::kIgnore});

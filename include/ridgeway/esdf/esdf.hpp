@@ -86,15 +86,17 @@ struct FlightLimits {
 
   bool any() const;  ///< whether there is one at all
   bool allow(const Point& p) const { return allow(p, p); }
-  bool allow(const Point& a, const Point& b) const;    ///< all of a segment
-  bool allow(std::span<const Point> path) const;       ///< all of a path of straight segments
+  bool allow(const Point& a, const Point& b) const;  ///< all of a segment
+  bool allow(std::span<const Point> path) const;     ///< all of a path of straight segments
   bool allow_voxel(const VoxelIndex& voxel, double voxel_size) const;
   /// Whether a segment stays in `keep_in`, and at least `margin` metres away from every box of
   /// `keep_out` along some axis.
   bool allow(const Point& a, const Point& b, double margin) const;
   bool keeps_in(const Point& p) const;  ///< whether it is in `keep_in`
   /// The nearest place in `keep_in`.
-  Point nearest_within(const Point& p) const { return p.cwiseMax(keep_in.min).cwiseMin(keep_in.max); }
+  Point nearest_within(const Point& p) const {
+    return p.cwiseMax(keep_in.min).cwiseMin(keep_in.max);
+  }
 
   /// Throws InputError naming the bad field: a box of which a coordinate is not a number, or whose
   /// corners are swapped; `keep_in` that holds nothing; a box of `keep_out` without volume.

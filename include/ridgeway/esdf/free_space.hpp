@@ -158,7 +158,7 @@ class FreeSpace {
   bool cylinder_fits(VoxelId from, VoxelId to) const;
 
   const EsdfMap& esdf_;
-  const FlightLimits* limits_;  // null where there are none
+  const FlightLimits* limits_;          // null where there are none
   double radius_ = 0.0, height_ = 0.0;  // of a cylinder
 };
 

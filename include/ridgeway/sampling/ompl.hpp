@@ -45,8 +45,8 @@ class FreeStates : public ompl::base::StateValidityChecker {
 };
 
 /// Says whether a sphere can move along the straight line between two states, exactly, not by steps
-/// along it. What `free` is a view of must outlive it. Thread-safe: OMPL's counters of motions, which are not, are
-/// left alone.
+/// along it. What `free` is a view of must outlive it. Thread-safe: OMPL's counters of motions,
+/// which are not, are left alone.
 class FreeMotions : public ompl::base::MotionValidator {
  public:
   /// Throws InputError as FreeStates does.

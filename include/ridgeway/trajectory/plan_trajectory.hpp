@@ -56,8 +56,8 @@ struct TrajectoryConfig {
   bool follow_yaw = true;
   FlightLimits flight_limits = {};  ///< as in PlanConfig
   double robot_height = 0.0;        ///< as in PlanConfig
-  bool stop_and_go = false;    ///< no smoothing: the last resort at once
-  int most_evaluations = 120;  ///< of the cost, each time that a stretch is optimised
+  bool stop_and_go = false;         ///< no smoothing: the last resort at once
+  int most_evaluations = 120;       ///< of the cost, each time that a stretch is optimised
 
   /// Throws InputError naming the bad field.
   void validate() const;
@@ -116,8 +116,8 @@ TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> pat
 /// The same along a path of plan() with its escapes, each flown straight from rest to rest at the
 /// clearance that it has; `clearance` of the result is without them. From a motion only where the
 /// path begins without one: else InputError.
-TrajectoryResult plan_trajectory(const EsdfMap& esdf, const PlanResult& path,
-                                 const TrajectoryConfig& config);
+TrajectoryResult fly_plan(const EsdfMap& esdf, const PlanResult& path,
+                          const TrajectoryConfig& config);
 
 /// For comparison, what plan_trajectory does without the distance field: the smoothest spline from
 /// rest to rest through knots on the path, as fast as its limits allow. Nothing says that it is

@@ -19,8 +19,7 @@ class Flights {
     config.radius = radius;
     if (!whole_.trajectory.segments.empty()) {
       config.start_velocity = config.start_acceleration = Point::Zero();
-      if (config_.follow_yaw)
-        config.start_yaw = whole_.trajectory.at(whole_.duration).yaw;
+      if (config_.follow_yaw) config.start_yaw = whole_.trajectory.at(whole_.duration).yaw;
     }
     const TrajectoryResult leg = plan_trajectory(esdf_, path, config);
     whole_.status = leg.status;
@@ -63,8 +62,8 @@ class Flights {
 
 }  // namespace
 
-TrajectoryResult plan_trajectory(const EsdfMap& esdf, const PlanResult& path,
-                                 const TrajectoryConfig& config) {
+TrajectoryResult fly_plan(const EsdfMap& esdf, const PlanResult& path,
+                          const TrajectoryConfig& config) {
   const std::span<const Point> points = path.waypoints;
   const bool leaves = path.escape_start.length > 0.0, enters = path.escape_goal.length > 0.0;
   if (points.size() < 2 || (!leaves && !enters)) return plan_trajectory(esdf, points, config);
