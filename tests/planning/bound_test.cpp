@@ -132,8 +132,8 @@ TEST(Within, LandmarksForetellHowLongWindingWaysAre) {
     const PlanResult exact = plan(roadmap, place(from), place(to), {.planner = Planner::kEsdf});
     ASSERT_TRUE(exact.ok());
     const double expected = detail::length_between(roadmap, from, to);
-    // Blocks are 0.8 m wide: a short way may be said to be longer than it is.
-    EXPECT_LE(expected, 1.05 * exact.length + 0.8);
+    // Each end may be half a block's diagonal away from the middle of its block's cells.
+    EXPECT_LE(expected, 1.05 * exact.length + std::sqrt(3.0) * kBlockSide * kVoxel);
     if (exact.length < 1.5 * (place(from) - place(to)).norm()) continue;
     ++winding;
     foretold += expected > 0.8 * exact.length;

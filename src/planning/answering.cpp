@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "answering.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "paths/planning_constants.hpp"
+#include "paths/shorten.hpp"
+#include "query.hpp"
+#include "ridgeway/esdf/free_space.hpp"
+#include "roadmap/cell_search.hpp"
+#include "route.hpp"
+#include "short_path.hpp"
+#include "tangent_path.hpp"
+
+namespace ridgeway::detail {
+namespace {
+
+/// A query that is being answered.
+class Answering {
+ public:
+  Answering(const Roadmap& roadmap, const FreeSpace& space, const Point& start, const Point& goal,
+            double radius, const PlanConfig& config, const Deadline& deadline)
+      : roadmap_(roadmap),
+        esdf_(roadmap.esdf),
+        space_(space),
+        config_(config),
+        deadline_(deadline),
+        query_{kNoVoxel, kNoVoxel, start, goal, radius, config.prefer_clearance} {
+    result_.unknown = esdf_.unknown;
+  }
+
+  PlanResult run() {
+    const double began = seconds_now();
+    result_.status = find_path();
+    if (!result_.ok()) result_.waypoints.clear();
+    result_.seconds.total = seconds_now() - began;
+    return std::move(result_);
+  }
+
+ private:
+  bool wants_short() const { return config_.shorten && config_.prefer_clearance == 0.0; }
+
+  /// Takes a path for the answer if it holds.
+  bool accept(Route path, const KnownStretch& known) {
+    result_.waypoints = std::move(path);
+    describe(space_, known, result_);
+    return is_verified(esdf_, space_, result_, query_.radius);
+  }
+
+  PlanStatus find_path() {
+    const auto& [from, to, start, goal, radius, prefer_clearance] = query_;
+    if (space_.inner_radius(radius) < roadmap_.min_clearance * (1.0 - 1e-9))
+      return PlanStatus::kRadiusTooSmall;
+    const QueryEnds ends = find_ends(space_, start, goal, radius);
+    if (ends.status != PlanStatus::kOk) return ends.status;
+    query_.from = ends.from;
+    query_.to = ends.to;
+    result_.answered_by = config_.planner;
+    if ((wants_short() || start == goal) && space_.is_free(start, goal, radius))
+      return accept({start, goal}, {}) ? PlanStatus::kOk : PlanStatus::kNoRoute;
+
+    if (config_.shorten && prefer_clearance > 0.0) return search_for_cheapest();
+    TangentPath tangents = path_over_corners();
+    if (wants_short() && !tangents.waypoints.empty() && is_enough(tangents) &&
+        accept(tangents.waypoints, tangents.known))
+      return PlanStatus::kOk;
+    return search(std::move(tangents.waypoints));
+  }
+
+  TangentPath path_over_corners() {
+    if (!config_.shorten || config_.planner != Planner::kGraph || !space_.is_for_sphere())
+      return {};
+    // The smallest robot's corners are of one part of space; that part may fall apart for others.
+    if (query_.radius > roadmap_.min_clearance * (1.0 + 1e-9) && !is_connected()) return {};
+    TangentPath tangents =
+        plan_tangents(roadmap_.tangents, space_, query_, config_.quick, deadline_);
+    result_.seconds.search = tangents.search_seconds;
+    result_.seconds.shorten = tangents.shorten_seconds;
+    if (!space_.is_within_limits(tangents.waypoints)) return {};
+    return tangents;
+  }
+
+  /// The ways of both ends to the graph.
+  const Attachment& attachment() {
+    if (!attachment_) attachment_ = attach(roadmap_, space_, query_);
+    return *attachment_;
+  }
+
+  /// Whether they show that moves between voxels lead from end to end.
+  bool is_connected() {
+    return attachment().reach == Reach::kConnected || attachment().reach == Reach::kJoined;
+  }
+
+  bool is_enough(const TangentPath& tangents) const {
+    if (config_.within > 0.0) return excess(tangents.waypoints) <= config_.within;
+    return config_.quick || over_expected(tangents.waypoints) <= kPlanning.near;
+  }
+
+  /// How many times the bound a path is long; infinite for none.
+  double excess(const Route& path) const {
+    return path.empty() ? std::numeric_limits<double>::infinity() : length_over_bound(path);
+  }
+
+  /// How many times a path is as long as one may be expected to be; infinite for none.
+  double over_expected(const Route& path) const {
+    if (path.empty()) return std::numeric_limits<double>::infinity();
+    const double straight = (query_.goal - query_.start).norm();
+    const double expected = length_between(roadmap_, query_.from, query_.to);
+    return length_of(path) / std::max(straight, expected);
+  }
+
+  PlanStatus search(Route known) {
+    double began = seconds_now();
+    const auto lap = [&](double& seconds) {
+      const double now = seconds_now();
+      seconds += now - began;
+      began = now;
+    };
+    const bool is_over_graph = config_.planner == Planner::kGraph;
+    if (!is_over_graph && config_.planner != Planner::kDiagram) attachment_.emplace();  // unused
+    attachment();
+    lap(result_.seconds.attach);
+    if (wants_short() && is_over_graph && is_connected() && !space_.is_narrowed()) {
+      search_cells(known);
+      lap(result_.seconds.shorten);
+      if (is_plausible(known) && accept(known, {})) return PlanStatus::kOk;
+    }
+    RouteResult found =
+        find_route(roadmap_, space_, query_, attachment(), config_.planner, deadline_);
+    lap(result_.seconds.search);
+    result_.answered_by = found.answered_by;
+    if (found.status == SearchStatus::kTimeout && known.empty()) return PlanStatus::kTimeout;
+    if (found.status == SearchStatus::kNoRoute)
+      // The lattice knows no way, but a straight look may slip through what it cannot resolve.
+      return space_.is_free(query_.start, query_.goal, query_.radius) &&
+                     accept({query_.start, query_.goal}, {})
+                 ? PlanStatus::kOk
+                 : PlanStatus::kNoRoute;
+    if (wants_short() && accept(tightened(found.route, std::move(known)), {})) {
+      lap(result_.seconds.shorten);
+      return PlanStatus::kOk;
+    }
+    // What the search found holds move by move, whatever became of it since.
+    return accept(std::move(found.route), found.known) ? PlanStatus::kOk : PlanStatus::kNoRoute;
+  }
+
+  /// Makes what is known shorter by way of the cells where they have something shorter.
+  void search_cells(Route& known) {
+    const bool knows_any = !known.empty();
+    CellRoute cells = path_over_cells(roadmap_, space_, query_, attachment(),
+                                      knows_any ? length_of(known) : 0.0, deadline_);
+    is_sure_ = cells.is_direct && (cells.found || (knows_any && !cells.gave_up));
+    known = improve(shorter(std::move(known), std::move(cells.waypoints)));
+  }
+
+  bool is_plausible(const Route& path) const {
+    if (path.empty()) return false;
+    if (config_.within > 0.0) return excess(path) <= config_.within;
+    return over_expected(path) <= kPlanning.far || (is_sure_ && !is_short(path));
+  }
+
+  /// So short that the cells may be too coarse, and a search over voxels comes around.
+  bool is_short(const Route& path) const {
+    return length_of(path) <= 2.0 * kPlanning.voxel_reach * esdf_.voxel_size;
+  }
+
+  Route shorter(Route a, Route b) const { return excess(b) < excess(a) ? b : a; }
+
+  Route improve(Route path) const {
+    if (path.empty() || over_expected(path) <= kPlanning.near) return path;
+    return past_what_blocks(esdf_, space_, query_, std::move(path), deadline_);
+  }
+
+  Route tightened(const Route& found, Route known) const {
+    const double shortest =
+        known.empty() ? std::numeric_limits<double>::infinity() : length_of(known);
+    Route path = improve(shorten_below(space_, found, query_.radius, shortest, deadline_));
+    path = shorter(std::move(known), std::move(path));
+    if (is_short(path) && over_expected(path) > kPlanning.far && !deadline_.has_passed())
+      path = shorter(std::move(path),
+                     path_over_voxels(esdf_, space_, query_, length_of(path), deadline_));
+    if (config_.within > 0.0 && excess(path) > config_.within && !deadline_.has_passed())
+      path =
+          shorter(std::move(path), improve(shortest_over_voxels(esdf_, space_, query_, deadline_)));
+    return path;
+  }
+
+  /// The short path first, then what costs less: the routes that are cheapest and shortest as they
+  /// are found.
+  PlanStatus search_for_cheapest() {
+    PlanConfig short_config = config_;
+    short_config.prefer_clearance = 0.0;
+    PlanResult short_path = Answering(roadmap_, space_, query_.start, query_.goal, query_.radius,
+                                      short_config, deadline_)
+                                .run();
+    if (!short_path.ok()) return short_path.status;
+    const double began = seconds_now();
+    std::vector<Route> routes;
+    for (const double preference : {query_.prefer_clearance, 0.0}) {
+      RouteQuery query = query_;
+      query.prefer_clearance = preference;
+      routes.push_back(
+          find_route(roadmap_, space_, query, attachment(), config_.planner, deadline_).route);
+      if (routes.back().empty()) routes.pop_back();
+    }
+    Route best = cheapest(space_, query_, std::move(routes), short_path.waypoints, deadline_);
+    if (!accept(std::move(best), {})) result_ = std::move(short_path);
+    result_.seconds.shorten = seconds_now() - began;
+    return PlanStatus::kOk;
+  }
+
+  const Roadmap& roadmap_;
+  const EsdfMap& esdf_;
+  const FreeSpace& space_;
+  const PlanConfig& config_;
+  const Deadline& deadline_;
+  RouteQuery query_;
+  std::optional<Attachment> attachment_;
+  PlanResult result_;
+  bool is_sure_ = false;  ///< the cells had a way from end to end, or none that is shorter
+};
+
+}  // namespace
+
+PlanResult plan_between(const Roadmap& roadmap, const FreeSpace& space, const Point& start,
+                        const Point& goal, double radius, const PlanConfig& config,
+                        const Deadline& deadline) {
+  return Answering(roadmap, space, start, goal, radius, config, deadline).run();
+}
+
+}  // namespace ridgeway::detail
