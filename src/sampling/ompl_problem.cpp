@@ -93,8 +93,9 @@ ob::RealVectorBounds sampling_bounds(const FreeSpace& free, double radius) {
     }
   }
   // A little wider, so that places that just fit are not lost to rounding.
-  const double margin =
-      esdf.unknown == UnknownPolicy::kObstacle ? radius * (1.0 - 1e-6) : -1e-6 * esdf.voxel_size;
+  const double margin = esdf.unknown == UnknownPolicy::kObstacle
+                            ? free.inner_radius(radius) * (1.0 - 1e-6)
+                            : -1e-6 * esdf.voxel_size;
   const double s = esdf.voxel_size;
   ob::RealVectorBounds bounds(3);
   bounds.low = {low.x * s + margin, low.y * s + margin, low.z * s + margin};
