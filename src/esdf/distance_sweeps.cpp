@@ -203,13 +203,13 @@ class EnvelopeSweep {
 }  // namespace
 
 NearestSites sweep_distances(const BlockLayout& layout, const VoxelMask& obstacle,
-                             bool solid_outside) {
+                             bool solid_outside, bool planar) {
   assert(obstacle.is_of(layout));
   NearestSites nearest{VoxelField<std::uint32_t>::unset(layout, Pages::kLarge),
                        VoxelField<SiteOffset>::unset(layout)};
   const FirstSweep first(obstacle, solid_outside, nearest);
   for_each_row(layout, 0, [&](const BlockRow& row) { first.sweep(row); });
-  for (int axis = 1; axis < 3; ++axis) {
+  for (int axis = 1; axis < (planar ? 2 : 3); ++axis) {
     const EnvelopeSweep next(axis, solid_outside, nearest);
     for_each_row(layout, axis, [&](const BlockRow& row) { next.sweep(row); });
   }

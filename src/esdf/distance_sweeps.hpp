@@ -18,12 +18,12 @@ struct NearestSites {
 /// "Distance Transforms of Sampled Functions", 2012, with the distance to cubes in place of
 /// points); ties go to the site that is smallest in (z, y, x). Distances above kFarthestSite are
 /// too long or missing. `solid_outside`: whether voxels that the layout does not hold are
-/// obstacles.
+/// obstacles. `planar`: distances count along x and y alone.
 ///
 /// Plain form: plain_nearest() in plain_distances.hpp, for each voxel. From it,
 /// docs/fast-kernels.md section 1: one axis at a time (1), runs between obstacles alone (2), gaps
 /// (3), the range of sites (7), and for each run line_envelope.hpp.
 NearestSites sweep_distances(const BlockLayout& layout, const VoxelMask& obstacle,
-                             bool solid_outside);
+                             bool solid_outside, bool planar = false);
 
 }  // namespace ridgeway::detail

@@ -67,10 +67,30 @@ NearestSites sweep_through_unknown(const EsdfMap& map, double farthest) {
   VoxelMask obstacle(domain);
   for (std::uint32_t slot = 0; slot < map.layout.block_count(); ++slot)
     obstacle.block(domain.find_block(map.layout.block(slot))) = map.obstacle.block(slot);
-  NearestSites nearest = detail::sweep_distances(domain, obstacle, false);
+  NearestSites nearest = detail::sweep_distances(domain, obstacle, false, map.planar);
   if (domain == map.layout) return nearest;
   return {move_to_layout(domain, nearest.squared, map.layout, kNoSite, Pages::kLarge),
           move_to_layout(domain, nearest.offset, map.layout, SiteOffset{})};
+}
+
+/// Adds all blocks of the box around those in which something is known.
+BlockLayout with_blocks_between(const OccupancyMap& map) {
+  const VoxelRange known = known_range(map);
+  if (known.empty()) return map.layout;
+  require_memory_for_blocks(known.block_count(), kEsdfBytesPerVoxel, "map");
+  const BlockIndex first = block_of(known.min), last = block_of(known.max);
+  std::vector<BlockIndex> missing;
+  for (int z = first.z; z <= last.z; ++z)
+    for (int y = first.y; y <= last.y; ++y)
+      for (int x = first.x; x <= last.x; ++x)
+        if (map.layout.find_block({x, y, z}) == BlockLayout::kNoBlock) missing.push_back({x, y, z});
+  if (!map.layout.is_in_order()) {
+    BlockLayout grown = map.layout;
+    grown.add(missing);
+    return grown;
+  }
+  missing.insert(missing.end(), map.layout.blocks().begin(), map.layout.blocks().end());
+  return BlockLayout(std::move(missing));
 }
 
 /// Sites that are too far become none.
@@ -94,12 +114,14 @@ void drop_far_sites(EsdfMap& map, double farthest) {
 }  // namespace
 
 void validate_policy(UnknownPolicy policy) {
-  if (policy != UnknownPolicy::kObstacle && policy != UnknownPolicy::kIgnore)
-    throw InputError("unknown", "is no enumerator of UnknownPolicy", "give kObstacle or kIgnore");
+  if (policy > UnknownPolicy::kFree)
+    throw InputError("unknown", "is no enumerator of UnknownPolicy",
+                     "give kObstacle, kIgnore or kFree");
 }
 
 void EsdfConfig::validate() const {
   validate_policy(unknown);
+  limits.validate();
   if (!(max_distance > 0.0))
     throw InputError("max_distance", "is " + number_text(max_distance),
                      "give a length above 0 metres, or leave it out for no limit");
@@ -112,19 +134,28 @@ EsdfMap compute_esdf(OccupancyMap map, const EsdfConfig& config) {
   esdf.origin = map.origin;
   esdf.unknown = config.unknown;
   esdf.max_distance = config.max_distance;
+  esdf.planar = map.planar;
+  esdf.limits = limits_in_local(esdf, config.limits);
+  if (esdf.planar) {
+    const double height = (kPlanarLayer + 0.5) * esdf.voxel_size;
+    esdf.limits.keep_in.min.z() = esdf.limits.keep_in.max.z() = height;
+  }
   const double farthest = config.max_distance / map.voxel_size;
   const bool solid_unknown = config.unknown == UnknownPolicy::kObstacle;
   if (solid_unknown) {
     esdf.layout = std::move(map.layout);
     esdf.state = std::move(map.state);
   } else {
-    esdf.layout = detail::with_neighbour_blocks(map.layout);
+    esdf.layout = config.unknown == UnknownPolicy::kFree
+                      ? with_blocks_between(map)
+                      : detail::with_neighbour_blocks(map.layout);
     require_memory_for_blocks(esdf.layout.block_count(), kEsdfBytesPerVoxel, "map");
     esdf.state = move_to_layout(map.layout, map.state, esdf.layout, VoxelState::kUnknown);
   }
   esdf.obstacle = find_obstacles(esdf.layout, esdf.state, esdf.unknown);
-  NearestSites nearest = solid_unknown ? detail::sweep_distances(esdf.layout, esdf.obstacle, true)
-                                       : sweep_through_unknown(esdf, farthest);
+  NearestSites nearest =
+      solid_unknown ? detail::sweep_distances(esdf.layout, esdf.obstacle, true, esdf.planar)
+                    : sweep_through_unknown(esdf, farthest);
   esdf.squared = std::move(nearest.squared);
   esdf.site = std::move(nearest.offset);
   drop_far_sites(esdf, farthest);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "cylinder_scan.hpp"
 #include "segment_march.hpp"
 
 namespace ridgeway {
@@ -31,7 +32,7 @@ bool touches_free(const EsdfMap& esdf, const Vector& p) {
     for (int y = low.y; y <= high.y; ++y)
       for (int x = low.x; x <= high.x; ++x) {
         const VoxelId id = esdf.layout.find({x, y, z});
-        if (id != kNoVoxel && esdf.state[id] == VoxelState::kFree) return true;
+        if (esdf.is_open(id)) return true;
       }
   return false;
 }
@@ -66,15 +67,23 @@ bool FreeSpace::is_free(const Point& p, double radius) const { return is_free(p,
 
 bool FreeSpace::is_free(const Point& a, const Point& b, double radius) const {
   const double s = esdf_.voxel_size;
-  if (!a.allFinite() || !b.allFinite()) return false;
-  if (esdf_.unknown == UnknownPolicy::kIgnore && !is_known_free(a, b)) return false;
-  return std::isinf(
-      SegmentMarch(esdf_, a / s, b / s).doubt<Wanted::kWhether>(squared_limit(radius, s)));
+  if (!a.allFinite() || !b.allFinite() || !is_within_limits(a, b)) return false;
+  if (esdf_.unknown != UnknownPolicy::kObstacle && !is_known_free(a, b)) return false;
+  const auto fits = [&](double ball) {
+    return std::isinf(
+        SegmentMarch(esdf_, a / s, b / s).doubt<Wanted::kWhether>(squared_limit(ball, s)));
+  };
+  if (is_for_sphere()) return fits(radius);
+  return fits(outer_radius(radius)) ||
+         (fits(inner_radius(radius)) &&
+          detail::cylinder_is_free(esdf_, a / s, b / s, radius / s, half_height(radius) / s));
 }
 
 bool FreeSpace::is_clearly_free(const Point& a, const Point& b, double radius) const {
+  if (!is_for_sphere()) return is_free(a, b, radius);
   const double s = esdf_.voxel_size;
-  if (esdf_.unknown == UnknownPolicy::kIgnore && !is_known_free(a, b)) return false;
+  if (!is_within_limits(a, b)) return false;
+  if (esdf_.unknown != UnknownPolicy::kObstacle && !is_known_free(a, b)) return false;
   return std::isinf(
       SegmentMarch(esdf_, a / s, b / s).doubt<Wanted::kWhetherClearly>(squared_limit(radius, s)));
 }
@@ -82,12 +91,20 @@ bool FreeSpace::is_clearly_free(const Point& a, const Point& b, double radius) c
 double FreeSpace::free_length(const Point& a, const Point& b, double radius) const {
   const double s = esdf_.voxel_size;
   const double length = (b - a).norm();
+  if (!is_for_sphere()) {
+    double free = length;
+    while (free > 0.0 && !is_free(a, a + (b - a) * (free / length), radius))
+      free = free > s ? 0.5 * free : 0.0;
+    return free;
+  }
   double free = std::min(
       length,
       s * SegmentMarch(esdf_, a / s, b / s).doubt<Wanted::kWhere>(squared_limit(radius, s)));
-  if (esdf_.unknown == UnknownPolicy::kIgnore)
-    while (free > 0.0 && !is_known_free(a, a + (b - a) * (free / length)))
-      free = free > s ? 0.5 * free : 0.0;
+  const auto holds = [&](const Point& end) {
+    return is_within_limits(a, end) &&
+           (esdf_.unknown == UnknownPolicy::kObstacle || is_known_free(a, end));
+  };
+  while (free > 0.0 && !holds(a + (b - a) * (free / length))) free = free > s ? 0.5 * free : 0.0;
   return free;
 }
 
@@ -121,6 +138,15 @@ bool FreeSpace::is_known_free(const Point& a, const Point& b) const {
     t = next;
   }
   return true;
+}
+
+bool FreeSpace::cylinder_fits(VoxelId from, VoxelId to) const {
+  const double s = esdf_.voxel_size;
+  const VoxelIndex a = esdf_.layout.index_of(from), b = esdf_.layout.index_of(to), o = b - a;
+  const SquaredHalves bound =
+      move_bound(esdf_.squared[from], esdf_.squared[to], o.x * o.x + o.y * o.y + o.z * o.z);
+  return bound >= least_clearance(outer_radius(radius_), s) ||
+         is_free(centre_of(a, s), centre_of(b, s), radius_);
 }
 
 SquaredHalves FreeSpace::slow_move_clearance(VoxelId from, VoxelId to, int direction,

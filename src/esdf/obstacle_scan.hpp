@@ -11,11 +11,13 @@
 
 namespace ridgeway::detail {
 
-/// Voxels of a layout that distances are measured to, and whether what is not allocated is one.
+/// Voxels of a layout that distances are measured to, and whether what is not allocated is one: of
+/// a planar map, beside its blocks alone.
 struct SolidVoxels {
   const BlockLayout& layout;
   const VoxelMask& members;
   bool absent_is_solid;
+  bool planar = false;
 };
 
 /// Smallest squared distance (voxel units) from a segment (voxel units, a == b for a point) to
@@ -30,7 +32,9 @@ class ObstacleScan {
       : solid_(solid), a_(a), b_(b), low_(a.cwiseMin(b)), high_(a.cwiseMax(b)) {}
 
   ObstacleScan(const EsdfMap& esdf, const Eigen::Vector3d& a, const Eigen::Vector3d& b)
-      : ObstacleScan({esdf.layout, esdf.obstacle, esdf.unknown == UnknownPolicy::kObstacle}, a, b) {
+      : ObstacleScan(
+            {esdf.layout, esdf.obstacle, esdf.unknown == UnknownPolicy::kObstacle, esdf.planar}, a,
+            b) {
     const VoxelIndex middle = voxel_at(0.5 * (a + b), 1.0);
     const VoxelId id = esdf.layout.find(middle);
     if (id == kNoVoxel || esdf.squared[id] == kNoSite) return;
@@ -151,7 +155,7 @@ class ObstacleScan {
                                    ? solid_.layout.neighbour_block(before, kNextAlongX)
                                    : solid_.layout.find_block(index);
     if (slot == BlockLayout::kNoBlock) {
-      if (solid_.absent_is_solid) consider(whole);
+      if (solid_.absent_is_solid && !(solid_.planar && index.z != 0)) consider(whole);
       return slot;
     }
     const VoxelMask::Block& block = solid_.members.block(slot);

@@ -76,7 +76,7 @@ inline std::optional<CentresAround> centres_across_blocks(const EsdfMap& esdf,
   for (int next = crossed;; next = (next - 1) & crossed) {
     const std::uint32_t slot =
         esdf.layout.find_block(block_of(base) + BlockIndex{next & 1, next >> 1 & 1, next >> 2 & 1});
-    if (slot == BlockLayout::kNoBlock && esdf.unknown == UnknownPolicy::kIgnore) return {};
+    if (slot == BlockLayout::kNoBlock && esdf.unknown != UnknownPolicy::kObstacle) return {};
     blocks[static_cast<std::size_t>(next)] =
         slot == BlockLayout::kNoBlock ? kSolid.data() : esdf.squared.block(slot);
     if (next == 0) break;

@@ -50,6 +50,30 @@ void for_each_piece(std::span<const Point> path, double voxel_size, const Body& 
   }
 }
 
+/// Share of a path's length in voxels of which nothing is known; 0 for no length.
+double share_in_unknown(const EsdfMap& esdf, std::span<const Point> path) {
+  double length = 0.0, inside = 0.0;
+  for_each_piece(path, esdf.voxel_size, [&](const Vector& a, const Vector& b) {
+    const Vector along = b - a;
+    for (double t = 0.0; t < 1.0;) {  // from one crossing of the lattice's planes to the next
+      double next = 1.0;
+      for (int axis = 0; axis < 3; ++axis) {
+        if (along[axis] == 0.0) continue;
+        const double here = a[axis] + t * along[axis];
+        const double plane =
+            along[axis] > 0.0 ? std::floor(here + 1e-9) + 1.0 : std::ceil(here - 1e-9) - 1.0;
+        next = std::min(next, (plane - a[axis]) / along[axis]);
+      }
+      const double part = (next - t) * along.norm();
+      const VoxelId id = esdf.layout.find(voxel_at(Vector(a + 0.5 * (t + next) * along), 1.0));
+      length += part;
+      if (id == kNoVoxel || esdf.state[id] == VoxelState::kUnknown) inside += part;
+      t = next;
+    }
+  });
+  return length > 0.0 ? inside / length : 0.0;
+}
+
 }  // namespace
 
 /// Distances to the voxels of one kind, in voxels.
@@ -60,7 +84,8 @@ class Surroundings::Nearest {
   /// From a segment, or `at_most` (which may be infinite) where none is nearer.
   double distance(const Vector& a, const Vector& b, double at_most) const {
     if (kind_.slots.empty()) return at_most;
-    const detail::SolidVoxels solid{around_.esdf_.layout, kind_.members, kind_.absent_is_member};
+    const detail::SolidVoxels solid{around_.esdf_.layout, kind_.members, kind_.absent_is_member,
+                                    around_.esdf_.planar};
     ObstacleScan scan(solid, a, b);
     const BlockBox all = hull_of(scan.box_within(0.0), {around_.low_, around_.high_});
     for (double reach = kFirstReach;; reach *= 2.0) {
@@ -156,6 +181,7 @@ PathSurroundings Surroundings::along(std::span<const Point> path_world, double r
   result.known = s * Nearest(*this, known_).along(path);
   const Nearest unknown(*this, unknown_);
   result.unknown = s * unknown.along(path);
+  if (esdf_.unknown == UnknownPolicy::kFree) result.unknown_inside = share_in_unknown(esdf_, path);
   const double least = radius * (1.0 - 1e-9) / s;  // as where paths are verified
   if (result.unknown >= s * least) return result;
   double length = 0.0, near = 0.0;

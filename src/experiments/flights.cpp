@@ -28,7 +28,7 @@ std::vector<VoxelId> places_to_fly(const EsdfMap& esdf, double radius) {
   std::vector<VoxelId> voxels;
   const auto least = least_clearance(radius, esdf.voxel_size);
   for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
-    if (esdf.state[id] == VoxelState::kFree && esdf.squared[id] >= least) voxels.push_back(id);
+    if (esdf.is_open(id) && esdf.squared[id] >= least) voxels.push_back(id);
   return voxels;
 }
 

@@ -130,6 +130,13 @@ std::string plan_json(const PlanResult& result) {
   };
   add_escape("escape_start", result.escape_start);
   add_escape("escape_goal", result.escape_goal);
+  const auto add_moved = [&](const char* key, const Moved& moved) {
+    if (moved.distance > 0.0)
+      json[key] = {{"distance", moved.distance},
+                   {"place", {moved.place.x(), moved.place.y(), moved.place.z()}}};
+  };
+  add_moved("moved_start", result.moved_start);
+  add_moved("moved_goal", result.moved_goal);
   json["waypoints"] = Json::array();
   for (const Point& p : result.waypoints) json["waypoints"].push_back({p.x(), p.y(), p.z()});
   json["seconds"] = {{"attach", result.seconds.attach},

@@ -61,7 +61,7 @@ void find_closed(const EsdfMap& before, std::uint32_t slot, const EsdfMap& now,
   const VoxelState* states = other == BlockLayout::kNoBlock ? nullptr : now.state.block(other);
   if (states != nullptr && std::memcmp(old, states, kBlockVoxels * sizeof(VoxelState)) == 0) return;
   for (int v = 0; v < kBlockVoxels; ++v)
-    if (old[v] == VoxelState::kFree && (states == nullptr || states[v] != VoxelState::kFree))
+    if (is_open(old[v], before.unknown) && (states == nullptr || !is_open(states[v], now.unknown)))
       closed.push_back(before.origin + voxel_of(block, v));
 }
 

@@ -46,6 +46,7 @@ LiveField::LiveField(double voxel_size, const VoxelIndex& origin, const EsdfConf
   esdf.origin = origin;
   esdf.unknown = config.unknown;
   esdf.max_distance = config.max_distance;
+  esdf.limits = limits_in_local(esdf, config.limits);
   add_blocks(*this, {});
 }
 

@@ -91,8 +91,6 @@ struct LiveRoadmap::State {
   mutable std::mutex mutex;  // of what follows
   std::shared_ptr<const Roadmap> snapshot;
 
-  EsdfConfig esdf_config() const { return {config.build.unknown, config.build.max_distance}; }
-
   template <typename Fuse>
   UpdateReport integrate(const Point& sensor_world, const Fuse& fuse) {
     Lap lap;
@@ -173,8 +171,7 @@ struct LiveRoadmap::State {
 
   /// A map without blocks.
   Live nothing(const VoxelIndex& origin) const {
-    return {LiveField(config.fusion.voxel_size, origin,
-                      {config.build.unknown, config.build.max_distance}),
+    return {LiveField(config.fusion.voxel_size, origin, detail::distances_config(config.build)),
             {.radius = config.build.min_clearance, .config = detail::ridges_of(config.build)}};
   }
 

@@ -11,8 +11,10 @@ VoxelCounts count_voxels(const OccupancyMap& map) {
   const auto count = [&states](VoxelState state) {
     return static_cast<std::size_t>(std::count(states.begin(), states.end(), state));
   };
-  const std::size_t free = count(VoxelState::kFree), occupied = count(VoxelState::kOccupied);
-  return {.free = free, .occupied = occupied, .unknown = states.size() - free - occupied};
+  const std::size_t layers = map.planar ? kBlockSide : 1;  // that are one
+  const std::size_t free = count(VoxelState::kFree) / layers,
+                    occupied = count(VoxelState::kOccupied) / layers;
+  return {.free = free, .occupied = occupied, .unknown = states.size() / layers - free - occupied};
 }
 
 VoxelRange known_range(const OccupancyMap& map) {

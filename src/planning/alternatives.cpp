@@ -50,6 +50,30 @@ bool meets_itself(const std::vector<Point>& path, double radius) {
   return false;
 }
 
+/// Whether all places of a path are within a distance of another path.
+bool stays_beside(const std::vector<Point>& path, const std::vector<Point>& other,
+                  double distance) {
+  constexpr double kStep = 0.25;  // of the distance, between the places looked at
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Point along = path[i] - path[i - 1];
+    const int pieces = 1 + static_cast<int>(along.norm() / (kStep * distance));
+    for (int k = 0; k <= pieces; ++k) {
+      const Point p = path[i - 1] + along * (static_cast<double>(k) / pieces);
+      bool is_beside = false;
+      for (std::size_t j = 1; j < other.size() && !is_beside; ++j)
+        is_beside = distance_between(p, p, other[j - 1], other[j]) < distance;
+      if (!is_beside) return false;
+    }
+  }
+  return true;
+}
+
+/// Whether two paths are one but for wiggles: tight ones on two sides of an obstacle are two radii
+/// apart there, and more.
+bool run_together(const std::vector<Point>& a, const std::vector<Point>& b, double radius) {
+  return stays_beside(a, b, radius) && stays_beside(b, a, radius);
+}
+
 /// The routes found, no two of one class, shortest first.
 class DistinctRoutes {
  public:
@@ -65,7 +89,8 @@ class DistinctRoutes {
   /// Keeps a route unless it is in the class of a shorter one.
   void add(PlanResult route) {
     const auto is_alike = [&](const PlanResult& other) {
-      return detail::deforms_into(space_, route.waypoints, other.waypoints, radius_);
+      return detail::deforms_into(space_, route.waypoints, other.waypoints, radius_) ||
+             run_together(route.waypoints, other.waypoints, radius_);
     };
     const auto is_shorter = [](const PlanResult& a, const PlanResult& b) {
       return a.length < b.length;
@@ -123,17 +148,23 @@ Alternatives alternatives_locally(const Roadmap& roadmap, const Point& start, co
   result.status = shortest.status;
   if (shortest.ok()) {
     const EsdfMap& esdf = roadmap.esdf;
-    const FreeSpace space(esdf);
+    const FlightLimits limits = detail::limits_of(esdf, config.limits);
     const double radius = config.radius.value_or(roadmap.min_clearance);
-    const detail::QueryEnds ends = detail::find_ends(esdf, start, goal, radius);
+    const FreeSpace space(esdf, limits, radius, config.robot_height);
+    const Moved moved_start = shortest.moved_start, moved_goal = shortest.moved_goal;
+    const Point from = shortest.waypoints.front(), to = shortest.waypoints.back();
+    const detail::QueryEnds ends = detail::find_ends(space, from, to, radius);
     DistinctRoutes routes(space, radius);
     routes.add(std::move(shortest));
-    detail::RouteEnumeration others(roadmap, {ends.from, ends.to, start, goal, radius}, deadline);
+    detail::RouteEnumeration others(roadmap, space, {ends.from, ends.to, from, to, radius},
+                                    deadline);
     std::optional<detail::Route> route;
     while ((route = others.next()) && routes.may_use(length_of(*route), count)) {
       if (routes.know(*route)) continue;
       PlanResult tight = tighten(space, std::move(*route), radius, deadline);
       tight.unknown = esdf.unknown;
+      tight.moved_start = moved_start;
+      tight.moved_goal = moved_goal;
       if (!meets_itself(tight.waypoints, radius) && detail::is_verified(esdf, space, tight, radius))
         routes.add(std::move(tight));
     }

@@ -23,16 +23,16 @@ double distance_between(const VoxelIndex& a, const VoxelIndex& b) {
 
 class AnyAngleSearch {
  public:
-  AnyAngleSearch(const EsdfMap& esdf, VoxelId start, VoxelId goal, double radius)
-      : esdf_(esdf),
-        space_(esdf),
+  AnyAngleSearch(const FreeSpace& space, VoxelId start, VoxelId goal, double radius)
+      : esdf_(space.map()),
+        space_(space),
         start_(start),
         goal_(goal),
-        target_(esdf.layout.index_of(goal)),
+        target_(esdf_.layout.index_of(goal)),
         radius_(radius),
-        threshold_(least_clearance(radius, esdf.voxel_size)),
-        blocks_(esdf.layout.block_count()),
-        open_(distance_between(esdf.layout.index_of(start), target_)) {}
+        threshold_(least_clearance(space.inner_radius(radius), esdf_.voxel_size)),
+        blocks_(esdf_.layout.block_count()),
+        open_(distance_between(esdf_.layout.index_of(start), target_)) {}
 
   LatticePath run(const Deadline& deadline) {
     improve(start_, {.cost = 0.0, .parent = start_});
@@ -65,7 +65,7 @@ class AnyAngleSearch {
   }
 
   bool is_traversable(VoxelId id) const {
-    return esdf_.squared[id] >= threshold_ && esdf_.state[id] == VoxelState::kFree;
+    return esdf_.squared[id] >= threshold_ && esdf_.is_open(id) && space_.is_within_limits(id);
   }
 
   bool is_in_sight(VoxelId a, VoxelId b) const {
@@ -127,9 +127,9 @@ class AnyAngleSearch {
 
 }  // namespace
 
-LatticePath search_any_angle(const EsdfMap& esdf, VoxelId start, VoxelId goal, double radius,
+LatticePath search_any_angle(const FreeSpace& space, VoxelId start, VoxelId goal, double radius,
                              const Deadline& deadline) {
-  return AnyAngleSearch(esdf, start, goal, radius).run(deadline);
+  return AnyAngleSearch(space, start, goal, radius).run(deadline);
 }
 
 }  // namespace ridgeway::detail

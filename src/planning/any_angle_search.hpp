@@ -13,7 +13,7 @@ namespace ridgeway::detail {
 /// finds one. It is usually shorter than that one (by 6% on random maps) and nearly as short as
 /// turns at voxels allow (within 1%), but neither is certain: of 1511 paths 3 were longer, by 2%.
 /// Start and goal must be traversable voxels.
-LatticePath search_any_angle(const EsdfMap& esdf, VoxelId start, VoxelId goal, double radius,
+LatticePath search_any_angle(const FreeSpace& space, VoxelId start, VoxelId goal, double radius,
                              const Deadline& deadline);
 
 }  // namespace ridgeway::detail

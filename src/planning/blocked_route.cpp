@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "query.hpp"
@@ -12,7 +13,11 @@
 namespace ridgeway {
 namespace {
 
-constexpr std::array kFaces{4, 10, 12, 14, 16, 22};  // directions of the neighbours across them
+/// Directions of the neighbours across faces; in a plane there are four.
+std::span<const int> faces_of(const EsdfMap& esdf) {
+  static constexpr std::array kFaces{10, 12, 14, 16, 4, 22};
+  return std::span(kFaces).first(esdf.planar ? 4 : 6);
+}
 
 /// The voxels that face moves over what is not occupied join with one, and whether they reach what
 /// is not allocated, which is all one: unknown.
@@ -23,6 +28,7 @@ struct NotSolid {
 
 NotSolid flood_not_solid(const EsdfMap& esdf, VoxelId from) {
   const BlockLayout& layout = esdf.layout;
+  const std::span<const int> faces = faces_of(esdf);
   NotSolid reached{VoxelMask(layout)};
   std::vector<VoxelId> open;
   const auto reach = [&](VoxelId id) {
@@ -31,14 +37,14 @@ NotSolid flood_not_solid(const EsdfMap& esdf, VoxelId from) {
     open.push_back(id);
   };
   const auto has_absent_neighbour = [&](VoxelId id) {
-    return std::any_of(kFaces.begin(), kFaces.end(),
+    return std::any_of(faces.begin(), faces.end(),
                        [&](int d) { return layout.neighbour(id, d) == kNoVoxel; });
   };
   for (reach(from); !open.empty();) {
     const VoxelId id = open.back();
     open.pop_back();
     bool leaves = false;
-    for (const int d : kFaces) {
+    for (const int d : faces) {
       const VoxelId next = layout.neighbour(id, d);
       leaves |= next == kNoVoxel;
       if (next != kNoVoxel) reach(next);
@@ -59,7 +65,7 @@ std::optional<VoxelIndex> nearest_gate(const EsdfMap& esdf, VoxelId from, const 
   std::vector<VoxelId> queue{from};
   seen.set(from);
   for (std::size_t i = 0; i < queue.size(); ++i)
-    for (const int d : kFaces) {
+    for (const int d : faces_of(esdf)) {
       const VoxelId next = layout.neighbour(queue[i], d);
       const bool is_unknown = next == kNoVoxel || esdf.state[next] == VoxelState::kUnknown;
       if (is_unknown) {
@@ -75,17 +81,15 @@ std::optional<VoxelIndex> nearest_gate(const EsdfMap& esdf, VoxelId from, const 
 
 }  // namespace
 
-std::string_view name_of(Blocker blocker) {
-  return blocker == Blocker::kObstacle ? "obstacle" : "unknown";
-}
-
 RouteBlocks::RouteBlocks(const Roadmap& roadmap)
-    : esdf_(roadmap.esdf), parts_(roadmap.esdf), around_(roadmap.esdf) {}
+    : esdf_(roadmap.esdf), parts_(roadmap.esdf, false) {}
 
 std::optional<BlockedRoute> RouteBlocks::between(const Point& start, const Point& goal,
-                                                 double radius) const {
+                                                 double radius,
+                                                 const FlightLimits& limits_world) const {
+  const FlightLimits limits = detail::limits_of(esdf_, limits_world);
   const detail::QueryEnds ends =
-      detail::find_ends(esdf_, detail::place_in_local(esdf_, start, radius),
+      detail::find_ends(FreeSpace(esdf_, limits), detail::place_in_local(esdf_, start, radius),
                         detail::place_in_local(esdf_, goal, radius), radius);
   if (ends.status != PlanStatus::kOk) return std::nullopt;
   BlockedRoute blocked;
@@ -94,29 +98,66 @@ std::optional<BlockedRoute> RouteBlocks::between(const Point& start, const Point
   blocked.goal_number = report.asked[1];
   blocked.start_component = report.components[blocked.start_number];
   blocked.goal_component = report.components[blocked.goal_number];
+  if (limits.any() && blocked.start_number == blocked.goal_number) {
+    blocked.by = Blocker::kLimits;
+    return blocked;
+  }
   const auto place_of = [&](const VoxelIndex& voxel) {
     return to_world(esdf_, centre_of(voxel, esdf_.voxel_size));
   };
   if (const std::optional<Pass> narrow = parts_.narrowest_move(ends.from, ends.to)) {
     blocked.radius = narrow->clearance.metres(esdf_.voxel_size);
-    VoxelId from = narrow->from, to = narrow->to;
-    const VoxelId lower = esdf_.squared[from] <= esdf_.squared[to] ? from : to;
-    if (esdf_.squared[lower] <= narrow->clearance) from = to = lower;  // else it dips on the way
-    const std::array<Point, 2> move{place_of(esdf_.layout.index_of(from)),
-                                    place_of(esdf_.layout.index_of(to))};
-    blocked.place = 0.5 * (move[0] + move[1]);
-    const PathSurroundings around = around_.along(move, radius);
-    const bool is_known =
-        esdf_.unknown == UnknownPolicy::kIgnore || around.known <= around.unknown * (1.0 + 1e-9);
-    blocked.by = is_known ? Blocker::kObstacle : Blocker::kUnknown;
+    const SpaceParts::Narrow place = parts_.look_at(*narrow);
+    blocked.place = place.place;
+    blocked.by = place.by;
     return blocked;
   }
+  if (esdf_.unknown == UnknownPolicy::kFree) return blocked;  // what is occupied encloses one
   const NotSolid beyond = flood_not_solid(esdf_, ends.to);
   if (const auto gate = nearest_gate(esdf_, ends.from, beyond)) {
     blocked.place = place_of(*gate);
     blocked.by = Blocker::kUnknown;
   }
   return blocked;
+}
+
+PlaceFacts describe_place(const Roadmap& roadmap, const Point& point) {
+  const EsdfMap& esdf = roadmap.esdf;
+  const double radius = roadmap.min_clearance;
+  detail::validate_query(esdf, point, point, radius);
+  const FreeSpace space(esdf);
+  PlaceFacts facts;
+  const Point local = detail::place_in_local(esdf, point, radius);
+  const detail::QueryEnds ends = detail::find_ends(space, local, local, radius);
+  facts.status = ends.status;
+  if (has_voxel(local, esdf.voxel_size)) {
+    const VoxelId id = esdf.layout.find(voxel_at(local, esdf.voxel_size));
+    if (id != kNoVoxel) facts.state = esdf.state[id];
+    facts.clearance = space.distance(local);
+  }
+  const SpaceParts parts(esdf);
+  const bool fits = facts.status == PlanStatus::kOk;
+  facts.report = parts.report(radius, fits ? std::vector{ends.from} : std::vector<VoxelId>{});
+  if (!fits) return facts;
+  facts.component = facts.report.asked[0];
+  // The joins are a forest, widest first: along it the narrowest join decides.
+  std::vector<const ComponentJoin*> narrowest(facts.report.components.size());
+  std::vector<std::size_t> reached{facts.component};
+  for (std::size_t i = 0; i < reached.size(); ++i)
+    for (const ComponentJoin& join : facts.report.joins) {
+      if (join.a != reached[i] && join.b != reached[i]) continue;
+      const std::size_t other = join.a == reached[i] ? join.b : join.a;
+      if (other == facts.component || narrowest[other] != nullptr) continue;
+      const ComponentJoin* before = narrowest[reached[i]];
+      narrowest[other] = before != nullptr && before->radius < join.radius ? before : &join;
+      reached.push_back(other);
+    }
+  for (std::size_t other = 0; other < narrowest.size(); ++other)
+    if (const ComponentJoin* join = narrowest[other])
+      facts.ways.push_back({facts.component, other, join->radius, join->place, join->by});
+  std::stable_sort(facts.ways.begin(), facts.ways.end(),
+                   [](const auto& a, const auto& b) { return a.radius > b.radius; });
+  return facts;
 }
 
 }  // namespace ridgeway

@@ -33,14 +33,19 @@ struct Outcome {
 std::vector<Query> draw_queries(const Roadmap& roadmap, const CheckConfig& config) {
   const EsdfMap& esdf = roadmap.esdf;
   std::array<std::vector<VoxelId>, kRadiusFactors.size()> places;
+  const bool is_sphere = config.robot_height == 0.0;
   const double largest = largest_radius(esdf);
+  const FlightLimits limits = detail::limits_of(esdf, config.limits);
+  const FreeSpace space(esdf, limits, roadmap.min_clearance, config.robot_height);
   for (std::uint32_t order = 0; order < esdf.layout.voxel_count(); ++order) {
     const VoxelId id = esdf.layout.voxel_at_order(order);
-    if (esdf.state[id] != VoxelState::kFree) continue;
+    if (!esdf.is_open(id) || !space.is_within_limits(id)) continue;
     for (std::size_t k = 0; k < places.size(); ++k) {
       const double radius = kRadiusFactors[k] * roadmap.min_clearance;
-      if ((k == 0 || radius <= largest) &&
-          esdf.squared[id] >= least_clearance(radius, esdf.voxel_size))
+      if ((k == 0 || (radius <= largest && is_sphere)) &&
+          (is_sphere ||
+           space.is_free(centre_of(esdf.layout.index_of(id), esdf.voxel_size), radius)) &&
+          esdf.squared[id] >= least_clearance(space.inner_radius(radius), esdf.voxel_size))
         places[k].push_back(id);
     }
   }
@@ -52,9 +57,14 @@ std::vector<Query> draw_queries(const Roadmap& roadmap, const CheckConfig& confi
     query.radius = kRadiusFactors[k] * roadmap.min_clearance;
     for (Point* point : {&query.start, &query.goal}) {
       const VoxelIndex v = esdf.layout.index_of(places[k][random() % places[k].size()]);
-      // Off the centre, but not so far that the place might not fit.
+      // Off the centre, but not so far that the place might not fit, nor out of the limits.
       const auto off = [&] { return 0.2 * (static_cast<double>(random() % 1001) / 1000.0 - 0.5); };
-      *point = centre_of(v, esdf.voxel_size) + Point(off(), off(), off()) * esdf.voxel_size;
+      const Point centre = centre_of(v, esdf.voxel_size);
+      if (!is_sphere) {
+        *point = centre;
+        continue;
+      }
+      *point = space.nearest_within(centre + Point(off(), off(), off()) * esdf.voxel_size);
     }
   }
   return queries;
@@ -64,12 +74,13 @@ std::vector<Query> draw_queries(const Roadmap& roadmap, const CheckConfig& confi
 bool holds_clearance(const FreeSpace& space, const PlanResult& result, double radius) {
   for (std::size_t i = 1; i < result.waypoints.size(); ++i)
     if (!space.is_free(result.waypoints[i - 1], result.waypoints[i], radius)) return false;
-  return result.clearance >= radius * (1.0 - 1e-9);
+  return result.clearance >= space.inner_radius(radius) * (1.0 - 1e-9);
 }
 
-void summarise(const Roadmap& roadmap, const std::vector<Query>& queries,
+void summarise(const Roadmap& roadmap, const CheckConfig& config, const std::vector<Query>& queries,
                std::vector<Outcome>& outcomes, CheckReport& report) {
-  const FreeSpace space(roadmap.esdf);
+  const FlightLimits limits = detail::limits_of(roadmap.esdf, config.limits);
+  const FreeSpace space(roadmap.esdf, limits, roadmap.min_clearance, config.robot_height);
   std::vector<double> ratios, microseconds, raw, esdf;
   report.queries = outcomes.size();
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
@@ -116,11 +127,15 @@ void check_edges(const Roadmap& roadmap, const Progress& progress, CheckReport& 
 }
 
 /// Answers the queries batch by batch into outcomes.
-void ask_all(const Roadmap& roadmap, const std::vector<Query>& queries, const Progress& progress,
-             std::vector<Outcome>& outcomes) {
+void ask_all(const Roadmap& roadmap, const CheckConfig& config, const std::vector<Query>& queries,
+             const Progress& progress, std::vector<Outcome>& outcomes) {
   const auto ask = [&](const Query& q, Planner planner, bool shorten) {
     return detail::plan_locally(roadmap, q.start, q.goal,
-                                {.planner = planner, .radius = q.radius, .shorten = shorten});
+                                {.planner = planner,
+                                 .radius = q.radius,
+                                 .shorten = shorten,
+                                 .limits = config.limits,
+                                 .robot_height = config.robot_height});
   };
   for (std::size_t first = 0; first < queries.size(); first += kBatch) {
     report_progress(progress, first, queries.size());
@@ -149,16 +164,17 @@ CheckReport check_roadmap(const Roadmap& roadmap, const CheckConfig& config,
 void check_roadmap(const Roadmap& roadmap, const CheckConfig& config, const Progress& progress,
                    CheckReport& report) {
   report = {};
+  detail::validate_robot_height(config.robot_height);
   check_edges(roadmap, progress, report);
   const std::vector<Query> queries = draw_queries(roadmap, config);
   std::vector<Outcome> outcomes;
   try {
-    ask_all(roadmap, queries, progress, outcomes);
+    ask_all(roadmap, config, queries, progress, outcomes);
   } catch (const Cancelled&) {
-    summarise(roadmap, queries, outcomes, report);
+    summarise(roadmap, config, queries, outcomes, report);
     throw;
   }
-  summarise(roadmap, queries, outcomes, report);
+  summarise(roadmap, config, queries, outcomes, report);
 }
 
 }  // namespace ridgeway

@@ -25,7 +25,7 @@ constexpr std::size_t kLongestStretch = 3;  // segments that a detour may replac
 /// Distance at the centre of the point's voxel, metres; 0 where nothing is known.
 double rough_distance(const EsdfMap& esdf, const Point& p) {
   const VoxelId id = esdf.layout.find(voxel_at(p, esdf.voxel_size));
-  if (id == kNoVoxel || esdf.state[id] != VoxelState::kFree) return 0.0;
+  if (!esdf.is_open(id)) return 0.0;
   return esdf.distance(id);
 }
 

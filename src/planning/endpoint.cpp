@@ -8,7 +8,8 @@
 #include "layout_box.hpp"
 
 namespace ridgeway::detail {
-Endpoint find_endpoint(const EsdfMap& esdf, const Point& point, double radius) {
+Endpoint find_endpoint(const FreeSpace& space, const Point& point, double radius) {
+  const EsdfMap& esdf = space.map();
   if (!has_voxel(point, esdf.voxel_size)) return {};
   const VoxelIndex voxel = voxel_at(point, esdf.voxel_size);
   const VoxelId home = esdf.layout.find(voxel);
@@ -16,16 +17,18 @@ Endpoint find_endpoint(const EsdfMap& esdf, const Point& point, double radius) {
     return {LayoutBox(esdf.layout).meets(voxel, voxel) ? EndpointStatus::kUnknown
                                                        : EndpointStatus::kOutsideMap,
             kNoVoxel};
-  if (esdf.state[home] == VoxelState::kUnknown) return {EndpointStatus::kUnknown, kNoVoxel};
+  if (esdf.state[home] == VoxelState::kUnknown && !esdf.is_open(home))
+    return {EndpointStatus::kUnknown, kNoVoxel};
+  if (!space.is_within_limits(point, point)) return {EndpointStatus::kOutsideLimits, kNoVoxel};
   const double off = (point - centre_of(voxel, esdf.voxel_size)).norm();
-  if (esdf.state[home] == VoxelState::kFree && esdf.distance(home) - off >= radius)
+  if (esdf.is_open(home) && esdf.distance(home) - off >= space.outer_radius(radius) &&
+      space.is_within_limits(home))
     return {EndpointStatus::kOk, home};  // in the ball that is free around the centre
-  const FreeSpace space(esdf);
   if (!space.is_free(point, radius)) return {EndpointStatus::kInCollision, kNoVoxel};
 
-  const SquaredHalves threshold = least_clearance(radius, esdf.voxel_size);
+  const SquaredHalves threshold = least_clearance(space.inner_radius(radius), esdf.voxel_size);
   const auto joins = [&](VoxelId id) {
-    return id != kNoVoxel && esdf.state[id] == VoxelState::kFree && esdf.squared[id] >= threshold &&
+    return esdf.is_open(id) && esdf.squared[id] >= threshold && space.is_within_limits(id) &&
            space.is_free(point, centre_of(esdf.layout.index_of(id), esdf.voxel_size), radius);
   };
   if (joins(home)) return {EndpointStatus::kOk, home};  // no centre is nearer

@@ -6,7 +6,13 @@
 
 namespace ridgeway::detail {
 
-enum class EndpointStatus : std::uint8_t { kOk, kOutsideMap, kUnknown, kInCollision };
+enum class EndpointStatus : std::uint8_t {
+  kOk,
+  kOutsideMap,
+  kUnknown,
+  kInCollision,
+  kOutsideLimits
+};
 
 /// Where a point joins the voxel lattice.
 struct Endpoint {
@@ -16,6 +22,6 @@ struct Endpoint {
 
 /// The nearest traversable voxel centre, of the point's voxel and its 26 neighbours, that a
 /// straight free segment leads to. The same function serves every planner.
-Endpoint find_endpoint(const EsdfMap& esdf, const Point& point, double radius);
+Endpoint find_endpoint(const FreeSpace& space, const Point& point, double radius);
 
 }  // namespace ridgeway::detail

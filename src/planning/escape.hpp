@@ -14,9 +14,10 @@ struct EscapeResult {
 };
 
 /// The nearest traversable voxel centre within two radii of a point that is no obstacle, to which
-/// a straight segment leads through known-free voxels along which the distance to obstacles never
-/// falls. Looks no farther out than that centre, and only where the distances leave room for one.
-EscapeResult find_escape(const EsdfMap& esdf, const Point& point, double radius,
+/// a straight segment leads through known-free voxels and limits along which the distance to
+/// obstacles never falls. Looks no farther out than that centre, and only where the distances leave
+/// room for one.
+EscapeResult find_escape(const FreeSpace& space, const Point& point, double radius,
                          const Deadline& deadline);
 
 }  // namespace ridgeway::detail

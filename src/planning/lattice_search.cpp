@@ -61,17 +61,21 @@ std::vector<VoxelId> trace_back(const BlockLayout& layout, SearchMemory& memory,
 
 }  // namespace
 
-LatticePath search_lattice(const EsdfMap& esdf, VoxelId start, VoxelId goal, double radius,
+LatticePath search_lattice(const FreeSpace& space, VoxelId start, VoxelId goal, double radius,
                            const LatticeOptions& options, const Deadline& deadline) {
-  const SquaredHalves threshold = least_clearance(radius, esdf.voxel_size);
-  const FreeSpace space(esdf);
+  const EsdfMap& esdf = space.map();
+  const SquaredHalves threshold = least_clearance(space.inner_radius(radius), esdf.voxel_size);
   const VoxelIndex target = esdf.layout.index_of(goal);
   SearchMemory memory(esdf.layout.block_count());
   const int stride = options.stride;
   const auto move_is_free = [&](VoxelId from, VoxelId to, int d) {
-    if (stride == 1) return space.move_is_free(from, to, d, threshold);
+    if (stride == 1 || !space.is_for_sphere())
+      return stride == 1 && space.move_is_free(from, to, d, threshold);
     if (FreeSpace::move_bound(esdf.squared[from], esdf.squared[to],
                               squared_length(d) * stride * stride) < threshold)
+      return false;
+    if (!space.is_within_limits(centre_of(esdf.layout.index_of(from), esdf.voxel_size),
+                                centre_of(esdf.layout.index_of(to), esdf.voxel_size)))
       return false;
     return esdf.unknown == UnknownPolicy::kObstacle ||
            space.is_known_free(centre_of(esdf.layout.index_of(from), esdf.voxel_size),
@@ -98,8 +102,8 @@ LatticePath search_lattice(const EsdfMap& esdf, VoxelId start, VoxelId goal, dou
       const VoxelIndex& o = offset_of(d);
       const VoxelId next = esdf.layout.step(best->voxel, stride * o.x, stride * o.y, stride * o.z);
       if (d == kCentre || next == kNoVoxel || esdf.squared[next] < threshold ||
-          esdf.state[next] != VoxelState::kFree ||
-          (options.within != nullptr && !options.within->test(next)))
+          !esdf.is_open(next) || (options.within != nullptr && !options.within->test(next)) ||
+          !space.is_within_limits(next))
         continue;
       SearchMemory::Block& there = memory.block_of(next);
       const std::size_t place = next % kBlockVoxels;

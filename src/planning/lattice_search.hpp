@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "paths/deadline.hpp"
-#include "ridgeway/esdf/esdf.hpp"
+#include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
 
 namespace ridgeway::detail {
@@ -30,10 +30,11 @@ struct LatticeOptions {
   int most_in_vain = std::numeric_limits<int>::max();
 };
 
-/// A* over legal 26-moves between voxels that are free at a radius, Euclidean costs, with the
-/// lattice's own distance as heuristic. Buckets instead of a heap. Start and goal must be
-/// traversable voxels, and a whole number of strides apart. Memory follows the blocks visited.
-LatticePath search_lattice(const EsdfMap& esdf, VoxelId start, VoxelId goal, double radius,
+/// A* over legal 26-moves between voxels that are free at a radius and within the limits, Euclidean
+/// costs, with the lattice's own distance as heuristic. Buckets instead of a heap. Start and goal
+/// must be traversable voxels, and a whole number of strides apart. Memory follows the blocks
+/// visited.
+LatticePath search_lattice(const FreeSpace& space, VoxelId start, VoxelId goal, double radius,
                            const LatticeOptions& options, const Deadline& deadline);
 
 }  // namespace ridgeway::detail

@@ -108,4 +108,45 @@ NearestGoal plan_to_nearest(const Roadmap& roadmap, const Point& start,
   return nearest;
 }
 
+namespace {
+
+/// One leg after another, each from where the one before ends.
+void append_leg(const PlanResult& leg, PlanResult& whole) {
+  if (whole.waypoints.empty()) {
+    whole = leg;
+    return;
+  }
+  whole.waypoints.insert(whole.waypoints.end(), leg.waypoints.begin() + 1, leg.waypoints.end());
+  whole.length += leg.length;
+  whole.clearance = std::min(whole.clearance, leg.clearance);
+  whole.escape_goal = leg.escape_goal;
+  whole.moved_goal = leg.moved_goal;
+  whole.answered_by = std::max(whole.answered_by, leg.answered_by);
+  for (double PlanSeconds::*part :
+       {&PlanSeconds::attach, &PlanSeconds::search, &PlanSeconds::shorten, &PlanSeconds::total})
+    whole.seconds.*part += leg.seconds.*part;
+}
+
+}  // namespace
+
+ViaPlan plan_via(const Roadmap& roadmap, std::span<const Point> places, const PlanConfig& config) {
+  config.validate();
+  if (places.size() < 2) throw InputError("places", "are less than two", "give start and goal");
+  PlanConfig exact = config;
+  exact.escape = false;
+  exact.snap = 0.0;
+  ViaPlan via;
+  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+    const bool is_first = i == 0, is_last = i + 2 == places.size();
+    PlanResult leg = plan(roadmap, places[i], places[i + 1], is_first || is_last ? config : exact);
+    const bool strays =
+        (!is_first && (leg.escape_start.length > 0.0 || leg.moved_start.distance > 0.0)) ||
+        (!is_last && (leg.escape_goal.length > 0.0 || leg.moved_goal.distance > 0.0));
+    if (strays) leg = plan(roadmap, places[i], places[i + 1], exact);  // which says why not
+    if (!leg.ok()) return {std::move(leg), i};
+    append_leg(leg, via.plan);
+  }
+  return via;
+}
+
 }  // namespace ridgeway

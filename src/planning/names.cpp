@@ -10,7 +10,7 @@
 namespace ridgeway {
 
 std::string_view name_of(PlanStatus status) {
-  constexpr std::array<std::string_view, 10> kNames{"ok",
+  constexpr std::array<std::string_view, 12> kNames{"ok",
                                                     "start_outside_map",
                                                     "start_unknown",
                                                     "start_in_collision",
@@ -19,7 +19,9 @@ std::string_view name_of(PlanStatus status) {
                                                     "goal_in_collision",
                                                     "no_route",
                                                     "radius_too_small",
-                                                    "timeout"};
+                                                    "timeout",
+                                                    "start_outside_limits",
+                                                    "goal_outside_limits"};
   return name_in(kNames, status);
 }
 
@@ -32,7 +34,7 @@ constexpr std::array<std::string_view, 9> kPlannerNames{"graph",   "diagram", "e
 std::string_view name_of(Planner planner) { return name_in(kPlannerNames, planner); }
 
 std::string_view name_of(UnknownPolicy policy) {
-  constexpr std::array<std::string_view, 2> kNames{"obstacle", "ignore"};
+  constexpr std::array<std::string_view, 3> kNames{"obstacle", "ignore", "free"};
   return name_in(kNames, policy);
 }
 

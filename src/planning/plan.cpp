@@ -15,6 +15,7 @@
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "route.hpp"
+#include "snap.hpp"
 #include "tangent_path.hpp"
 #include "tightest.hpp"
 
@@ -34,6 +35,12 @@ void PlanConfig::validate() const {
   if (radius && !(*radius > 0.0 && std::isfinite(*radius)))
     throw InputError("radius", "is " + number_text(*radius),
                      "give the robot's radius in metres, above 0");
+  limits.validate();
+  detail::validate_robot_height(robot_height);
+  if (escape && robot_height > 0.0)
+    throw InputError("escape", "is of robots that are spheres", "leave out robot_height");
+  if (!(snap >= 0.0 && std::isfinite(snap)))
+    throw InputError("snap", "is " + number_text(snap), "give metres, 0 for none");
   if (!(time_limit > 0.0))
     throw InputError("time_limit", "is " + number_text(time_limit),
                      "give seconds above 0, or leave it out for no limit");
@@ -47,8 +54,9 @@ void PlanConfig::validate() const {
 namespace {
 
 /// Between places where the robot fits.
-PlanResult plan_between(const Roadmap& roadmap, const Point& start, const Point& goal,
-                        double radius, const PlanConfig& config, const Deadline& deadline) {
+PlanResult plan_between(const Roadmap& roadmap, const FreeSpace& space, const Point& start,
+                        const Point& goal, double radius, const PlanConfig& config,
+                        const Deadline& deadline) {
   const EsdfMap& esdf = roadmap.esdf;
   const double began = seconds_now();
   PlanResult result;
@@ -58,11 +66,11 @@ PlanResult plan_between(const Roadmap& roadmap, const Point& start, const Point&
     result.seconds.total = seconds_now() - began;
     return std::move(result);
   };
-  if (radius < roadmap.min_clearance * (1.0 - 1e-9)) return finish(PlanStatus::kRadiusTooSmall);
-  const detail::QueryEnds ends = detail::find_ends(esdf, start, goal, radius);
+  if (space.inner_radius(radius) < roadmap.min_clearance * (1.0 - 1e-9))
+    return finish(PlanStatus::kRadiusTooSmall);
+  const detail::QueryEnds ends = detail::find_ends(space, start, goal, radius);
   if (ends.status != PlanStatus::kOk) return finish(ends.status);
 
-  const FreeSpace space(esdf);
   if (((config.shorten && config.prefer_clearance == 0.0) || start == goal) &&
       space.is_free(start, goal, radius)) {  // nothing is shorter
     result.answered_by = config.planner;
@@ -71,12 +79,14 @@ PlanResult plan_between(const Roadmap& roadmap, const Point& start, const Point&
     return finish(PlanStatus::kOk);
   }
   const detail::RouteQuery query{ends.from, ends.to, start, goal, radius, config.prefer_clearance};
-  const bool may_ask_tangents = config.shorten && config.planner == Planner::kGraph &&
+  const bool may_ask_tangents = config.shorten && space.is_for_sphere() &&
+                                config.planner == Planner::kGraph &&
                                 radius <= roadmap.tangents.graph.min_clearance * (1.0 + 1e-9);
   detail::TangentPath tangents;
   if (may_ask_tangents)
     tangents = detail::plan_tangents(roadmap.tangents, esdf, space, query,
                                      config.quick && config.prefer_clearance == 0.0, deadline);
+  if (!space.is_within_limits(tangents.waypoints)) tangents = {};
   result.seconds.search = tangents.search_seconds;
   result.seconds.shorten = tangents.shorten_seconds;
   if (tangents.will_do && config.prefer_clearance == 0.0) {
@@ -85,7 +95,7 @@ PlanResult plan_between(const Roadmap& roadmap, const Point& start, const Point&
     if (detail::is_verified(esdf, space, result, radius)) return finish(PlanStatus::kOk);
     tangents.waypoints.clear();  // of no more use
   }
-  detail::RouteResult found = detail::find_route(roadmap, query, config.planner, deadline);
+  detail::RouteResult found = detail::find_route(roadmap, space, query, config.planner, deadline);
   result.seconds.attach = found.attach_seconds;
   result.seconds.search += found.search_seconds;
   result.answered_by = found.answered_by;
@@ -115,19 +125,20 @@ PlanResult plan_between(const Roadmap& roadmap, const Point& start, const Point&
 
 /// Where a path begins that has to leave a place too close to an obstacle first; not found where it
 /// has not, or cannot.
-detail::EscapeResult escape_from(const EsdfMap& esdf, const Point& point, double radius,
+detail::EscapeResult escape_from(const FreeSpace& space, const Point& point, double radius,
                                  const Deadline& deadline) {
-  if (detail::find_endpoint(esdf, point, radius).status != detail::EndpointStatus::kInCollision)
+  if (detail::find_endpoint(space, point, radius).status != detail::EndpointStatus::kInCollision)
     return {};
-  return detail::find_escape(esdf, point, radius, deadline);
+  return detail::find_escape(space, point, radius, deadline);
 }
 
-PlanResult plan_with_escapes(const Roadmap& roadmap, const Point& start, const Point& goal,
-                             double radius, const PlanConfig& config, const Deadline& deadline) {
+PlanResult plan_with_escapes(const Roadmap& roadmap, const FreeSpace& space, const Point& start,
+                             const Point& goal, double radius, const PlanConfig& config,
+                             const Deadline& deadline) {
   const double began = seconds_now();
   const EsdfMap& esdf = roadmap.esdf;
-  const detail::EscapeResult out = escape_from(esdf, start, radius, deadline);
-  const detail::EscapeResult in = escape_from(esdf, goal, radius, deadline);
+  const detail::EscapeResult out = escape_from(space, start, radius, deadline);
+  const detail::EscapeResult in = escape_from(space, goal, radius, deadline);
   PlanResult result;
   if (out.status == detail::SearchStatus::kTimeout || in.status == detail::SearchStatus::kTimeout) {
     result.status = PlanStatus::kTimeout;
@@ -140,9 +151,9 @@ PlanResult plan_with_escapes(const Roadmap& roadmap, const Point& start, const P
                                                          : std::nullopt;
   };
   const std::optional<Point> from = place_of(out), to = place_of(in);
-  result = plan_between(roadmap, from.value_or(start), to.value_or(goal), radius, config, deadline);
+  result = plan_between(roadmap, space, from.value_or(start), to.value_or(goal), radius, config,
+                        deadline);
   if (result.ok() && (from || to)) {
-    const FreeSpace space(esdf);
     std::vector<Point>& path = result.waypoints;
     if (from && to && *from == *to) path = {*from};
     if (from) {
@@ -168,9 +179,20 @@ PlanResult detail::plan_locally(const Roadmap& roadmap, const Point& start, cons
   config.validate();
   const double radius = config.radius.value_or(roadmap.min_clearance);
   validate_query(roadmap.esdf, start, goal, radius);
+  require_height_counts(roadmap.esdf, config.robot_height);
   const Deadline deadline(config.time_limit);
-  return config.escape ? plan_with_escapes(roadmap, start, goal, radius, config, deadline)
-                       : plan_between(roadmap, start, goal, radius, config, deadline);
+  const FlightLimits limits = limits_of(roadmap.esdf, config.limits);
+  const FreeSpace space(roadmap.esdf, limits, radius, config.robot_height);
+  const PlanBetween between = [&](const Point& from, const Point& to) {
+    return config.escape ? plan_with_escapes(roadmap, space, from, to, radius, config, deadline)
+                         : plan_between(roadmap, space, from, to, radius, config, deadline);
+  };
+  const double began = seconds_now();
+  PlanResult result = between(start, goal);
+  if (config.snap == 0.0 || !is_refused(result.status)) return result;
+  result = plan_snapped(space, start, goal, radius, config.snap, between, result, deadline);
+  result.seconds.total = seconds_now() - began;
+  return result;
 }
 
 PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,

@@ -23,6 +23,8 @@ PlanStatus status_of(EndpointStatus status, bool is_start) {
       return is_start ? PlanStatus::kStartUnknown : PlanStatus::kGoalUnknown;
     case EndpointStatus::kInCollision:
       return is_start ? PlanStatus::kStartInCollision : PlanStatus::kGoalInCollision;
+    case EndpointStatus::kOutsideLimits:
+      return is_start ? PlanStatus::kStartOutsideLimits : PlanStatus::kGoalOutsideLimits;
     case EndpointStatus::kOk:
       break;
   }
@@ -52,11 +54,31 @@ void validate_query(const EsdfMap& esdf, const Point& start, const Point& goal, 
                      "build the map with a larger max_distance, or without one");
 }
 
-QueryEnds find_ends(const EsdfMap& esdf, const Point& start, const Point& goal, double radius) {
-  const Endpoint from = find_endpoint(esdf, start, radius);
+void validate_robot_height(double height) {
+  constexpr double kHighest = 1e6;
+  if (!(height >= 0.0 && height <= kHighest))
+    throw InputError("robot_height", "is " + number_text(height),
+                     "give metres above 0, or 0 for a robot that is a sphere");
+}
+
+void require_height_counts(const EsdfMap& esdf, double height) {
+  if (esdf.planar && height > 0.0)
+    throw InputError("robot_height", "does not count in a plane",
+                     "leave it out, and give planar the heights that the robot fills");
+}
+
+QueryEnds find_ends(const FreeSpace& space, const Point& start, const Point& goal, double radius) {
+  const Endpoint from = find_endpoint(space, start, radius);
   if (from.status != EndpointStatus::kOk) return {.status = status_of(from.status, true)};
-  const Endpoint to = find_endpoint(esdf, goal, radius);
+  const Endpoint to = find_endpoint(space, goal, radius);
   return {status_of(to.status, false), from.voxel, to.voxel};
+}
+
+FlightLimits limits_of(const EsdfMap& esdf, const FlightLimits& limits_world) {
+  if (!limits_world.any()) return esdf.limits;
+  FlightLimits limits = both_of(esdf.limits, limits_in_local(esdf, limits_world));
+  require_room(esdf, limits);
+  return limits;
 }
 
 void describe(const FreeSpace& space, const KnownStretch& known, PlanResult& result) {
@@ -68,7 +90,10 @@ bool is_verified(const EsdfMap& esdf, const FreeSpace& space, const PlanResult& 
                  double radius) {
   // Nothing that is called a path may be none: what is empty has no clearance that could be missed.
   if (result.waypoints.size() < 2 || !std::isfinite(result.length)) return false;
-  if (!(result.clearance >= radius * (1.0 - 1e-9))) return false;
+  if (!(result.clearance >= space.inner_radius(radius) * (1.0 - 1e-9))) return false;
+  for (std::size_t i = 1; !space.is_for_sphere() && i < result.waypoints.size(); ++i)
+    if (!space.is_free(result.waypoints[i - 1], result.waypoints[i], radius)) return false;
+  if (!space.is_within_limits(result.waypoints)) return false;
   if (esdf.unknown == UnknownPolicy::kObstacle) return true;
   for (std::size_t i = 1; i < result.waypoints.size(); ++i)
     if (!space.is_known_free(result.waypoints[i - 1], result.waypoints[i])) return false;
@@ -77,7 +102,8 @@ bool is_verified(const EsdfMap& esdf, const FreeSpace& space, const PlanResult& 
 
 Point place_in_local(const EsdfMap& esdf, const Point& point_world, double radius) {
   constexpr double kExact = 1e-10;  // of the radius: a tenth of what free means leaves for rounding
-  const Point place = to_local(esdf, point_world);
+  Point place = to_local(esdf, point_world);
+  if (esdf.planar) place.z() = (kPlanarLayer + 0.5) * esdf.voxel_size;
   const double rounding =
       2.0 * std::numeric_limits<double>::epsilon() * point_world.cwiseAbs().maxCoeff();
   if (esdf.origin == VoxelIndex{} || !(rounding > kExact * radius && rounding < 1e-3 * radius) ||
@@ -94,10 +120,18 @@ Point place_in_local(const EsdfMap& esdf, const Point& point_world, double radiu
 
 void move_to_world(const EsdfMap& esdf, const Point& start_world, const Point& goal_world,
                    PlanResult& result) {
+  for (Moved* moved : {&result.moved_start, &result.moved_goal})
+    if (moved->distance > 0.0) moved->place = to_world(esdf, moved->place);
   if (result.waypoints.empty()) return;
   for (Point& p : result.waypoints) p = to_world(esdf, p);
-  result.waypoints.front() = start_world;
-  result.waypoints.back() = goal_world;
+  const auto put = [&](Point& waypoint, const Point& asked, const Moved& moved) {
+    if (moved.distance > 0.0) return;
+    const double height = waypoint.z();
+    waypoint = asked;
+    if (esdf.planar) waypoint.z() = height;
+  };
+  put(result.waypoints.front(), start_world, result.moved_start);
+  put(result.waypoints.back(), goal_world, result.moved_goal);
 }
 
 }  // namespace ridgeway::detail

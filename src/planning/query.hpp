@@ -21,7 +21,15 @@ struct QueryEnds {
   PlanStatus status = PlanStatus::kOk;
   VoxelId from = kNoVoxel, to = kNoVoxel;
 };
-QueryEnds find_ends(const EsdfMap& esdf, const Point& start, const Point& goal, double radius);
+QueryEnds find_ends(const FreeSpace& space, const Point& start, const Point& goal, double radius);
+
+/// The limits of a query (world frame) and those of the map, in its local frame. Throws InputError
+/// where they are bad, or hold no voxel.
+FlightLimits limits_of(const EsdfMap& esdf, const FlightLimits& limits_world);
+
+/// Throws InputError for a height that no upright cylinder has (0: it is none), or one in a plane.
+void validate_robot_height(double height);
+void require_height_counts(const EsdfMap& esdf, double height);
 
 /// Waypoints of a route between which the clearance is known, by moves between voxels and the
 /// graph's edges; none if first == last.
@@ -35,7 +43,8 @@ void describe(const FreeSpace& space, const KnownStretch& known, PlanResult& res
 
 /// No path leaves unverified: there must be one, its length must be finite, its clearance, measured
 /// along every segment (along the graph's edges when they were made or loaded), must be the radius,
-/// and where unknown space is no obstacle it must keep to what is known. The result must have been
+/// it must be within the limits, and where unknown space is no obstacle it must keep to what is
+/// known. The result must have been
 /// described.
 bool is_verified(const EsdfMap& esdf, const FreeSpace& space, const PlanResult& result,
                  double radius);

@@ -9,6 +9,7 @@
 
 #include "any_angle_search.hpp"
 #include "endpoint.hpp"
+#include "limited_route.hpp"
 #include "path_cost.hpp"
 #include "paths/shorten.hpp"
 #include "ridgeway/esdf/free_space.hpp"
@@ -106,21 +107,21 @@ Reach compare_ways(const Roadmap& roadmap, const RouteQuery& query, const Attach
   return from_is_pocket || to_is_pocket ? Reach::kApart : Reach::kUnclear;
 }
 
-void search_voxels(const Roadmap& roadmap, const RouteQuery& query, Planner planner,
-                   const Deadline& deadline, RouteResult& result) {
+void search_voxels(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query,
+                   Planner planner, const Deadline& deadline, RouteResult& result) {
   const bool any_angle = planner == Planner::kThetaStar;
   result.answered_by = any_angle ? Planner::kThetaStar : Planner::kEsdf;
-  LatticePath path =
-      any_angle ? search_any_angle(roadmap.esdf, query.from, query.to, query.radius, deadline)
-                : search_lattice(roadmap.esdf, query.from, query.to, query.radius, {}, deadline);
+  LatticePath path = any_angle
+                         ? search_any_angle(space, query.from, query.to, query.radius, deadline)
+                         : search_lattice(space, query.from, query.to, query.radius, {}, deadline);
   result.status = path.status;
   if (path.status == SearchStatus::kFound)
     result.route = route_over_voxels(roadmap.esdf, query, path.voxels);
 }
 
 /// A* along the diagram between the places where the two ways meet it.
-void search_diagram(const Roadmap& roadmap, const RouteQuery& query, AttachWay from, AttachWay to,
-                    const Deadline& deadline, RouteResult& result) {
+void search_diagram(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query,
+                    AttachWay from, AttachWay to, const Deadline& deadline, RouteResult& result) {
   const auto cut_at_diagram = [&](std::vector<VoxelId>& way) {
     const auto first = std::find_if(way.begin(), way.end(),
                                     [&](VoxelId id) { return roadmap.diagram.voxels.test(id); });
@@ -128,8 +129,8 @@ void search_diagram(const Roadmap& roadmap, const RouteQuery& query, AttachWay f
   };
   cut_at_diagram(from.voxels);
   cut_at_diagram(to.voxels);
-  LatticePath path = search_lattice(roadmap.esdf, from.voxels.back(), to.voxels.back(),
-                                    query.radius, {.within = &roadmap.diagram.voxels}, deadline);
+  LatticePath path = search_lattice(space, from.voxels.back(), to.voxels.back(), query.radius,
+                                    {.within = &roadmap.diagram.voxels}, deadline);
   result.answered_by = Planner::kDiagram;
   result.status = path.status;
   if (path.status != SearchStatus::kFound) return;
@@ -141,20 +142,31 @@ void search_diagram(const Roadmap& roadmap, const RouteQuery& query, AttachWay f
 
 }  // namespace
 
-RouteResult find_route(const Roadmap& roadmap, const RouteQuery& query, Planner planner,
-                       const Deadline& deadline) {
+RouteResult find_route(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query,
+                       Planner planner, const Deadline& deadline) {
   RouteResult result;
   const double began = seconds_now();
   if (planner == Planner::kEsdf || planner == Planner::kThetaStar) {
-    search_voxels(roadmap, query, planner, deadline, result);
+    search_voxels(roadmap, space, query, planner, deadline, result);
     result.search_seconds = seconds_now() - began;
     return result;
   }
-  AttachWay from = follow_attach(roadmap, query.from, query.radius);
-  AttachWay to = follow_attach(roadmap, query.to, query.radius);
-  const Reach reach = compare_ways(roadmap, query, from, to);
+  RouteQuery sphere = query;  // what it cannot do the robot cannot either
+  sphere.radius = space.inner_radius(query.radius);
+  AttachWay from = follow_attach(roadmap, query.from, sphere.radius);
+  AttachWay to = follow_attach(roadmap, query.to, sphere.radius);
+  const Reach reach = compare_ways(roadmap, sphere, from, to);
   const double attached = seconds_now();
   result.attach_seconds = attached - began;
+  if (space.is_narrowed()) {
+    if (reach != Reach::kApart && planner == Planner::kGraph)
+      result = find_limited_route(roadmap, space, query, from, to);
+    if (reach != Reach::kApart && result.status == SearchStatus::kNoRoute)
+      search_voxels(roadmap, space, query, Planner::kEsdf, deadline, result);
+    result.attach_seconds = attached - began;
+    result.search_seconds = seconds_now() - attached;
+    return result;
+  }
   if (reach == Reach::kJoined) {
     result.status = SearchStatus::kFound;
     result.route = route_over_voxels(roadmap.esdf, query, join_ways(from.voxels, to.voxels));
@@ -169,9 +181,9 @@ RouteResult find_route(const Roadmap& roadmap, const RouteQuery& query, Planner 
       }
     }
     if (result.status == SearchStatus::kNoRoute && from.met_diagram && to.met_diagram)
-      search_diagram(roadmap, query, std::move(from), std::move(to), deadline, result);
+      search_diagram(roadmap, space, query, std::move(from), std::move(to), deadline, result);
     if (result.status == SearchStatus::kNoRoute)
-      search_voxels(roadmap, query, Planner::kEsdf, deadline, result);
+      search_voxels(roadmap, space, query, Planner::kEsdf, deadline, result);
   }
   result.search_seconds = seconds_now() - attached;
   return result;

@@ -36,8 +36,9 @@ struct RouteResult {
 };
 
 /// Searches with the asked planner, and where that structure is too coarse for the radius with
-/// the next finer one: graph, diagram, ESDF. Exact: no route means that there is none.
-RouteResult find_route(const Roadmap& roadmap, const RouteQuery& query, Planner planner,
-                       const Deadline& deadline);
+/// the next finer one: graph, diagram, ESDF; within limits that the roadmap was not made for as
+/// find_limited_route. Exact: no route means that there is none.
+RouteResult find_route(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query,
+                       Planner planner, const Deadline& deadline);
 
 }  // namespace ridgeway::detail

@@ -19,17 +19,17 @@ constexpr int kMostAlike = 4;  // routes to a fork that deform into each other o
 
 }  // namespace
 
-RouteEnumeration::RouteEnumeration(const Roadmap& roadmap, const RouteQuery& query,
-                                   const Deadline& deadline)
+RouteEnumeration::RouteEnumeration(const Roadmap& roadmap, const FreeSpace& space,
+                                   const RouteQuery& query, const Deadline& deadline)
     : roadmap_(roadmap),
-      space_(roadmap.esdf),
+      space_(space),
       query_(query),
       deadline_(deadline),
       starts_(legs_from(query.start, query.from)),
       goals_(legs_from(query.goal, query.to)) {
   Sources goals;
   for (const auto& [vertex, leg] : goals_) goals.emplace_back(vertex, length_of(leg));
-  rest_ = lengths_from(roadmap.graph, goals, query.radius);
+  rest_ = lengths_from(roadmap.graph, goals, space_.inner_radius(query.radius));
   for (const auto& [vertex, leg] : starts_)
     push({.vertex = vertex, .length = length_of(leg)}, rest_[number(vertex)]);
 }
@@ -46,22 +46,23 @@ std::optional<Route> RouteEnumeration::next() {
 }
 
 RouteEnumeration::Legs RouteEnumeration::legs_from(const Point& end, VoxelId voxel) const {
-  const AttachWay way = follow_attach(roadmap_, voxel, query_.radius);
+  const AttachWay way = follow_attach(roadmap_, voxel, space_.inner_radius(query_.radius));
   if (!way.reached()) return {};
   RouteQuery leg = query_;
   leg.start = end;
   Route route = route_over_voxels(roadmap_.esdf, leg, way.voxels);
   route.pop_back();  // the goal
-  Legs legs{{way.vertex, std::move(route)}};
-  const std::vector<Vertex>& vertices = roadmap_.graph.vertices;
-  std::vector<bool> seen(vertices.size());
-  for (std::size_t v = 0; v < vertices.size(); ++v)
-    seen[v] = space_.is_free(end, vertices[v].position, query_.radius);
-  for (std::uint32_t v = 0; v < vertices.size(); ++v) {
-    const Point& position = vertices[v].position;
+  Legs legs;
+  for (std::size_t i = 1; i < route.size(); ++i) route[i] = space_.nearest_within(route[i]);
+  if (!space_.is_narrowed() || is_free(route)) legs.emplace(way.vertex, std::move(route));
+  std::vector<bool> seen(roadmap_.graph.vertices.size());
+  for (std::uint32_t v = 0; v < seen.size(); ++v)
+    seen[v] = space_.is_free(end, place_of(VertexId{v}), query_.radius);
+  for (std::uint32_t v = 0; v < seen.size(); ++v) {
+    const Point position = place_of(VertexId{v});
     const auto leads_here = [&](const Link& link) {
-      const Point& nearer = vertices[number(link.vertex)].position;
-      return seen[number(link.vertex)] && is_wide_enough(link) &&
+      const Point nearer = place_of(link.vertex);
+      return seen[number(link.vertex)] && may_be_taken(VertexId{v}, link) &&
              (nearer - end).norm() < (position - end).norm() &&
              deforms_into(space_, std::array{end, nearer, position}, std::array{end, position},
                           query_.radius);
@@ -77,6 +78,21 @@ bool RouteEnumeration::is_wide_enough(const Link& link) const {
   return roadmap_.graph.edges[number(link.edge)].clearance >= query_.radius * (1.0 - 1e-9);
 }
 
+bool RouteEnumeration::may_be_taken(VertexId from, const Link& link) const {
+  return space_.is_narrowed() ? space_.is_free(place_of(from), place_of(link.vertex), query_.radius)
+                              : is_wide_enough(link);
+}
+
+Point RouteEnumeration::place_of(VertexId v) const {
+  return space_.nearest_within(roadmap_.graph.vertices[number(v)].position);
+}
+
+bool RouteEnumeration::is_free(const Route& route) const {
+  for (std::size_t i = 1; i < route.size(); ++i)
+    if (!space_.is_free(route[i - 1], route[i], query_.radius)) return false;
+  return true;
+}
+
 void RouteEnumeration::push(Piece piece, double rest) {
   if (rest == std::numeric_limits<double>::infinity()) return;
   open_.push({piece.length + rest, static_cast<std::uint32_t>(pieces_.size())});
@@ -90,7 +106,7 @@ void RouteEnumeration::expand(std::uint32_t piece) {
     push({.from = piece, .length = here.length + length_of(goal_leg->second)}, 0.0);
   const std::vector<VertexId> passed = vertices_to(piece);
   for (const Link& link : roadmap_.graph.links_of(here.vertex)) {
-    if (!is_wide_enough(link)) continue;
+    if (!may_be_taken(here.vertex, link)) continue;
     if (std::binary_search(passed.begin(), passed.end(), link.vertex)) continue;
     push({link.vertex, piece, here.length + roadmap_.graph.edges[number(link.edge)].length},
          rest_[number(link.vertex)]);
@@ -113,7 +129,7 @@ Route RouteEnumeration::route_to(std::uint32_t piece) const {
     route.pop_back();
   }
   for (; pieces_[piece].from != kNone; piece = pieces_[piece].from)
-    route.push_back(roadmap_.graph.vertices[number(pieces_[piece].vertex)].position);
+    route.push_back(place_of(pieces_[piece].vertex));
   const Route& leg = starts_.at(pieces_[piece].vertex);
   route.insert(route.end(), leg.rbegin(), leg.rend());
   std::reverse(route.begin(), route.end());

@@ -16,15 +16,16 @@
 
 namespace ridgeway::detail {
 
-/// Routes from start to goal that pass no vertex of the graph twice, by increasing length. Start
-/// and goal are joined to the vertices that the attach field leads to, and to those that they see
-/// and do not see past another.
+/// Routes from start to goal within the limits that pass no vertex of the graph twice, by
+/// increasing length. Start and goal are joined to the vertices that the attach field leads to, and
+/// to those that they see and do not see past another.
 ///
 /// A route to a fork is followed no further where it deforms into a shorter one over some of the
 /// same vertices: whatever goes on from it goes on from the other.
 class RouteEnumeration {
  public:
-  RouteEnumeration(const Roadmap& roadmap, const RouteQuery& query, const Deadline& deadline);
+  RouteEnumeration(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query,
+                   const Deadline& deadline);
 
   /// Nothing when there are no more, or too many were looked at; see `complete`.
   std::optional<Route> next();
@@ -50,6 +51,10 @@ class RouteEnumeration {
 
   Legs legs_from(const Point& end, VoxelId voxel) const;
   bool is_wide_enough(const Link& link) const;
+  bool may_be_taken(VertexId from, const Link& link) const;
+  /// As limits that the graph was not made for move it.
+  Point place_of(VertexId v) const;
+  bool is_free(const Route& route) const;
   void push(Piece piece, double rest);
   void expand(std::uint32_t piece);
   std::vector<VertexId> vertices_to(std::uint32_t piece) const;

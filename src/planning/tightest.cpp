@@ -31,12 +31,12 @@ constexpr double kLatticeExcess = 1.05;    // by which a lattice path shrinks wh
 /// The nearest voxel with even coordinates that a point can move to.
 VoxelId even_voxel(const EsdfMap& esdf, const FreeSpace& space, const Point& p, double radius) {
   const VoxelIndex v = voxel_at(p, esdf.voxel_size);
-  const SquaredHalves threshold = least_clearance(radius, esdf.voxel_size);
+  const SquaredHalves threshold = least_clearance(space.inner_radius(radius), esdf.voxel_size);
   for (int i = 0; i < 8; ++i) {
     const auto even = [&](int at, int bit) { return (at & ~1) + 2 * (at & 1 & (i >> bit)); };
     const VoxelIndex near{even(v.x, 0), even(v.y, 1), even(v.z, 2)};
     const VoxelId id = esdf.layout.find(near);
-    if (id != kNoVoxel && esdf.state[id] == VoxelState::kFree && esdf.squared[id] >= threshold &&
+    if (esdf.is_open(id) && esdf.squared[id] >= threshold && space.is_within_limits(id) &&
         space.is_free(p, centre_of(near, esdf.voxel_size), radius))
       return id;
   }
@@ -49,8 +49,9 @@ Route search_quickly(const EsdfMap& esdf, const FreeSpace& space, const Point& s
                      const Point& goal, double radius, int stride, double longest, int most_in_vain,
                      const Deadline& deadline) {
   const auto voxel_of = [&](const Point& p) {
-    return stride == 1 ? find_endpoint(esdf, p, radius).voxel : even_voxel(esdf, space, p, radius);
+    return stride == 1 ? find_endpoint(space, p, radius).voxel : even_voxel(esdf, space, p, radius);
   };
+  if (stride > 1 && !space.is_for_sphere()) return {};
   const VoxelId from = voxel_of(start), to = voxel_of(goal);
   if (from == kNoVoxel || to == kNoVoxel) return {};
   const LatticeOptions options{.stride = stride,
@@ -58,7 +59,7 @@ Route search_quickly(const EsdfMap& esdf, const FreeSpace& space, const Point& s
                                .longest = longest * kLatticeExcess / esdf.voxel_size,
                                .most_expansions = kQuickExpansions,
                                .most_in_vain = most_in_vain};
-  const LatticePath path = search_lattice(esdf, from, to, radius, options, deadline);
+  const LatticePath path = search_lattice(space, from, to, radius, options, deadline);
   if (path.status != SearchStatus::kFound) return {};
   return route_over_voxels(esdf, {from, to, start, goal, radius}, path.voxels);
 }

@@ -23,7 +23,10 @@ namespace ridgeway {
 ///               u64 compressed size; then a chunk: u32 raw size, u32 compressed size, u32 checksum
 ///   data        the sections' chunks in the directory's order, each a zstd frame of its own
 /// Checksums are CRC-32C, those of the chunks over the compressed bytes.
-inline constexpr std::uint32_t kRidgeVersion = 2;
+/// Files without limits, planes and free unknown space are of version 2, so that programs that know
+/// of none of these read them.
+inline constexpr std::uint32_t kRidgeVersion = 3;
+inline constexpr std::uint32_t kRidgeVersionWithoutLimits = 2;
 inline constexpr std::size_t kLargestChunk = std::size_t{1} << 22;
 inline constexpr std::size_t kSectionNameBytes = 16;
 
@@ -52,7 +55,8 @@ struct RidgeSectionSource {
 };
 
 void write_ridge_container(const std::filesystem::path& path, std::string_view header,
-                           std::span<const RidgeSectionSource> sections);
+                           std::span<const RidgeSectionSource> sections,
+                           std::uint32_t version = kRidgeVersionWithoutLimits);
 
 /// A source that hands out an array of bytes piece by piece.
 RidgeSectionSource plain_section(std::string name, std::uint32_t type,

@@ -11,6 +11,15 @@
 
 namespace ridgeway {
 
+namespace {
+
+/// Whether programs that know of no limits, planes and free unknown space would read it wrongly.
+bool needs_newest(const EsdfMap& esdf) {
+  return esdf.limits.any() || esdf.planar || esdf.unknown == UnknownPolicy::kFree;
+}
+
+}  // namespace
+
 void save_roadmap(const Roadmap& roadmap, const std::filesystem::path& path) {
   auto defect = find_size_defect(roadmap);
   if (!defect) defect = find_graph_defect(roadmap);
@@ -24,7 +33,8 @@ void save_roadmap(const Roadmap& roadmap, const std::filesystem::path& path) {
   for (RidgeSectionSource& section : voxel_sections(roadmap)) {
     sections.push_back(std::move(section));
   }
-  write_ridge_container(path, header_text(header_of(roadmap)), sections);
+  write_ridge_container(path, header_text(header_of(roadmap)), sections,
+                        needs_newest(roadmap.esdf) ? kRidgeVersion : kRidgeVersionWithoutLimits);
 }
 
 Roadmap load_roadmap(const std::filesystem::path& path) {
@@ -40,6 +50,8 @@ Roadmap load_roadmap(const std::filesystem::path& path) {
   roadmap.esdf.voxel_size = header.voxel_size;
   roadmap.esdf.origin = header.origin;
   roadmap.esdf.unknown = header.unknown;
+  roadmap.esdf.limits = header.limits;
+  roadmap.esdf.planar = header.planar;
   roadmap.esdf.max_distance = header.max_distance;
   roadmap.esdf.layout = load_blocks(reader, header.blocks);
   load_voxels(reader, header, roadmap);

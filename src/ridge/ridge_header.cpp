@@ -37,7 +37,42 @@ std::uint32_t get_count(const Json& counts, const char* key) {
 UnknownPolicy parse_policy(const std::string& name) {
   if (name == "obstacle") return UnknownPolicy::kObstacle;
   if (name == "ignore") return UnknownPolicy::kIgnore;
-  throw std::out_of_range("'unknown' is neither obstacle nor ignore");
+  if (name == "free") return UnknownPolicy::kFree;
+  throw std::out_of_range("'unknown' is neither obstacle nor ignore nor free");
+}
+
+Json json_of_limits(const FlightLimits& limits) {
+  const auto box_json = [](const Box& box) {
+    Json faces = Json::array();
+    for (const Point& corner : {box.min, box.max})
+      for (const double x : corner) faces.push_back(number_or_null(x));
+    return faces;
+  };
+  Json json = {{"keep_in", box_json(limits.keep_in)}, {"keep_out", Json::array()}};
+  for (const Box& box : limits.keep_out) json["keep_out"].push_back(box_json(box));
+  return json;
+}
+
+Box box_in(const Json& faces) {
+  if (!faces.is_array() || faces.size() != 6) throw std::out_of_range("a limit has not six faces");
+  Box box;
+  for (int i = 0; i < 6; ++i) {
+    const Json& face = faces[static_cast<std::size_t>(i)];
+    (i < 3 ? box.min : box.max)[i % 3] =
+        face.is_null() ? (i < 3 ? -kInfinity : kInfinity) : face.get<double>();
+  }
+  return box;
+}
+
+FlightLimits limits_in(const Json& json) {
+  FlightLimits limits{box_in(json.at("keep_in")), {}};
+  for (const Json& box : json.at("keep_out")) limits.keep_out.push_back(box_in(box));
+  try {
+    limits.validate();
+  } catch (const InputError& error) {
+    throw std::out_of_range("'limits' are none: " + error.where() + " " + error.problem());
+  }
+  return limits;
 }
 
 /// Bounds every count by others, so that none makes its section large by itself.
@@ -58,6 +93,8 @@ RidgeHeader header_from(const Json& json) {
   header.origin = origin_in(json);
   header.unknown = parse_policy(json.at("unknown").get<std::string>());
   header.max_distance = get_number(json, "max_distance", kInfinity);
+  header.planar = json.value("planar", false);
+  if (json.contains("limits")) header.limits = limits_in(json.at("limits"));
   header.min_clearance = get_number(json, "min_clearance", kInfinity);
   header.graph_min_clearance = get_number(json, "graph_min_clearance", kInfinity);
   header.complete_diagram = json.at("complete_diagram").get<bool>();
@@ -86,6 +123,8 @@ RidgeHeader header_of(const Roadmap& roadmap) {
           roadmap.esdf.origin,
           roadmap.esdf.unknown,
           roadmap.esdf.max_distance,
+          roadmap.esdf.limits,
+          roadmap.esdf.planar,
           roadmap.min_clearance,
           roadmap.graph.min_clearance,
           roadmap.diagram.complete,
@@ -103,8 +142,12 @@ std::string header_text(const RidgeHeader& header) {
   json["content"] = "roadmap";
   json["voxel_size"] = header.voxel_size;
   json["origin"] = json_of_origin(header.origin);
-  json["unknown"] = header.unknown == UnknownPolicy::kObstacle ? "obstacle" : "ignore";
+  json["unknown"] = header.unknown == UnknownPolicy::kObstacle ? "obstacle"
+                    : header.unknown == UnknownPolicy::kIgnore ? "ignore"
+                                                               : "free";
   json["max_distance"] = number_or_null(header.max_distance);
+  if (header.planar) json["planar"] = true;
+  if (header.limits.any()) json["limits"] = json_of_limits(header.limits);
   json["min_clearance"] = number_or_null(header.min_clearance);
   json["graph_min_clearance"] = number_or_null(header.graph_min_clearance);
   json["complete_diagram"] = header.complete_diagram;

@@ -19,6 +19,8 @@ struct RidgeHeader {
   VoxelIndex origin;
   UnknownPolicy unknown = UnknownPolicy::kObstacle;
   double max_distance = 0.0;
+  FlightLimits limits;  ///< local frame
+  bool planar = false;
   double min_clearance = 0.0;
   double graph_min_clearance = 0.0;
   bool complete_diagram = true;

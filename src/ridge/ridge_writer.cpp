@@ -73,12 +73,12 @@ void append_directory_entry(std::vector<std::byte>& directory, const RidgeSectio
   }
 }
 
-std::vector<std::byte> make_preamble(std::size_t section_count, std::uint64_t data_bytes,
-                                     std::uint64_t header_bytes,
+std::vector<std::byte> make_preamble(std::uint32_t version, std::size_t section_count,
+                                     std::uint64_t data_bytes, std::uint64_t header_bytes,
                                      std::span<const std::byte> header_and_directory) {
   std::vector<std::byte> preamble;
   for (const char c : std::string_view("RIDGEWAY")) preamble.push_back(static_cast<std::byte>(c));
-  append_number(preamble, kRidgeVersion);
+  append_number(preamble, version);
   append_number(preamble, static_cast<std::uint32_t>(section_count));
   append_number(preamble, std::uint64_t{48} + header_and_directory.size() + data_bytes);
   append_number(preamble, header_bytes);
@@ -91,7 +91,7 @@ std::vector<std::byte> make_preamble(std::size_t section_count, std::uint64_t da
 }  // namespace
 
 void write_ridge_container(const std::filesystem::path& path, std::string_view header,
-                           std::span<const RidgeSectionSource> sections) {
+                           std::span<const RidgeSectionSource> sections, std::uint32_t version) {
   AtomicFile file(path);  // first, so that a bad path costs no time
   const auto header_raw = std::as_bytes(std::span(header));
   std::vector<std::byte> front(header_raw.begin(), header_raw.end());
@@ -102,7 +102,7 @@ void write_ridge_container(const std::filesystem::path& path, std::string_view h
     append_directory_entry(front, section, packed.back());
     for (const PackedChunk& chunk : packed.back()) data_bytes += chunk.compressed.size();
   }
-  file.write(make_preamble(sections.size(), data_bytes, header.size(), front));
+  file.write(make_preamble(version, sections.size(), data_bytes, header.size(), front));
   file.write(front);
   for (const auto& chunks : packed)
     for (const PackedChunk& chunk : chunks) file.write(chunk.compressed);

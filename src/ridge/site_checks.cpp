@@ -116,7 +116,7 @@ class SiteChecks {
     const std::size_t stride = kStride[axis];
     const std::uint32_t above = esdf_.layout.neighbour_block(slot, kUp[axis]);
     const bool open_below =
-        esdf_.unknown == UnknownPolicy::kIgnore ||
+        esdf_.unknown != UnknownPolicy::kObstacle || (esdf_.planar && axis == 2) ||
         esdf_.layout.neighbour_block(slot, 26 - kUp[axis]) != BlockLayout::kNoBlock;
     for (std::size_t i = 0; i < kBlockVoxels; ++i) {
       if ((i / stride & 7) != 0) continue;
@@ -128,7 +128,8 @@ class SiteChecks {
         if (!may_be(sites.distance[top], distance, growth(part_of(esdf_.site[next], axis))) ||
             !may_be(distance, sites.distance[top], growth(-sites.offset[axis][top])))
           return false;
-      } else if (esdf_.unknown == UnknownPolicy::kObstacle && sites.distance[top] > 1) {
+      } else if (esdf_.unknown == UnknownPolicy::kObstacle && !(esdf_.planar && axis == 2) &&
+                 sites.distance[top] > 1) {
         return false;
       }
     }

@@ -45,6 +45,7 @@ TangentConfig corners_of(const BuildConfig& config) { return {.most_pairs = conf
 
 void BuildConfig::validate() const {
   validate_policy(unknown);
+  limits.validate();
   require(min_clearance > 0.0 && std::isfinite(min_clearance), "min_clearance", min_clearance,
           "give the robot's radius in metres, above 0");
   require(max_distance > min_clearance, "max_distance", max_distance,
@@ -69,11 +70,15 @@ void require_suits(const BuildConfig& config, double voxel_size) {
           config.max_distance, "give at least min_clearance and two voxels, or leave it out");
 }
 
+EsdfConfig distances_config(const BuildConfig& config) {
+  return {config.unknown, config.max_distance, config.limits};
+}
+
 EsdfMap distances_of(OccupancyMap map, const BuildConfig& config) {
   if (config.unknown ==
       UnknownPolicy::kIgnore)  // where unknown space is solid, none is left anyway
     map = remove_pockets(std::move(map), ball_volume(config.min_clearance));
-  return compute_esdf(std::move(map), {config.unknown, config.max_distance});
+  return compute_esdf(std::move(map), distances_config(config));
 }
 
 void build_on_distances(VoxelMask traversable, const BuildConfig& config, BuildResult& result,
@@ -88,8 +93,10 @@ void build_on_distances(VoxelMask traversable, const BuildConfig& config, BuildR
   clock.end(report.seconds.gvd);
 
   clock.begin("edges");
-  VoxelMask edges = config.basis_point_edges ? extract_basis_point_edges(esdf, gvd, ridges)
-                                             : extract_edges(esdf, gvd);
+  // In a plane ridges are curves already.
+  VoxelMask edges = esdf.planar                ? gvd
+                    : config.basis_point_edges ? extract_basis_point_edges(esdf, gvd, ridges)
+                                               : extract_edges(esdf, gvd);
   gvd = {};  // what is not needed any more makes room
   report.edge_voxels = edges.count();
   clock.end(report.seconds.edges);
@@ -166,6 +173,7 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
   clock.begin("esdf");
   roadmap.esdf = detail::distances_of(std::move(map), config);
   const EsdfMap& esdf = roadmap.esdf;
+  require_room(esdf, esdf.limits);
   require_memory_for_blocks(esdf.layout.block_count(), kPipelineBytesPerVoxel - kEsdfBytesPerVoxel,
                             "map");  // it may have grown
   VoxelMask traversable = traversable_voxels(esdf, config.min_clearance);
@@ -175,7 +183,8 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
   if (report.traversable_voxels == 0)
     throw InputError("min_clearance " + number_text(config.min_clearance),
                      "leaves no traversable voxel in this map",
-                     "give a smaller min_clearance, or ignore the unknown");
+                     esdf.limits.any() ? "give a smaller min_clearance, or wider limits"
+                                       : "give a smaller min_clearance, or ignore the unknown");
 
   detail::build_on_distances(std::move(traversable), config, result, clock);
   if (progress && !progress("done", 1.0)) throw Cancelled();

@@ -36,6 +36,9 @@ GvdConfig ridges_of(const BuildConfig& config);
 /// Throws InputError where a valid configuration does not suit maps of a voxel size.
 void require_suits(const BuildConfig& config, double voxel_size);
 
+/// What compute_esdf takes of the whole configuration.
+EsdfConfig distances_config(const BuildConfig& config);
+
 /// The distances of a map, in which small pockets of free space are filled where unknown space is
 /// ignored. Consumes the map.
 EsdfMap distances_of(OccupancyMap map, const BuildConfig& config);

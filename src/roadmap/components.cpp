@@ -3,8 +3,10 @@
 #include "ridgeway/roadmap/components.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "common/name_table.hpp"
 #include "ridgeway/skeleton/basins.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
 #include "voxel/disjoint_sets.hpp"
@@ -73,9 +75,17 @@ std::vector<Component> count_components(const EsdfMap& esdf, const VoxelMask& tr
 
 }  // namespace
 
-SpaceParts::SpaceParts(const EsdfMap& esdf)
+std::string_view name_of(Blocker blocker) {
+  constexpr std::array<std::string_view, 3> kNames{"obstacle", "unknown", "limits"};
+  return name_in(kNames, blocker);
+}
+
+SpaceParts::SpaceParts(const EsdfMap& esdf, bool within_limits)
     : esdf_(esdf),
-      basins_(find_basins(esdf, traversable_voxels(esdf, kSmallest * esdf.voxel_size),
+      within_limits_(within_limits),
+      around_(esdf),
+      basins_(find_basins(esdf,
+                          traversable_voxels(esdf, kSmallest * esdf.voxel_size, within_limits),
                           kSmallest * esdf.voxel_size)) {}
 
 ComponentReport SpaceParts::report(double radius, const std::vector<VoxelId>& asked) const {
@@ -83,18 +93,17 @@ ComponentReport SpaceParts::report(double radius, const std::vector<VoxelId>& as
   level.sink_to(least_clearance(radius, esdf_.voxel_size));
   std::vector<std::size_t> component_of(basins_.peaks.size(), kNoComponent);  // by set
   ComponentReport report;
-  report.components =
-      count_components(esdf_, traversable_voxels(esdf_, radius), level, component_of);
+  report.components = count_components(esdf_, traversable_voxels(esdf_, radius, within_limits_),
+                                       level, component_of);
   for (const VoxelId id : asked) report.asked.push_back(component_of[level.set_of(id)]);
   while (const Pass* pass = level.next_pass()) {
     const std::size_t a = component_of[level.set_of(pass->from)];
     const std::size_t b = component_of[level.set_of(pass->to)];
-    const VoxelId narrow =
-        esdf_.squared[pass->from] <= esdf_.squared[pass->to] ? pass->from : pass->to;
-    if (a != kNoComponent && b != kNoComponent && a != b)
+    if (a != kNoComponent && b != kNoComponent && a != b) {
+      const Narrow narrow = look_at(*pass);
       report.joins.push_back({std::min(a, b), std::max(a, b),
-                              pass->clearance.metres(esdf_.voxel_size),
-                              centre_in_world(esdf_, narrow)});
+                              pass->clearance.metres(esdf_.voxel_size), narrow.place, narrow.by});
+    }
     component_of[level.join_next()] = std::min(a, b);  // kNoComponent is the largest
   }
   return report;
@@ -114,6 +123,19 @@ std::optional<Pass> SpaceParts::narrowest_move(VoxelId a, VoxelId b) const {
     level.join_next();
   }
   return narrowest;
+}
+
+SpaceParts::Narrow SpaceParts::look_at(const Pass& pass) const {
+  VoxelId from = pass.from, to = pass.to;
+  const VoxelId lower = esdf_.squared[from] <= esdf_.squared[to] ? from : to;
+  if (esdf_.squared[lower] <= pass.clearance) from = to = lower;  // else it dips on the way
+  const std::array<Point, 2> move{centre_in_world(esdf_, from), centre_in_world(esdf_, to)};
+  const Point place = 0.5 * (move[0] + move[1]);
+  if (esdf_.unknown != UnknownPolicy::kObstacle) return {place, Blocker::kObstacle};
+  // Of a radius that is large enough nothing more is asked than what is nearest.
+  const PathSurroundings around = around_.along(move, pass.clearance.metres(esdf_.voxel_size));
+  const bool is_known = around.known <= around.unknown * (1.0 + 1e-9);
+  return {place, is_known ? Blocker::kObstacle : Blocker::kUnknown};
 }
 
 ComponentReport report_components(const Roadmap& roadmap) {

@@ -74,8 +74,7 @@ VoxelId CornerMerging::voxel_for(const Point& corner) const {
   for (int i = 0; i < 8; ++i) {
     const VoxelIndex v = first + VoxelIndex{i & 1, i >> 1 & 1, i >> 2};
     const VoxelId id = esdf_.layout.find(v);
-    if (id == kNoVoxel || esdf_.state[id] != VoxelState::kFree || esdf_.squared[id] < least)
-      continue;
+    if (!esdf_.is_open(id) || esdf_.squared[id] < least) continue;
     const double distance = (centre_of(v, s) - corner).squaredNorm();
     if (distance >= nearest) continue;
     nearest = distance;

@@ -47,11 +47,11 @@ PlaceOf place_in_world(const ob::StateSpacePtr& space, const EsdfMap& esdf) {
                    "use RealVectorStateSpace(3) or SE3StateSpace, or write a PlaceOf");
 }
 
-FreeStates::FreeStates(const ob::SpaceInformationPtr& space, const EsdfMap& esdf, double radius,
+FreeStates::FreeStates(const ob::SpaceInformationPtr& space, const FreeSpace& free, double radius,
                        PlaceOf place_of)
     : ob::StateValidityChecker(space),
-      free_(esdf),
-      radius_(checked_radius(esdf, radius)),
+      free_(free),
+      radius_(checked_radius(free.map(), radius)),
       place_of_(std::move(place_of)) {}
 
 bool FreeStates::isValid(const ob::State* state) const {
@@ -62,11 +62,11 @@ double FreeStates::clearance(const ob::State* state) const {
   return free_.distance(place_of_(state));
 }
 
-FreeMotions::FreeMotions(const ob::SpaceInformationPtr& space, const EsdfMap& esdf, double radius,
+FreeMotions::FreeMotions(const ob::SpaceInformationPtr& space, const FreeSpace& free, double radius,
                          PlaceOf place_of)
     : ob::MotionValidator(space),
-      free_(esdf),
-      radius_(checked_radius(esdf, radius)),
+      free_(free),
+      radius_(checked_radius(free.map(), radius)),
       place_of_(std::move(place_of)) {}
 
 bool FreeMotions::checkMotion(const ob::State* from, const ob::State* to) const {

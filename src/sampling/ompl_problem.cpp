@@ -21,9 +21,9 @@ namespace ob = ompl::base;
 /// FreeMotions until the deadline; no motion is free afterwards.
 class TimelyMotions : public FreeMotions {
  public:
-  TimelyMotions(const ob::SpaceInformationPtr& space, const EsdfMap& esdf, double radius,
+  TimelyMotions(const ob::SpaceInformationPtr& space, const FreeSpace& free, double radius,
                 const Deadline& deadline)
-      : FreeMotions(space, esdf, radius, point_of), deadline_(deadline) {}
+      : FreeMotions(space, free, radius, point_of), deadline_(deadline) {}
 
   bool checkMotion(const ob::State* from, const ob::State* to) const override {
     return !deadline_.has_passed() && FreeMotions::checkMotion(from, to);
@@ -66,13 +66,14 @@ std::uint64_t free_layer(const EsdfMap& esdf, std::uint32_t slot, int z) {
   const VoxelState* states = esdf.state.block(slot) + 64 * z;
   std::uint64_t bits = 0;
   for (int i = 0; i < 64; ++i)
-    bits |= static_cast<std::uint64_t>(states[i] == VoxelState::kFree) << i;
+    bits |= static_cast<std::uint64_t>(is_open(states[i], esdf.unknown)) << i;
   return bits;
 }
 
 /// The box around the known free voxels, less what the radius takes off where all around it is an
 /// obstacle. There must be a free voxel.
-ob::RealVectorBounds sampling_bounds(const EsdfMap& esdf, double radius) {
+ob::RealVectorBounds sampling_bounds(const FreeSpace& free, double radius) {
+  const EsdfMap& esdf = free.map();
   constexpr int kMost = std::numeric_limits<int>::max();
   VoxelIndex low{kMost, kMost, kMost}, high{-kMost, -kMost, -kMost};
   for (std::uint32_t slot = 0; slot < esdf.layout.block_count(); ++slot) {
@@ -92,12 +93,22 @@ ob::RealVectorBounds sampling_bounds(const EsdfMap& esdf, double radius) {
     }
   }
   // A little wider, so that places that just fit are not lost to rounding.
-  const double margin =
-      esdf.unknown == UnknownPolicy::kObstacle ? radius * (1.0 - 1e-6) : -1e-6 * esdf.voxel_size;
+  const double margin = esdf.unknown == UnknownPolicy::kObstacle
+                            ? free.inner_radius(radius) * (1.0 - 1e-6)
+                            : -1e-6 * esdf.voxel_size;
   const double s = esdf.voxel_size;
   ob::RealVectorBounds bounds(3);
   bounds.low = {low.x * s + margin, low.y * s + margin, low.z * s + margin};
   bounds.high = {(high.x + 1) * s - margin, (high.y + 1) * s - margin, (high.z + 1) * s - margin};
+  for (std::vector<double>* corner : {&bounds.low, &bounds.high}) {
+    const Point within = free.nearest_within(Point((*corner)[0], (*corner)[1], (*corner)[2]));
+    corner->assign(within.begin(), within.end());
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {  // OMPL takes no box without volume
+    constexpr double kOnTheFace = 1e-9;           // metres
+    bounds.low[axis] -= kOnTheFace;
+    bounds.high[axis] += kOnTheFace;
+  }
   return bounds;
 }
 
@@ -108,9 +119,9 @@ Point point_of(const ompl::base::State* state) {
   return {values[0], values[1], values[2]};
 }
 
-OmplProblem make_problem(const EsdfMap& esdf, const Point& start, const Point& goal,
+OmplProblem make_problem(const FreeSpace& free, const Point& start, const Point& goal,
                          const SamplingConfig& config, OmplSeeds& seeds, const Deadline& deadline) {
-  const ob::RealVectorBounds bounds = sampling_bounds(esdf, config.radius);
+  const ob::RealVectorBounds bounds = sampling_bounds(free, config.radius);
   return seeds.seeded([&]() -> OmplProblem {
     const auto points = std::make_shared<ob::RealVectorStateSpace>(3);
     points->setBounds(bounds);
@@ -119,9 +130,9 @@ OmplProblem make_problem(const EsdfMap& esdf, const Point& start, const Point& g
     });
     const auto space = std::make_shared<ob::SpaceInformation>(points);
     space->setStateValidityChecker(
-        std::make_shared<FreeStates>(space, esdf, config.radius, point_of));
+        std::make_shared<FreeStates>(space, free, config.radius, point_of));
     space->setMotionValidator(
-        std::make_shared<TimelyMotions>(space, esdf, config.radius, deadline));
+        std::make_shared<TimelyMotions>(space, free, config.radius, deadline));
     space->setup();
 
     const auto definition = std::make_shared<ob::ProblemDefinition>(space);

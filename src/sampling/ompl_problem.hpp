@@ -21,7 +21,7 @@ struct OmplProblem {
   ompl::base::SpaceInformationPtr space;
   ompl::base::ProblemDefinitionPtr definition;
 };
-OmplProblem make_problem(const EsdfMap& esdf, const Point& start, const Point& goal,
+OmplProblem make_problem(const FreeSpace& free, const Point& start, const Point& goal,
                          const SamplingConfig& config, OmplSeeds& seeds, const Deadline& deadline);
 
 Point point_of(const ompl::base::State* state);

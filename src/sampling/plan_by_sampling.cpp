@@ -68,16 +68,16 @@ void require_range(const SamplingConfig& config, double voxel_size) {
 }
 
 /// Samples until a path or a limit; the waypoints, empty where there is no path. Points are local.
-std::vector<Point> sample(const EsdfMap& esdf, const Point& start, const Point& goal,
+std::vector<Point> sample(const FreeSpace& space, const Point& start, const Point& goal,
                           const SamplingConfig& config, SamplingResult& result) {
   const double began = seconds_now();
   const detail::QuietOmpl quiet;
   detail::OmplSeeds seeds(config.seed);
   const Deadline deadline(config.time_limit);
   const detail::OmplProblem problem =
-      detail::make_problem(esdf, start, goal, config, seeds, deadline);
+      detail::make_problem(space, start, goal, config, seeds, deadline);
   const ob::PlannerPtr planner = seeds.seeded([&] {
-    ob::PlannerPtr made = make_planner(problem.space, config, esdf.voxel_size);
+    ob::PlannerPtr made = make_planner(problem.space, config, space.map().voxel_size);
     made->setProblemDefinition(problem.definition);
     made->setup();
     return made;
@@ -109,6 +109,8 @@ void SamplingConfig::validate() const {
   if (!(radius > 0.0 && std::isfinite(radius)))
     throw InputError("radius", "is " + number_text(radius),
                      "give the robot's radius in metres, above 0");
+  limits.validate();
+  detail::validate_robot_height(robot_height);
   if (!(time_limit > 0.0))
     throw InputError("time_limit", "is " + number_text(time_limit), "give seconds above 0");
   if (std::isinf(time_limit) && iteration_limit == std::numeric_limits<std::size_t>::max())
@@ -137,15 +139,17 @@ SamplingResult sample_locally(const EsdfMap& esdf, const Point& start, const Poi
     plan.seconds.total = seconds_now() - began;
     return result;
   };
-  const PlanStatus ends = detail::find_ends(esdf, start, goal, config.radius).status;
+  const FlightLimits limits = detail::limits_of(esdf, config.limits);
+  detail::require_height_counts(esdf, config.robot_height);
+  const FreeSpace space(esdf, limits, config.radius, config.robot_height);
+  const PlanStatus ends = detail::find_ends(space, start, goal, config.radius).status;
   plan.seconds.attach = seconds_now() - began;
   if (ends != PlanStatus::kOk) return finish(ends);
 
-  const FreeSpace space(esdf);
   const bool is_straight = (config.shorten || start == goal) &&
                            space.is_free(start, goal, config.radius);  // nothing is shorter
   const std::vector<Point> found =
-      is_straight ? std::vector<Point>{start, goal} : sample(esdf, start, goal, config, result);
+      is_straight ? std::vector<Point>{start, goal} : sample(space, start, goal, config, result);
   if (found.empty()) return finish(PlanStatus::kTimeout);
   if (result.first_length == 0.0) {  // the planner did not report it: there was but one path
     result.first_seconds = plan.seconds.search;

@@ -8,7 +8,8 @@
 namespace ridgeway::detail {
 
 /// Goes by the block alone.
-VoxelMask::Block traversable_in_block(const EsdfMap& esdf, double radius, std::uint32_t slot);
+VoxelMask::Block traversable_in_block(const EsdfMap& esdf, double radius, std::uint32_t slot,
+                                      bool within_limits = true);
 
 /// Goes by the states and sites of the block's voxels and of their 6-neighbours. The configuration
 /// must be valid.

@@ -40,8 +40,8 @@ template <typename Body>
 bool any_neighbour_site(const EsdfMap& esdf, VoxelId id, const Body& body) {
   for (const Direction d : kFaceDirections) {
     const VoxelId q = esdf.layout.neighbour(id, d);
-    if (q == kNoVoxel || esdf.state[q] != VoxelState::kFree || esdf.squared[q] == kNoSite) continue;
     const VoxelIndex o = offset_of(d);
+    if (!esdf.is_open(q) || esdf.squared[q] == kNoSite || (esdf.planar && o.z != 0)) continue;
     const SiteOffset n = esdf.site[q];
     if (body(SiteOffset{static_cast<std::int16_t>(n.x + o.x), static_cast<std::int16_t>(n.y + o.y),
                         static_cast<std::int16_t>(n.z + o.z)}))
@@ -172,10 +172,10 @@ VoxelMask filter(const BlockLayout& layout, const VoxelMask& mask, const Keep& k
 
 }  // namespace
 
-VoxelMask traversable_voxels(const EsdfMap& esdf, double radius) {
+VoxelMask traversable_voxels(const EsdfMap& esdf, double radius, bool within_limits) {
   assert(esdf.state.is_of(esdf.layout) && esdf.squared.is_of(esdf.layout));
   return mask_by_block(esdf.layout, [&](std::uint32_t slot) {
-    return detail::traversable_in_block(esdf, radius, slot);
+    return detail::traversable_in_block(esdf, radius, slot, within_limits);
   });
 }
 
@@ -209,15 +209,29 @@ VoxelMask extract_edges(const EsdfMap& esdf, const VoxelMask& gvd) {
 }
 
 namespace detail {
+namespace {
 
-VoxelMask::Block traversable_in_block(const EsdfMap& esdf, double radius, std::uint32_t slot) {
+void keep_within_limits(const EsdfMap& esdf, std::uint32_t slot, VoxelMask::Block& block) {
+  for (int v = 0; v < kBlockVoxels; ++v)
+    if (const VoxelIndex voxel = voxel_of(esdf.layout.block(slot), v);
+        !esdf.limits.allow_voxel(voxel, esdf.voxel_size))
+      block[static_cast<std::size_t>(v / 64)] &= ~(1ull << v % 64);
+}
+
+}  // namespace
+
+VoxelMask::Block traversable_in_block(const EsdfMap& esdf, double radius, std::uint32_t slot,
+                                      bool within_limits) {
   const double threshold = std::ceil(least_clearance(radius, esdf.voxel_size).value);
   if (threshold > kNoSite) return {};
   const auto least = static_cast<std::uint32_t>(threshold);
   const VoxelState* state = esdf.state.block(slot);
   const std::uint32_t* squared = esdf.squared.block(slot);
-  return block_where(
-      [&](int v) { return (state[v] == VoxelState::kFree) & (squared[v] >= least); });
+  const UnknownPolicy unknown = esdf.unknown;
+  VoxelMask::Block block =
+      block_where([&](int v) { return is_open(state[v], unknown) & (squared[v] >= least); });
+  if (within_limits && esdf.limits.any()) keep_within_limits(esdf, slot, block);
+  return block;
 }
 
 VoxelMask::Block gvd_in_block(const EsdfMap& esdf, const VoxelMask& traversable,
@@ -226,7 +240,7 @@ VoxelMask::Block gvd_in_block(const EsdfMap& esdf, const VoxelMask& traversable,
   if (traversable.block(slot) == VoxelMask::Block{}) return gvd;
   const double cosine = std::cos(config.theta);
   const double least = config.least_apart * (1.0 - 1e-9) / esdf.voxel_size;
-  const bool all_count = esdf.unknown == UnknownPolicy::kObstacle;
+  const bool all_count = esdf.unknown == UnknownPolicy::kObstacle && !esdf.planar;
   const SiteGather sites(esdf, slot);
   for_each_four(traversable, slot, [&](VoxelId first, unsigned members) {
     const Verdict verdict = judge(sites, bordered_place(first), cosine, least * least, all_count);

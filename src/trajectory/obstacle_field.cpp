@@ -39,7 +39,7 @@ class FreeBorder {
   }
 
  private:
-  bool is_free(VoxelId id) const { return id != kNoVoxel && esdf_.state[id] == VoxelState::kFree; }
+  bool is_free(VoxelId id) const { return esdf_.is_open(id); }
 
   double at_centre(const VoxelIndex& v) {
     const auto part = [](int k) { return static_cast<std::uint64_t>(k) & 0x1fffff; };
@@ -71,7 +71,38 @@ class FreeBorder {
 
 }  // namespace
 
-DistanceField obstacle_field(const EsdfMap& esdf, double radius, double margin) {
+namespace {
+
+constexpr double kFlat = 1e-7;  // metres: a box so flat gives no direction to go
+
+/// How far within the limits a place is, and where that grows; the nearest face decides.
+DistanceAndGradient depth_within(const FlightLimits& limits, const Point& p) {
+  DistanceAndGradient depth{std::numeric_limits<double>::infinity(), Point::Zero()};
+  const auto look = [&](double distance, int axis, double sign) {
+    if (distance < depth.distance) depth = {distance, sign * Point::Unit(axis)};
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    if (limits.keep_in.max[axis] - limits.keep_in.min[axis] < kFlat) continue;
+    look(p[axis] - limits.keep_in.min[axis], axis, 1.0);
+    look(limits.keep_in.max[axis] - p[axis], axis, -1.0);
+  }
+  for (const Box& box : limits.keep_out) {
+    double farthest = -std::numeric_limits<double>::infinity();  // outside along that axis
+    int of = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double outside = std::max(box.min[axis] - p[axis], p[axis] - box.max[axis]);
+      if (outside > farthest) {
+        farthest = outside;
+        of = axis;
+      }
+    }
+    look(farthest, of, box.min[of] - p[of] > p[of] - box.max[of] ? -1.0 : 1.0);
+  }
+  return depth;
+}
+
+/// Of obstacles and known space alone.
+DistanceField field_of_map(const EsdfMap& esdf, double radius, double margin) {
   const double s = esdf.voxel_size, enough = radius + margin + 2.0 * s;
   const auto from_obstacles = [&esdf, s, enough](const Point& p) -> DistanceAndGradient {
     if (!has_voxel(p, s)) return {-kReach * s, Point::Zero()};  // a wild step of an optimiser
@@ -89,6 +120,18 @@ DistanceField obstacle_field(const EsdfMap& esdf, double radius, double margin) 
     const double scale = margin / kReach;  // the margin begins where the border comes into reach
     if (obstacle.distance <= radius + scale * inside.distance) return obstacle;
     return DistanceAndGradient{radius + scale * inside.distance, inside.gradient * (scale / s)};
+  };
+}
+
+}  // namespace
+
+DistanceField obstacle_field(const FreeSpace& space, double radius, double margin) {
+  DistanceField of_map = field_of_map(space.map(), radius, margin);
+  if (space.limits() == nullptr) return of_map;
+  return [=, limits = *space.limits()](const Point& p) {
+    const DistanceAndGradient obstacle = of_map(p), within = depth_within(limits, p);
+    if (obstacle.distance <= radius + within.distance) return obstacle;
+    return DistanceAndGradient{radius + within.distance, within.gradient};
   };
 }
 

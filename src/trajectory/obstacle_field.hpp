@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include "ridgeway/esdf/free_space.hpp"
 #include "spline_objective.hpp"
 
 namespace ridgeway::detail {
@@ -9,7 +10,8 @@ namespace ridgeway::detail {
 /// What pushes a trajectory: interpolated distances to obstacles, exact up to radius + margin.
 /// Where unknown space is no obstacle a path must still keep out of it, without any distance: then
 /// the border of known-free space pushes as an obstacle would that lies a radius behind it, within
-/// two voxels of it. Remembers borders, so it is for one thread; the map must outlive it.
-DistanceField obstacle_field(const EsdfMap& esdf, double radius, double margin);
+/// two voxels of it. Where flights are limited the borders of the limits push in the same way: from
+/// `margin` before them on. Remembers borders, so it is for one thread; the map must outlive it.
+DistanceField obstacle_field(const FreeSpace& space, double radius, double margin);
 
 }  // namespace ridgeway::detail

@@ -37,10 +37,9 @@ std::vector<Point> distinct_points(std::span<const Point> path) {
   return points;
 }
 
-bool is_free(const EsdfMap& esdf, const std::vector<Point>& path, double radius) {
-  const FreeSpace space(esdf);
+bool is_free(const FreeSpace& space, const std::vector<Point>& path, double radius) {
   for (const Point& p : path)
-    if (!has_voxel(p, esdf.voxel_size)) return false;
+    if (!has_voxel(p, space.map().voxel_size)) return false;
   if (path.size() == 1) return space.is_free(path.front(), radius);
   for (std::size_t i = 1; i < path.size(); ++i)
     if (!space.is_free(path[i - 1], path[i], radius)) return false;
@@ -54,8 +53,8 @@ TrajectorySegment standing_at(const Point& p) {
 }
 
 /// Yaw, duration, peaks, clearance.
-void describe(const EsdfMap& esdf, const std::vector<Point>& path, const TrajectoryConfig& config,
-              TrajectoryResult& result) {
+void describe(const FreeSpace& space, const std::vector<Point>& path,
+              const TrajectoryConfig& config, TrajectoryResult& result) {
   Trajectory& trajectory = result.trajectory;
   if (trajectory.segments.empty()) trajectory.segments.push_back(standing_at(path.front()));
   detail::assign_yaw(trajectory, knot_size(config.smoothness), config.limits.max_yaw_rate,
@@ -64,8 +63,8 @@ void describe(const EsdfMap& esdf, const std::vector<Point>& path, const Traject
   if (corners > 0 && result.stops >= corners) result.step = TrajectoryStep::kStopAndGo;
   result.duration = trajectory.duration();
   result.peaks = find_peaks(trajectory);
-  result.clearance =
-      std::max(clearance_of(esdf, trajectory), config.radius * (1.0 - 1e-9));  // as verified
+  result.clearance = std::max(clearance_of(space.map(), trajectory),
+                              space.inner_radius(config.radius) * (1.0 - 1e-9));  // as verified
 }
 
 void require_start_within_limits(const TrajectoryConfig& config) {
@@ -101,6 +100,10 @@ void MotionLimits::validate() const {
 
 void TrajectoryConfig::validate() const {
   limits.validate();
+  flight_limits.validate();
+  if (!(robot_height >= 0.0 && std::isfinite(robot_height)))
+    throw InputError("robot_height", "is " + number_text(robot_height),
+                     "give metres above 0, or 0 for a robot that is a sphere");
   if (!(radius > 0.0 && std::isfinite(radius)))
     throw InputError("radius", "is " + number_text(radius),
                      "give the robot's radius in metres, above 0");
@@ -134,10 +137,12 @@ TrajectoryResult fly_locally(const EsdfMap& esdf, std::span<const Point> path,
     result.seconds.total = detail::seconds_now() - began;
     return result;
   };
-  if (!is_free(esdf, points, config.radius)) return finish(TrajectoryStatus::kPathNotFree);
+  const FlightLimits limits = both_of(esdf.limits, limits_in_local(esdf, config.flight_limits));
+  const FreeSpace space(esdf, limits, config.radius, config.robot_height);
+  if (!is_free(space, points, config.radius)) return finish(TrajectoryStatus::kPathNotFree);
 
   const StartState start{config.start_velocity, config.start_acceleration};
-  SmoothPath smooth(esdf, config, result);
+  SmoothPath smooth(space, config, result);
   auto found = smooth.run(points, start);
   if (!found) return finish(TrajectoryStatus::kCannotStopInTime);
   const Trajectory halting = smooth.stop_and_go(points);
@@ -151,7 +156,7 @@ TrajectoryResult fly_locally(const EsdfMap& esdf, std::span<const Point> path,
     if (!start.is_rest()) return finish(TrajectoryStatus::kCannotStopInTime);
     if (!smooth.holds(halting)) return finish(TrajectoryStatus::kPathNotFree);
   }
-  describe(esdf, points, config, result);
+  describe(space, points, config, result);
   return finish(TrajectoryStatus::kOk);
 }
 

@@ -72,14 +72,14 @@ double knot_spacing(const TrajectoryConfig& config) {
                   kLeastSpacing * config.radius);
 }
 
-SmoothPath::SmoothPath(const EsdfMap& esdf, const TrajectoryConfig& config,
+SmoothPath::SmoothPath(const FreeSpace& space, const TrajectoryConfig& config,
                        TrajectoryResult& result)
-    : esdf_(esdf), space_(esdf), config_(config), result_(result) {
+    : space_(space), config_(config), result_(result) {
   cost_.smoothness = config.smoothness;
   cost_.limits = config.limits;
   cost_.radius = config.radius;
-  cost_.margin = std::max(kLeastMargin * esdf.voxel_size, kMarginOfRadius * config.radius);
-  field_ = obstacle_field(esdf, cost_.radius, cost_.margin);
+  cost_.margin = std::max(kLeastMargin * space.map().voxel_size, kMarginOfRadius * config.radius);
+  field_ = obstacle_field(space, cost_.radius, cost_.margin);
 }
 
 void SmoothPath::note(TrajectoryStep step) { result_.step = std::max(result_.step, step); }
@@ -94,7 +94,7 @@ Trajectory SmoothPath::stop_and_go(std::span<const Point> path) const {
 bool SmoothPath::holds(const Trajectory& trajectory) const {
   const Stopwatch watch(result_.seconds.verify);
   return keeps_limits(trajectory, config_.limits) &&
-         find_doubts(esdf_, trajectory, config_.radius).empty();
+         find_doubts(space_, trajectory, config_.radius).empty();
 }
 
 std::optional<Trajectory> SmoothPath::run(std::span<const Point> path, const StartState& start) {
@@ -185,7 +185,7 @@ SmoothPath::Attempt SmoothPath::optimise(SpaceSpline& spline, const SplineCostCo
 SmoothPath::Attempt SmoothPath::verify(Trajectory trajectory) {
   const Stopwatch watch(result_.seconds.verify);
   Attempt attempt{std::move(trajectory), {}};
-  for (const double time : find_doubts(esdf_, attempt.trajectory, config_.radius))
+  for (const double time : find_doubts(space_, attempt.trajectory, config_.radius))
     attempt.doubts.push_back(attempt.trajectory.at(time).position);
   if (!keeps_limits(attempt.trajectory, config_.limits))
     attempt.doubts.push_back(attempt.trajectory.at(0.0).position);

@@ -19,7 +19,7 @@ double knot_spacing(const TrajectoryConfig& config);
 /// the result as it goes.
 class SmoothPath {
  public:
-  SmoothPath(const EsdfMap& esdf, const TrajectoryConfig& config, TrajectoryResult& result);
+  SmoothPath(const FreeSpace& space, const TrajectoryConfig& config, TrajectoryResult& result);
 
   /// Along a path that is free at the radius, no two points after one another the same. Nothing
   /// where a moving start can neither follow it nor brake.
@@ -46,7 +46,6 @@ class SmoothPath {
   std::optional<Trajectory> brake(const Point& from, const StartState& start) const;
   void note(TrajectoryStep step);
 
-  const EsdfMap& esdf_;
   const FreeSpace space_;
   const TrajectoryConfig& config_;
   TrajectoryResult& result_;

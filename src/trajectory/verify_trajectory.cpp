@@ -36,7 +36,8 @@ double departure(const BezierPoints& curve) {
 
 class Verifier {
  public:
-  Verifier(const EsdfMap& esdf, double radius) : space_(esdf), esdf_(esdf), radius_(radius) {}
+  Verifier(const FreeSpace& space, double radius)
+      : space_(space), esdf_(space.map()), radius_(radius) {}
 
   /// Share of the curve at which doubt begins.
   std::optional<double> first_doubt(const BezierPoints& curve, double begin = 0.0,
@@ -57,6 +58,7 @@ class Verifier {
   bool is_shown_free(const BezierPoints& curve) const {
     const double off = departure(curve), s = esdf_.voxel_size;
     const Point a = first_of(curve), b = last_of(curve);
+    if (!space_.is_within_limits(curve, a, b, off)) return false;
     const bool free = off > kClose * s ? space_.is_clearly_free(a, b, radius_ + off)
                                        : space_.is_free(a, b, radius_ + off);
     return free && (esdf_.unknown == UnknownPolicy::kObstacle || off <= kStraight * s ||
@@ -72,7 +74,7 @@ class Verifier {
       for (int y = low.y; y <= high.y; ++y)
         for (int x = low.x; x <= high.x; ++x) {
           const VoxelId id = esdf_.layout.find({x, y, z});
-          if (id == kNoVoxel || esdf_.state[id] != VoxelState::kFree) return false;
+          if (!esdf_.is_open(id)) return false;
         }
     return true;
   }
@@ -96,8 +98,10 @@ void flatten(const BezierPoints& curve, double most, int depth, std::vector<Poin
 
 }  // namespace
 
-std::vector<double> find_doubts(const EsdfMap& esdf, const Trajectory& trajectory, double radius) {
-  const Verifier verifier(esdf, radius);
+std::vector<double> find_doubts(const FreeSpace& space, const Trajectory& trajectory,
+                                double radius) {
+  const EsdfMap& esdf = space.map();
+  const Verifier verifier(space, radius);
   std::vector<double> doubts;
   double begin = 0.0;
   for (const TrajectorySegment& segment : trajectory.segments) {

@@ -90,6 +90,29 @@ INSTANTIATE_TEST_SUITE_P(Policies, LiveRoadmapAfter,
                                            Sets{UnknownPolicy::kIgnore,
                                                 std::numeric_limits<double>::infinity(), 60}));
 
+TEST(LiveRoadmap, KeepsTheLimitsOfFlightsAsABatchBuildDoes) {
+  BuildConfig build = small_build(UnknownPolicy::kObstacle, 1.0);
+  build.limits.keep_in.min.z() = -0.3;
+  build.limits.keep_out = {{Point(-0.2, -0.2, -1.0), Point(0.3, 0.25, 1.0)}};
+  std::size_t with_roadmap = 0;
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    LiveRoadmap live({.build = build});
+    for (int step = 0; step < 6; ++step) {
+      live.set_voxels(testing::random_changes(random, {-12, -9, -11}, {14, 12, 9}));
+      const auto snapshot = live.snapshot();
+      ASSERT_TRUE(bytes_of(snapshot.get()) == batch_bytes(live.map(), build)) << step;
+      if (snapshot == nullptr) continue;
+      ++with_roadmap;
+      ASSERT_TRUE(snapshot->esdf.limits.any());
+      for (const Vertex& vertex : snapshot->graph.vertices)
+        ASSERT_TRUE(snapshot->esdf.limits.allow(vertex.position));
+    }
+  }
+  EXPECT_GT(with_roadmap, 15u);
+}
+
 TEST(LiveRoadmap, DoesNotDependOnOrderAndGroupingOfChanges) {
   const BuildConfig build = small_build(UnknownPolicy::kObstacle, 1.0);
   std::mt19937 random(3);

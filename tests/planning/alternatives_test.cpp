@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -13,6 +14,7 @@
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "support/pillars.hpp"
+#include "support/random_maps.hpp"
 #include "support/shapes.hpp"
 
 namespace ridgeway {
@@ -269,6 +271,55 @@ TEST(Alternatives, GoPastAFloatingBoxOnEverySide) {
       }
     EXPECT_EQ(sides.size(), 4u);
   }
+}
+
+/// Largest distance of places of one path from another.
+double farthest_from(const std::vector<Point>& path, const std::vector<Point>& other) {
+  double farthest = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i)
+    for (int k = 0; k <= 60; ++k) {
+      const Point p = path[i - 1] + (path[i] - path[i - 1]) * (k / 60.0);
+      double nearest = std::numeric_limits<double>::infinity();
+      for (std::size_t j = 1; j < other.size(); ++j) {
+        const Point along = other[j] - other[j - 1];
+        const double squared = along.squaredNorm();
+        const double t =
+            squared > 0.0 ? std::clamp((p - other[j - 1]).dot(along) / squared, 0.0, 1.0) : 0.0;
+        nearest = std::min(nearest, (other[j - 1] + t * along - p).norm());
+      }
+      farthest = std::max(farthest, nearest);
+    }
+  return farthest;
+}
+
+TEST(Alternatives, AreApartSomewhereByTheRadiusAtLeast) {
+  int pairs = 0;
+  for (unsigned seed = 0; seed < 90; ++seed) {
+    SCOPED_TRACE(seed);
+    Roadmap roadmap;
+    try {
+      roadmap =
+          build_roadmap(testing::random_map(seed, 24), {.min_clearance = 0.1, .tangent_pairs = 50})
+              .roadmap;
+    } catch (const InputError&) {
+      continue;
+    }
+    const std::vector<Vertex>& vertices = roadmap.graph.vertices;
+    if (vertices.size() < 2) continue;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Alternatives found =
+          plan_alternatives(roadmap, vertices[i * 7 % vertices.size()].position,
+                            vertices[(i * 5 + 3) % vertices.size()].position, 5);
+      for (std::size_t a = 0; a < found.routes.size(); ++a)
+        for (std::size_t b = 0; b < a; ++b) {
+          ++pairs;
+          const auto& one = found.routes[a].waypoints;
+          const auto& two = found.routes[b].waypoints;
+          EXPECT_GE(std::max(farthest_from(one, two), farthest_from(two, one)), 0.1 * 0.9);
+        }
+    }
+  }
+  EXPECT_GT(pairs, 50);
 }
 
 TEST(Alternatives, SayWhyThereIsNoneAndRefuseOtherPlanners) {

@@ -283,8 +283,8 @@ TEST(Plan, EnumeratorsMadeByACastAreRefusedAndHaveNoName) {
     EXPECT_EQ(name_of(planner), "invalid");
     EXPECT_THROW(PlanConfig{.planner = planner}.validate(), InputError);
   }
-  EXPECT_EQ(name_of(static_cast<PlanStatus>(10)), "invalid");
-  EXPECT_EQ(name_of(static_cast<UnknownPolicy>(2)), "invalid");
+  EXPECT_EQ(name_of(static_cast<PlanStatus>(12)), "invalid");
+  EXPECT_EQ(name_of(static_cast<UnknownPolicy>(3)), "invalid");
   for (const char* name : {"graph", "informedrrtstar"})
     EXPECT_EQ(name_of(planner_named(name).value()), name);
   EXPECT_FALSE(planner_named("invalid"));

@@ -66,7 +66,7 @@ TEST_F(DamagedRidge, OtherFilesAreNamedAsSuch) {
   EXPECT_NE(refusal("").find("is no .ridge file"), std::string::npos);
   EXPECT_NE(refusal("# OctoMap file").find("is no .ridge file"), std::string::npos);
   std::string newer = bytes_;
-  newer[8] = 3;
+  newer[8] = 4;
   EXPECT_NE(refusal(newer).find("newer version"), std::string::npos);
   EXPECT_THROW(load_roadmap(folder_.path()), InputError);
   EXPECT_THROW(load_roadmap(folder_ / "none.ridge"), InputError);

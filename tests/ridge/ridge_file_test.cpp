@@ -41,6 +41,7 @@ void expect_same(const Roadmap& a, const Roadmap& b) {
   EXPECT_EQ(a.esdf.origin, b.esdf.origin);
   EXPECT_EQ(a.esdf.unknown, b.esdf.unknown);
   EXPECT_EQ(a.esdf.max_distance, b.esdf.max_distance);
+  EXPECT_TRUE(a.esdf.limits == b.esdf.limits);
   EXPECT_TRUE(a.esdf.layout == b.esdf.layout);
   EXPECT_TRUE(a.esdf.state.values() == b.esdf.state.values());
   EXPECT_TRUE(a.esdf.squared.values() == b.esdf.squared.values());
@@ -128,6 +129,17 @@ TEST(RidgeFile, InfoTellsTheSections) {
   EXPECT_EQ(info.sections.size(), 12u);
 }
 
+TEST(RidgeFile, LimitsAreKeptAndProgramsThatKnowOfNoneRefuseTheFile) {
+  const TemporaryFolder folder;
+  Roadmap roadmap = synthetic_roadmap();
+  const double third = 1.0 / 3.0;  // no short decimal: to the bit nevertheless
+  roadmap.esdf.limits.keep_in.min.z() = -third;
+  roadmap.esdf.limits.keep_out = {{Point(90, 90, 90), Point(91 + third, 92, 93)}};
+  save_roadmap(roadmap, folder / "limited.ridge");
+  EXPECT_EQ(read_ridge_info(folder / "limited.ridge").version, 3u);
+  expect_same(roadmap, load_roadmap(folder / "limited.ridge"));
+}
+
 TEST(RidgeFile, PartsThatDoNotFitAreNotSaved) {
   const TemporaryFolder folder;
   const Roadmap good = synthetic_roadmap();
@@ -145,6 +157,7 @@ TEST(RidgeFile, PartsThatDoNotFitAreNotSaved) {
   refused([](Roadmap& r) { r.graph.edges[0].clearance *= 2.0; });
   refused([](Roadmap& r) { r.graph.edges[0].length *= 0.9; });
   refused([](Roadmap& r) { r.esdf.voxel_size = 0.0; });
+  refused([](Roadmap& r) { r.esdf.limits.keep_in.max.z() = -1e6; });  // the graph is beyond it
   refused([](Roadmap& r) { std::swap(r.graph.vertices[0], r.graph.vertices[1]); });
   refused([](Roadmap& r) {  // a vertex's way to its neighbour, whose way leads to the vertex
     const VoxelId vertex = r.esdf.layout.find(r.graph.vertices[0].voxel);

@@ -55,7 +55,7 @@ TEST(BuildRoadmap, RefusesAMapAtTheEndOfTheWorldAndAPolicyThatIsNone) {
   for (const int block : {-kFarthest, 0, kFarthest}) EXPECT_GT(build_at(block), 0u);
   for (const int block : {268435456, -268435456, 1 << 30, kFarthest + 2})
     EXPECT_THROW(build_at(block), InputError);
-  EXPECT_THROW(build_roadmap(testing::random_map(1), {.unknown = static_cast<UnknownPolicy>(2)}),
+  EXPECT_THROW(build_roadmap(testing::random_map(1), {.unknown = static_cast<UnknownPolicy>(3)}),
                InputError);
 }
 

@@ -61,6 +61,35 @@ TEST(PlanTrajectory, AStraightPathTakesTheTimeOfItsProfile) {
   }
 }
 
+TEST(PlanTrajectory, StaysWithinTheLimitsOfTheFlight) {
+  int smooth = 0;
+  for (const double width : {0.05, 0.4, 2.0}) {
+    SCOPED_TRACE(width);
+    TrajectoryConfig config;
+    config.flight_limits.keep_in.min.z() = 1.0;
+    config.flight_limits.keep_in.max.z() = 1.0 + width;
+    config.flight_limits.keep_out = {{Point(4, 4, 0), Point(7, 7, 4)}};
+    // Along both faces of the band, and close around corners of the box.
+    const std::vector<Point> path{{2, 2, 1.0},   {2, 7, 1.0 + width}, {7, 7, 1.0 + width},
+                                  {7, 2, 1.0},   {14, 2, 1.0},        {16, 8, 1.0 + 0.5 * width},
+                                  {12, 16, 1.0}, {2, 16, 1.0 + width}};
+    const TrajectoryResult result = plan_trajectory(esdf(), path, config);
+    expect_flown(result, path, config);
+    smooth += result.step != TrajectoryStep::kStopAndGo;
+    for (const TrajectoryState& state : result.trajectory.sample(0.002)) {
+      ASSERT_GE(state.position.z(), 1.0 - 2e-8);
+      ASSERT_LE(state.position.z(), 1.0 + width + 2e-8);
+      const Point p = state.position;
+      ASSERT_FALSE(p.x() > 4 + 2e-8 && p.x() < 7 - 2e-8 && p.y() > 4 + 2e-8 && p.y() < 7 - 2e-8);
+    }
+    const std::vector<Point> out{{2, 2, 1.0}, {2, 7, 1.0 + width + 1e-6}};
+    EXPECT_EQ(plan_trajectory(esdf(), out, config).status, TrajectoryStatus::kPathNotFree);
+    const std::vector<Point> through{{2, 5, 1.0}, {9, 5, 1.0}};
+    EXPECT_EQ(plan_trajectory(esdf(), through, config).status, TrajectoryStatus::kPathNotFree);
+  }
+  EXPECT_EQ(smooth, 3);
+}
+
 TEST(PlanTrajectory, LimitsHoldForAnyLimits) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> exponent(-1.0, 1.0), place(1.0, 6.0);

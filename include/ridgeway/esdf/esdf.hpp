@@ -7,6 +7,8 @@
 #include <concepts>
 #include <cstdint>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "ridgeway/mapping/occupancy_map.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
@@ -17,6 +19,7 @@ namespace ridgeway {
 enum class UnknownPolicy : std::uint8_t {
   kObstacle = 0,  ///< as solid as a wall: a sphere of the robot's radius never reaches into it
   kIgnore = 1,    ///< pushes no distances, but a path stays in known-free voxels
+  kFree = 2,      ///< as free as what was seen to be, in the box of blocks around what is known
 };
 
 /// Whether voxels of a state are obstacles: what is occupied, and under UnknownPolicy::kObstacle
@@ -24,6 +27,12 @@ enum class UnknownPolicy : std::uint8_t {
 constexpr bool is_obstacle(VoxelState state, UnknownPolicy unknown) {
   return (state == VoxelState::kOccupied) |
          ((state == VoxelState::kUnknown) & (unknown == UnknownPolicy::kObstacle));
+}
+
+/// Whether the robot's centre may be in voxels of a state at all.
+constexpr bool is_open(VoxelState state, UnknownPolicy unknown) {
+  return (state == VoxelState::kFree) |
+         ((state == VoxelState::kUnknown) & (unknown == UnknownPolicy::kFree));
 }
 
 /// Throws InputError where a policy is no enumerator.
@@ -65,8 +74,52 @@ constexpr std::uint32_t squared_halves(const SiteOffset& o) {
   return squared_halves(o.x) + squared_halves(o.y) + squared_halves(o.z);
 }
 
+/// Where the robot's centre may be. Limits are no walls: whatever the robot's size, its centre may
+/// go up to them, and no distance to them is kept. Metres; within 10 nanometres is on the face.
+/// A place is within where it is in `keep_in`, faces included, and in the inside of no box of
+/// `keep_out`. A voxel is within where its centre is in `keep_in` and no part of it is in a box of
+/// `keep_out`: so all moves between such voxels are within, too.
+struct FlightLimits {
+  Box keep_in = {Point::Constant(-std::numeric_limits<double>::infinity()),
+                 Point::Constant(std::numeric_limits<double>::infinity())};
+  std::vector<Box> keep_out;
+
+  bool any() const;  ///< whether there is one at all
+  bool allow(const Point& p) const { return allow(p, p); }
+  bool allow(const Point& a, const Point& b) const;  ///< all of a segment
+  bool allow(std::span<const Point> path) const;     ///< all of a path of straight segments
+  bool allow_voxel(const VoxelIndex& voxel, double voxel_size) const;
+  /// Whether a segment stays in `keep_in`, and at least `margin` metres away from every box of
+  /// `keep_out` along some axis.
+  bool allow(const Point& a, const Point& b, double margin) const;
+  bool keeps_in(const Point& p) const;  ///< whether it is in `keep_in`
+  /// The nearest place in `keep_in`.
+  Point nearest_within(const Point& p) const {
+    return p.cwiseMax(keep_in.min).cwiseMin(keep_in.max);
+  }
+
+  /// Throws InputError naming the bad field: a box of which a coordinate is not a number, or whose
+  /// corners are swapped; `keep_in` that holds nothing; a box of `keep_out` without volume.
+  void validate() const;
+
+  friend bool operator==(const FlightLimits& a, const FlightLimits& b);
+};
+
+/// Limits that hold where both do.
+FlightLimits both_of(const FlightLimits& a, const FlightLimits& b);
+
+struct EsdfMap;
+/// Limits of the world in a map's local frame.
+FlightLimits limits_in_local(const EsdfMap& esdf, const FlightLimits& limits_world);
+/// Those of the map, in the world.
+FlightLimits limits_in_world(const EsdfMap& esdf);
+/// Throws InputError where `keep_in` (local) is so flat that it holds the centre of no voxel.
+void require_room(const EsdfMap& esdf, const FlightLimits& limits);
+
 /// Longest distance that is ever stored, voxels; farther voxels have no site.
 inline constexpr int kFarthestSite = 16000;
+/// The layer of a planar map's blocks that robots are in: one with others on both sides.
+inline constexpr int kPlanarLayer = 3;
 /// `squared` of a voxel without a site.
 inline constexpr std::uint32_t kNoSite = 0xffffffffu;
 
@@ -79,12 +132,18 @@ struct EsdfMap {
   VoxelIndex origin = {};   ///< the lattice's voxel that is the map's own (0, 0, 0); to_world()
   UnknownPolicy unknown = UnknownPolicy::kObstacle;
   double max_distance = std::numeric_limits<double>::infinity();  ///< metres
+  FlightLimits limits;  ///< of every flight on this map, in its local frame
+  /// Of a planar map: distances count along x and y alone, and flights stay at the centre of the
+  /// layer kPlanarLayer.
+  bool planar = false;
   BlockLayout layout;
   VoxelField<VoxelState> state;
   VoxelField<std::uint32_t> squared;  ///< to the site, squared half voxels (SquaredHalves)
   VoxelField<SiteOffset> site;
   VoxelMask obstacle;
 
+  /// Whether the robot's centre may be in a voxel, kNoVoxel among them.
+  bool is_open(VoxelId id) const { return id != kNoVoxel && ridgeway::is_open(state[id], unknown); }
   bool is_obstacle(VoxelId id) const {
     return id == kNoVoxel ? ridgeway::is_obstacle(VoxelState::kUnknown, unknown)
                           : obstacle.test(id);
@@ -106,6 +165,7 @@ inline SquaredHalves least_clearance(double radius, double voxel_size) {
 struct EsdfConfig {
   UnknownPolicy unknown = UnknownPolicy::kObstacle;
   double max_distance = std::numeric_limits<double>::infinity();  ///< metres
+  FlightLimits limits = {};  ///< world frame; they change no distance
 
   /// Throws InputError naming the bad field.
   void validate() const;
@@ -116,7 +176,8 @@ struct EsdfConfig {
 /// keeps the map's origin.
 ///
 /// Under UnknownPolicy::kIgnore the result also allocates the blocks around the map's blocks, so
-/// that every known voxel has its 26 neighbours. Throws InputError where memory would not do.
+/// that every known voxel has its 26 neighbours; under kFree all blocks of the box around those in
+/// which something is known. Throws InputError where memory would not do.
 ///
 /// The map is taken by value, as its states become the field's: who moves it in spares a byte a
 /// voxel, who hands in a copy keeps the map.

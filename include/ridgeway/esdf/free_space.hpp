@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <span>
@@ -19,11 +21,67 @@ namespace ridgeway {
 ///
 /// How it is fast: D^2(x) - |x|^2 is concave, so distances at voxel centres bound D from below;
 /// only where that does not decide are the obstacles near the place looked at one by one.
+/// A robot may be an upright cylinder in place of a sphere: then a place is free where no obstacle
+/// cube shares volume with it, exactly, along whole segments too, and distances are still those of
+/// its centre. `radius` everywhere is the cylinder's; asked for a radius that is larger by some
+/// margin its height grows by as much at both ends, for a smaller one it shrinks in proportion.
+/// Where flights are limited, free also means within the limits; distances and clearances are to
+/// obstacles alone.
 /// All points are in the map's local frame: take to_local(esdf, point) of those of the world.
-/// A view: the EsdfMap must outlive it. Thread-safe.
+/// A view: the EsdfMap and the limits must outlive it. Thread-safe.
 class FreeSpace {
  public:
-  explicit FreeSpace(const EsdfMap& esdf) : esdf_(esdf) {}
+  /// Within the limits of the map, where it has some.
+  FreeSpace(const EsdfMap& esdf) : FreeSpace(esdf, esdf.limits) {}  // NOLINT: it is one
+  /// Within other limits (local frame), which should hold where those of the map hold.
+  FreeSpace(const EsdfMap& esdf, const FlightLimits& limits)
+      : esdf_(esdf), limits_(limits.any() ? &limits : nullptr) {}
+  /// For an upright cylinder of a radius and a height, metres; a sphere where the height is 0.
+  FreeSpace(const EsdfMap& esdf, const FlightLimits& limits, double radius, double height)
+      : esdf_(esdf), limits_(limits.any() ? &limits : nullptr), radius_(radius), height_(height) {}
+
+  const EsdfMap& map() const { return esdf_; }
+
+  const FlightLimits* limits() const { return limits_; }  ///< null where there are none
+  bool is_for_sphere() const { return height_ == 0.0; }
+  /// Whether the robot is no sphere, or limits are not those of the map, for which its roadmap was
+  /// made.
+  bool is_narrowed() const {
+    return !is_for_sphere() || (limits_ != nullptr && !(*limits_ == esdf_.limits));
+  }
+  /// Radius of the largest sphere that is in the robot, and of the smallest that it is in, both
+  /// around its centre: what is not free for the one is not for the robot, what is free for the
+  /// other is.
+  double inner_radius(double radius) const {
+    return is_for_sphere() ? radius : std::min(radius, half_height(radius));
+  }
+  double outer_radius(double radius) const {
+    return is_for_sphere() ? radius : std::hypot(radius, half_height(radius));
+  }
+  /// Whether all of a segment, or a path of them, is within the limits.
+  bool is_within_limits(const Point& a, const Point& b) const {
+    return limits_ == nullptr || limits_->allow(a, b);
+  }
+  bool is_within_limits(std::span<const Point> path) const {
+    return limits_ == nullptr || limits_->allow(path);
+  }
+  /// Whether a voxel is. Moves between neighbours that are stay within the limits.
+  bool is_within_limits(VoxelId id) const {
+    return limits_ == nullptr || limits_->allow_voxel(esdf_.layout.index_of(id), esdf_.voxel_size);
+  }
+  /// The nearest place that is in the box that limits keep in.
+  Point nearest_within(const Point& p) const {
+    return limits_ == nullptr ? p : limits_->nearest_within(p);
+  }
+  /// Whether a curve is within that departs from a segment by no more than a margin, metres, and
+  /// lies in the hull of points.
+  template <typename Points>
+  bool is_within_limits(const Points& hull, const Point& a, const Point& b, double margin) const {
+    if (limits_ == nullptr) return true;
+    for (Eigen::Index i = 0; i < hull.cols(); ++i)
+      if (!limits_->keeps_in(hull.col(i))) return false;
+    return limits_->allow(a, b, margin);
+  }
 
   /// D at a point, metres; 0 in an obstacle, max_distance where all obstacles are farther than
   /// that (infinite where there is none at all).
@@ -37,10 +95,10 @@ class FreeSpace {
   double clearance(std::span<const Point> path,
                    double at_most = std::numeric_limits<double>::infinity()) const;
 
-  /// Whether a sphere of a radius fits at a point.
+  /// Whether a sphere of a radius, or the cylinder, fits at a point.
   bool is_free(const Point& p, double radius) const;
 
-  /// Whether a sphere of a radius can move along a segment.
+  /// Whether a sphere of a radius, or the cylinder, can move along a segment.
   bool is_free(const Point& a, const Point& b, double radius) const;
 
   /// Whether a segment is free by the bounds from voxel centres alone, without a look at single
@@ -57,14 +115,17 @@ class FreeSpace {
   /// that voxel, or p is outside the map.
   std::optional<Point> near_obstacle(const Point& p) const;
 
-  /// Whether all of a segment lies in known-free voxels.
+  /// Whether all of a segment lies in known-free voxels, or where unknown space is free in voxels
+  /// that are not occupied.
   bool is_known_free(const Point& a, const Point& b) const;
 
-  /// Whether a sphere can move from the centre of a free voxel to a free 26-neighbour of it, in
-  /// a direction (voxel/neighbourhood.hpp). `threshold`: least_clearance(radius, voxel_size).
+  /// Whether the robot can move from the centre of a free voxel to a free 26-neighbour of it, in
+  /// a direction (voxel/neighbourhood.hpp), both within the limits. `threshold`:
+  /// least_clearance(inner_radius(radius), voxel_size).
   bool move_is_free(VoxelId from, VoxelId to, int direction, SquaredHalves threshold) const {
     const SquaredHalves a = esdf_.squared[from], b = esdf_.squared[to];
     if (a < threshold || b < threshold) return false;
+    if (!is_for_sphere()) return cylinder_fits(from, to);
     const SquaredHalves bound = move_bound(a, b, squared_length(direction));
     return bound >= threshold || slow_move_clearance(from, to, direction, threshold) >= threshold;
   }
@@ -91,7 +152,14 @@ class FreeSpace {
   SquaredHalves slow_move_clearance(VoxelId from, VoxelId to, int direction,
                                     SquaredHalves enough) const;
 
+  double half_height(double radius) const {
+    return radius >= radius_ ? 0.5 * height_ + radius - radius_ : 0.5 * height_ * radius / radius_;
+  }
+  bool cylinder_fits(VoxelId from, VoxelId to) const;
+
   const EsdfMap& esdf_;
+  const FlightLimits* limits_;          // null where there are none
+  double radius_ = 0.0, height_ = 0.0;  // of a cylinder
 };
 
 }  // namespace ridgeway

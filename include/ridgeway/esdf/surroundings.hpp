@@ -19,6 +19,8 @@ struct PathSurroundings {
   /// Share of the path's length that is nearer to unknown space than the radius asked for: that of
   /// some radius within a sixteenth of a voxel of it, and none at all where all keeps the radius.
   double unknown_share = 0.0;
+  /// Share of the path's length in unknown voxels: 0 but where unknown space is taken for free.
+  double unknown_inside = 0.0;
 };
 
 /// Measures paths against known obstacles and against unknown space, apart. Made in time linear in

@@ -36,6 +36,13 @@ OccupancyMap remove_isolated(OccupancyMap map, int min_cluster);
 /// unknown: what a stray measurement opens behind a wall holds no robot.
 OccupancyMap remove_pockets(OccupancyMap map, double min_volume);
 
+/// The map of a robot that stays in a plane, one layer of voxels: a column is occupied where it
+/// shares volume with something occupied between the heights `low` and `high` (metres, world),
+/// else unknown where with something unknown, else free. The layer is that of the middle of the
+/// two. Throws InputError where the heights are no numbers, not low < high, or nothing is known
+/// between them.
+OccupancyMap flatten(const OccupancyMap& map, double low, double high);
+
 /// A motion that takes voxels to voxels: axes swapped and turned round, then whole voxels added.
 struct LatticeTransform {
   std::array<int, 3> source_axis = {0, 1, 2};  ///< target axis a is source axis source_axis[a] ...

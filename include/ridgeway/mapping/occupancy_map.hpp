@@ -31,6 +31,9 @@ struct OccupancyMap {
   VoxelIndex origin = {};   ///< the lattice's voxel that is the map's own (0, 0, 0)
   BlockLayout layout;       ///< of the map's own voxels
   VoxelField<VoxelState> state;
+  /// Of a robot that stays in a plane (flatten): all known voxels are in the blocks with z = 0,
+  /// whose eight layers are the same. They stand for one.
+  bool planar = false;
 
   /// Of one of the map's own voxels.
   VoxelState at(const VoxelIndex& voxel) const {

@@ -24,7 +24,8 @@ struct Alternatives {
 /// (Zhou et al. 2020: points at equal shares of two paths' lengths see each other), for a sphere of
 /// three quarters of the asked radius, since tight paths touch the radius itself. Each is pulled
 /// tight within its class, and verified at the asked radius as in plan(); the first is no longer
-/// than plan()'s path. None comes back, pulled tight, to within the radius of where it was.
+/// than plan()'s path. No two stay within the radius of each other all along. None comes back,
+/// pulled tight, to within the radius of where it was.
 ///
 /// Where obstacles reach from floor to ceiling these are the homotopy classes; in 3D the ways left,
 /// right and above of a floating box are three routes too. The routes are those of the sparse graph

@@ -12,19 +12,12 @@
 
 namespace ridgeway {
 
-/// What is in the way.
-enum class Blocker : std::uint8_t {
-  kObstacle,  ///< something occupied
-  kUnknown,   ///< space that may be free, for all that is known
-};
-/// "obstacle" or "unknown".
-std::string_view name_of(Blocker blocker);
-
 /// Why there is no route from one place to another at a radius.
 struct BlockedRoute {
   /// Largest radius at which there is a way, over the moves between voxels, metres. It may be below
   /// the roadmap's min_clearance, for which a roadmap has to be built then; 0: there is no way
-  /// through known-free space for any robot.
+  /// through known-free space for any robot. Limits of the flight count for none of this; where
+  /// they are what is in the way it is 0, and there is no place.
   double radius = 0.0;
   /// Where the widest way is narrowest. Where there is none at all: the nearest unknown voxel, by
   /// moves from the start, beyond which nothing occupied is known to be in the way; nothing where
@@ -45,13 +38,32 @@ class RouteBlocks {
   explicit RouteBlocks(const Roadmap& roadmap);
 
   /// Between points of the world. Nothing where start or goal have no place at the radius: then
-  /// plan() says which and why.
-  std::optional<BlockedRoute> between(const Point& start, const Point& goal, double radius) const;
+  /// plan() says which and why. `limits`: as in PlanConfig.
+  std::optional<BlockedRoute> between(const Point& start, const Point& goal, double radius,
+                                      const FlightLimits& limits = {}) const;
 
  private:
   const EsdfMap& esdf_;
   SpaceParts parts_;
-  Surroundings around_;
 };
+
+/// What a robot finds at a place.
+struct PlaceFacts {
+  /// kOk, or why the robot cannot be there, as of a start.
+  PlanStatus status = PlanStatus::kOk;
+  VoxelState state = VoxelState::kUnknown;  ///< of the voxel
+  double clearance = 0.0;                   ///< metres; 0 in an obstacle
+  /// Where the robot fits: its number among `report.components`, and of each other part the widest
+  /// way there: at which radius it would be one with this part, where that is narrowest, and what
+  /// is in the way; widest first. Parts that no robot reaches are left out.
+  std::size_t component = 0;
+  std::vector<ComponentJoin> ways;  ///< `a` is the component, `b` the other
+  ComponentReport report;
+};
+
+/// At a point of the world, for a sphere of the radius that the roadmap was made for, within the
+/// limits of its flights. Takes about as long as report_components. Throws InputError for a point
+/// that is not finite.
+PlaceFacts describe_place(const Roadmap& roadmap, const Point& point);
 
 }  // namespace ridgeway

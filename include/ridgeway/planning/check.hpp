@@ -31,6 +31,10 @@ inline Spread spread_of(std::vector<double> values) {
 struct CheckConfig {
   std::size_t queries = 0;
   std::uint64_t seed = 1;
+  /// Of all queries, world frame; start and goal are drawn within them.
+  FlightLimits limits = {};
+  /// As in PlanConfig; the radius is then the smallest in all queries.
+  double robot_height = 0.0;
 };
 
 /// One query of a check and the path that the roadmap answered with, for independent checkers.
@@ -64,7 +68,7 @@ struct CheckReport {
 /// Verifies the contract of a roadmap: the clearance of every edge, measured anew, and random
 /// queries against A* through the ESDF: start and goal anywhere in the traversable voxels, radius
 /// 1, 1.25, 1.5 or 2 times the smallest. Queries run on all threads; the times are of one query
-/// alone on its thread.
+/// alone on its thread. Throws InputError for bad limits.
 CheckReport check_roadmap(const Roadmap& roadmap, const CheckConfig& config = {},
                           const Progress& progress = {});
 /// The same; where it is cancelled the report is of what was checked until then.

@@ -36,6 +36,18 @@ struct NearestGoal {
   std::vector<std::optional<PlanStatus>> statuses;
 };
 
+/// A path over places, or the leg that has none.
+struct ViaPlan {
+  PlanResult plan;      ///< of all legs as one where ok, else of the leg that is not
+  std::size_t leg = 0;  ///< from places[leg] to places[leg + 1]; which is not ok
+};
+
+/// plan() from each of some places (world) to the next, joined to one path. Only the first and the
+/// last place may be escaped from or moved (PlanConfig::escape, snap). The time limit is of each
+/// leg. Throws InputError as plan() does, and for less than two places.
+ViaPlan plan_via(const Roadmap& roadmap, std::span<const Point> places,
+                 const PlanConfig& config = {});
+
 /// The goal whose plan() is shortest, and that plan; of equally near ones the first. Goals are
 /// tried by their distance along the graph, and not at all where the straight line is longer than
 /// the best path. Throws InputError as plan() does, and where there are no goals.

@@ -23,6 +23,8 @@ enum class PlanStatus : std::uint8_t {
   kNoRoute,  ///< RouteBlocks (planning/blocked_route.hpp) tells what is in the way
   kRadiusTooSmall,
   kTimeout,
+  kStartOutsideLimits,  ///< of the flight: PlanConfig::limits, or those of the map
+  kGoalOutsideLimits,
 };
 
 /// Which structure is searched and how, and which one answered.
@@ -45,7 +47,7 @@ constexpr bool is_sampling(Planner planner) { return planner >= Planner::kRrtSta
 /// "informedrrtstar".
 std::string_view name_of(PlanStatus status);
 std::string_view name_of(Planner planner);
-/// "obstacle" or "ignore".
+/// "obstacle", "ignore" or "free".
 std::string_view name_of(UnknownPolicy policy);
 /// The planner of a name, or nothing.
 std::optional<Planner> planner_named(std::string_view name);
@@ -71,9 +73,20 @@ struct PlanConfig {
   /// Start and goal may be too close to an obstacle, though not in one: paths then begin and end
   /// with a leg straight to the nearest place where the robot fits. See Escape.
   bool escape = false;
+  /// Where the robot's centre may be, world frame; those that the map was built with hold as well.
+  FlightLimits limits = {};
+  /// Start and goal that cannot be used (unknown, occupied, too close to an obstacle, outside the
+  /// limits or the map) are moved to the nearest place within so many metres where the robot fits:
+  /// the start to the nearest one at all, the goal to the nearest that can be reached from it. See
+  /// PlanResult::moved_start. 0: they are not moved.
+  double snap = 0.0;
+  /// Above 0 the robot is an upright cylinder of that height, metres, and the radius; its inner
+  /// radius, the lesser of radius and half the height, must be the roadmap's min_clearance at
+  /// least. See FreeSpace.
+  double robot_height = 0.0;
 
   /// Throws InputError naming the bad field (a radius or time limit not above 0, prefer_clearance
-  /// negative or above 1e6, NaN anywhere, a planner that samples).
+  /// negative or above 1e6, NaN anywhere, bad limits, a planner that samples).
   void validate() const;
 };
 
@@ -92,6 +105,12 @@ struct Escape {
   double clearance = 0.0;  ///< at that end, the smallest on it, metres
 };
 
+/// Where a start or goal was moved to.
+struct Moved {
+  double distance = 0.0;        ///< metres; 0 where it was not
+  Point place = Point::Zero();  ///< world
+};
+
 /// A path, or the one reason why there is none.
 struct PlanResult {
   PlanStatus status = PlanStatus::kNoRoute;
@@ -105,6 +124,7 @@ struct PlanResult {
   /// either of them under any policy: Surroundings (esdf/surroundings.hpp).
   double clearance = 0.0;
   Escape escape_start, escape_goal;
+  Moved moved_start, moved_goal;
   PlanSeconds seconds;
 
   bool ok() const { return status == PlanStatus::kOk; }

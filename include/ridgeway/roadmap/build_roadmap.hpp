@@ -14,6 +14,7 @@ struct BuildConfig {
   double min_clearance = 0.4;  ///< smallest robot radius the roadmap is for
   UnknownPolicy unknown = UnknownPolicy::kObstacle;
   double max_distance = std::numeric_limits<double>::infinity();  ///< distances stop here
+  FlightLimits limits = {};      ///< of every flight on the roadmap, world frame
   double theta = 0.785;          ///< GVD: least angle between the directions to two sites
   double least_apart = 0.0;      ///< GVD: least distance between two sites; see GvdConfig
   double prune_radius = 0.35;    ///< vertices closer than this along the diagram become one

@@ -2,13 +2,25 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
+#include "ridgeway/esdf/surroundings.hpp"
 #include "ridgeway/roadmap/roadmap.hpp"
 #include "ridgeway/skeleton/basins.hpp"
 
 namespace ridgeway {
+
+/// What is in the way.
+enum class Blocker : std::uint8_t {
+  kObstacle,  ///< something occupied
+  kUnknown,   ///< space that may be free, for all that is known
+  kLimits,    ///< limits of the flight alone: without them there is a way at the radius
+};
+/// "obstacle", "unknown" or "limits".
+std::string_view name_of(Blocker blocker);
 
 /// A connected part of traversable space.
 struct Component {
@@ -22,8 +34,9 @@ struct Component {
 /// that is too narrow. `a` and `b` index the components; the joins form a forest.
 struct ComponentJoin {
   std::size_t a = 0, b = 0;
-  double radius = 0.0;  ///< metres
-  Point place;          ///< world
+  double radius = 0.0;              ///< metres
+  Point place;                      ///< world
+  Blocker by = Blocker::kObstacle;  ///< what is nearest there; of equally near ones the obstacle
 };
 
 struct ComponentReport {
@@ -37,7 +50,8 @@ struct ComponentReport {
 /// voxel. A view: the EsdfMap must outlive it. Thread-safe.
 class SpaceParts {
  public:
-  explicit SpaceParts(const EsdfMap& esdf);
+  /// `within_limits`: of the flights on the map, if it has some; else as if it had none.
+  explicit SpaceParts(const EsdfMap& esdf, bool within_limits = true);
 
   /// Parts of the voxels that are traversable at a radius, and where a smaller robot would find
   /// them joined. `asked`: traversable voxels whose parts are wanted.
@@ -47,8 +61,17 @@ class SpaceParts {
   /// at any radius, or both are one.
   std::optional<Pass> narrowest_move(VoxelId a, VoxelId b) const;
 
+  /// Where on a move it is narrowest, world, and what is nearest there.
+  struct Narrow {
+    Point place;
+    Blocker by = Blocker::kObstacle;
+  };
+  Narrow look_at(const Pass& pass) const;
+
  private:
   const EsdfMap& esdf_;
+  const bool within_limits_;
+  Surroundings around_;
   Basins basins_;
 };
 

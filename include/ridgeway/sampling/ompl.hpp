@@ -26,12 +26,13 @@ using PlaceOf = std::function<Point(const ompl::base::State*)>;
 PlaceOf place_in_world(const ompl::base::StateSpacePtr& space, const EsdfMap& esdf);
 
 /// Says of states whether a sphere of a radius, metres, fits (FreeSpace::is_free); clearance() is
-/// FreeSpace::distance(). The map must outlive it. Thread-safe.
+/// FreeSpace::distance(). `free` may be an EsdfMap; what it is a view of must outlive it.
+/// Thread-safe.
 class FreeStates : public ompl::base::StateValidityChecker {
  public:
   /// Throws InputError where a radius is negative, no number, or larger than the map knows
   /// distances for.
-  FreeStates(const ompl::base::SpaceInformationPtr& space, const EsdfMap& esdf, double radius,
+  FreeStates(const ompl::base::SpaceInformationPtr& space, const FreeSpace& free, double radius,
              PlaceOf place_of);
 
   bool isValid(const ompl::base::State* state) const override;
@@ -44,12 +45,12 @@ class FreeStates : public ompl::base::StateValidityChecker {
 };
 
 /// Says whether a sphere can move along the straight line between two states, exactly, not by steps
-/// along it. The map must outlive it. Thread-safe: OMPL's counters of motions, which are not, are
-/// left alone.
+/// along it. What `free` is a view of must outlive it. Thread-safe: OMPL's counters of motions,
+/// which are not, are left alone.
 class FreeMotions : public ompl::base::MotionValidator {
  public:
   /// Throws InputError as FreeStates does.
-  FreeMotions(const ompl::base::SpaceInformationPtr& space, const EsdfMap& esdf, double radius,
+  FreeMotions(const ompl::base::SpaceInformationPtr& space, const FreeSpace& free, double radius,
               PlaceOf place_of);
 
   bool checkMotion(const ompl::base::State* from, const ompl::base::State* to) const override;

@@ -27,6 +27,8 @@ struct SamplingConfig {
   /// corridors three times that is quicker, through doors far slower; less than a tenth of a voxel
   /// is refused. BIT* and PRM* have none.
   double range = 0.0;
+  FlightLimits limits = {};   ///< as in PlanConfig
+  double robot_height = 0.0;  ///< as in PlanConfig
 
   /// Throws InputError naming the bad field (a planner that does not sample, no radius, no limit).
   void validate() const;

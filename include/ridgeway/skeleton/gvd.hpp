@@ -18,7 +18,7 @@ struct GvdConfig {
 };
 
 /// Free voxels at least `radius` metres from every obstacle (inclusive).
-VoxelMask traversable_voxels(const EsdfMap& esdf, double radius);
+VoxelMask traversable_voxels(const EsdfMap& esdf, double radius, bool within_limits = true);
 
 /// Voxels on the generalized Voronoi diagram (paper: GVD Generation): those with a free
 /// 6-neighbour whose nearest site lies in a direction more than theta away from the voxel's own,

@@ -8,7 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "ridgeway/esdf/esdf.hpp"
+#include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/planning/plan.hpp"
 #include "ridgeway/trajectory/trajectory.hpp"
 
 namespace ridgeway {
@@ -53,8 +54,10 @@ struct TrajectoryConfig {
   std::optional<double> start_yaw = std::nullopt;
   /// Yaw follows the direction of travel, as fast as its limit lets it; otherwise it stays.
   bool follow_yaw = true;
-  bool stop_and_go = false;    ///< no smoothing: the last resort at once
-  int most_evaluations = 120;  ///< of the cost, each time that a stretch is optimised
+  FlightLimits flight_limits = {};  ///< as in PlanConfig
+  double robot_height = 0.0;        ///< as in PlanConfig
+  bool stop_and_go = false;         ///< no smoothing: the last resort at once
+  int most_evaluations = 120;       ///< of the cost, each time that a stretch is optimised
 
   /// Throws InputError naming the bad field.
   void validate() const;
@@ -110,6 +113,12 @@ struct TrajectoryResult {
 TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> path,
                                  const TrajectoryConfig& config);
 
+/// The same along a path of plan() with its escapes, each flown straight from rest to rest at the
+/// clearance that it has; `clearance` of the result is without them. From a motion only where the
+/// path begins without one: else InputError.
+TrajectoryResult fly_plan(const EsdfMap& esdf, const PlanResult& path,
+                          const TrajectoryConfig& config);
+
 /// For comparison, what plan_trajectory does without the distance field: the smoothest spline from
 /// rest to rest through knots on the path, as fast as its limits allow. Nothing says that it is
 /// free. Throws InputError for the same paths and configurations.
@@ -123,8 +132,11 @@ Trajectory plain_spline(std::span<const Point> path, const TrajectoryConfig& con
 /// is free if the chord is free at radius + e (D is 1-Lipschitz); curves are halved until that
 /// holds, or one begins where it is not free, or is shorter than a thousandth of a voxel. Under
 /// UnknownPolicy::kIgnore the box around the hull, or the chord where the curve is straight, must
-/// lie in known-free voxels too.
-std::vector<double> find_doubts(const EsdfMap& esdf, const Trajectory& trajectory, double radius);
+/// lie in known-free voxels too. Where flights are limited the hull must be within the box that
+/// limits keep in, and the chord as far from each of those that they keep out as the curve departs.
+/// `space` may be an EsdfMap.
+std::vector<double> find_doubts(const FreeSpace& space, const Trajectory& trajectory,
+                                double radius);
 
 /// Lower bound of the smallest D along a trajectory, metres, at most a millimetre too small.
 double clearance_of(const EsdfMap& esdf, const Trajectory& trajectory);

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "cylinder_scan.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "box_distance.hpp"
+
+namespace ridgeway::detail {
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+constexpr double kPieceLength = 4.0;  // voxels of a segment at a time: its box stays small
+constexpr double kRounding = 1e-9;    // of the radius and the height: what touches does not collide
+
+/// The part of a segment, shares of it, at which the cylinder reaches into a layer of voxels.
+struct Part {
+  double begin = 0.0, end = 1.0;
+  bool is_empty() const { return begin > end; }
+};
+
+Part part_in_layer(double z0, double z1, double layer, double half_height) {
+  const double low = layer - half_height, high = layer + 1.0 + half_height;  // of the centre
+  const double along = z1 - z0;
+  if (along == 0.0) return z0 > low && z0 < high ? Part{} : Part{1.0, 0.0};
+  const double to_low = (low - z0) / along, to_high = (high - z0) / along;
+  Part part{std::max(0.0, std::min(to_low, to_high)), std::min(1.0, std::max(to_low, to_high))};
+  if (part.begin == part.end && (part.begin == 0.0 || part.end == 1.0)) return {1.0, 0.0};
+  return part;
+}
+
+/// Whether a piece of a segment, seen from above, keeps a distance from a rectangle.
+bool is_clear_of(const Vector& a, const Vector& b, double radius, double x0, double y0, double x1,
+                 double y1) {
+  const VoxelBox box{Vector(x0, y0, 0.0), Vector(x1, y1, 0.0)};
+  return (a == b ? squared_distance(a, box) : squared_distance(a, b, box)) >= radius * radius;
+}
+
+/// And from the voxels of one layer. Heights count no more.
+bool is_clear_of_layer(const EsdfMap& esdf, const Vector& from, const Vector& to, int layer,
+                       double radius) {
+  const Vector a(from.x(), from.y(), 0.0), b(to.x(), to.y(), 0.0);
+  const Vector reach(radius, radius, 0.0);
+  const VoxelIndex low = voxel_at(Vector(a.cwiseMin(b) - reach), 1.0);
+  const VoxelIndex high = voxel_at(Vector(a.cwiseMax(b) + reach), 1.0);
+  const BlockIndex first = block_of({low.x, low.y, layer}),
+                   last = block_of({high.x, high.y, layer});
+  for (int by = first.y; by <= last.y; ++by)
+    for (int bx = first.x; bx <= last.x; ++bx) {
+      const VoxelIndex corner = voxel_of({bx, by, first.z}, 0);
+      const std::uint32_t slot = esdf.layout.find_block({bx, by, first.z});
+      if (slot == BlockLayout::kNoBlock) {
+        if (esdf.is_obstacle(kNoVoxel) &&
+            !is_clear_of(a, b, radius, corner.x, corner.y, corner.x + kBlockSide,
+                         corner.y + kBlockSide))
+          return false;
+        continue;
+      }
+      std::uint64_t bits = esdf.obstacle.block(slot)[static_cast<std::size_t>(layer - corner.z)];
+      for (; bits != 0; bits &= bits - 1) {
+        const int i = std::countr_zero(bits), x = corner.x + i % 8, y = corner.y + i / 8;
+        const bool is_near = x >= low.x && x <= high.x && y >= low.y && y <= high.y;
+        if (is_near && !is_clear_of(a, b, radius, x, y, x + 1.0, y + 1.0)) return false;
+      }
+    }
+  return true;
+}
+
+bool piece_is_free(const EsdfMap& esdf, const Vector& a, const Vector& b, double radius,
+                   double half_height) {
+  const int first = floor_to_int(std::min(a.z(), b.z()) - half_height);
+  const int last = floor_to_int(std::max(a.z(), b.z()) + half_height);
+  for (int layer = first; layer <= last; ++layer) {
+    const Part part = part_in_layer(a.z(), b.z(), layer, half_height);
+    if (!part.is_empty() &&
+        !is_clear_of_layer(esdf, a + part.begin * (b - a), a + part.end * (b - a), layer, radius))
+      return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool cylinder_is_free(const EsdfMap& esdf, const Vector& a, const Vector& b, double radius,
+                      double half_height) {
+  const double pieces = std::max(1.0, std::ceil((b - a).norm() / kPieceLength));
+  for (double k = 0.0; k < pieces; ++k)
+    if (!piece_is_free(esdf, a + (b - a) * (k / pieces), a + (b - a) * ((k + 1.0) / pieces),
+                       radius * (1.0 - kRounding), half_height * (1.0 - kRounding)))
+      return false;
+  return true;
+}
+
+}  // namespace ridgeway::detail

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include "ridgeway/esdf/esdf.hpp"
+
+namespace ridgeway::detail {
+
+/// Whether an upright cylinder can move along a segment: whether no obstacle cube shares volume
+/// with it on the way. Lengths in voxels. Looks at every obstacle around; the field knows nothing
+/// of cylinders.
+bool cylinder_is_free(const EsdfMap& esdf, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                      double radius, double half_height);
+
+}  // namespace ridgeway::detail
