@@ -13,8 +13,10 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "json.hpp"
+#include "limit_options.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/load_map.hpp"
+#include "ridgeway/mapping/map_edits.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "source_facts.hpp"
@@ -31,8 +33,10 @@ struct BuildOptions {
   std::optional<Box> bounds;
   std::vector<Box> exclude;
   std::optional<Transform> transform;
+  std::vector<double> planar;
   int isolated = 0;
   int repeat = 1;
+  LimitOptions limits;
   BuildConfig build;
 };
 
@@ -50,6 +54,8 @@ LoadConfig load_config(const BuildOptions& options) {
 BuildConfig build_config(const BuildOptions& options) {
   BuildConfig config = options.build;
   if (options.unknown == "ignore") config.unknown = UnknownPolicy::kIgnore;
+  if (options.unknown == "free") config.unknown = UnknownPolicy::kFree;
+  config.limits = limits_of(options.limits);
   config.basis_point_edges = options.edges == "basis-points";
   config.paper_diagram = options.diagram == "paper";
   config.simplify = options.graph == "simple";
@@ -73,6 +79,8 @@ std::string config_text(const BuildOptions& options, double voxel_size) {
                {"graph", options.graph}};
   if (options.bounds) json["bounds"] = box_text(*options.bounds);
   for (const Box& box : options.exclude) json["exclude"].push_back(box_text(box));
+  if (!options.planar.empty()) json["planar"] = options.planar;
+  if (options.limits.any()) json["limits"] = cli::json_of(limits_of(options.limits));
   if (options.transform) json["transform"] = options.transform->text;
   if (options.isolated > 0) json["isolated"] = options.isolated;
   return json.dump();
@@ -191,6 +199,7 @@ int run(const BuildOptions& options, const Globals& globals) {
   outcome.load_seconds = load_watch.seconds();
   bar.clear();
   for (const std::string& text : notes.notes) note(globals, text);
+  if (!options.planar.empty()) map = flatten(map, options.planar[0], options.planar[1]);
   if (building.min_clearance < 2.0 * map.voxel_size)
     warn(globals,
          "--min-clearance " + text_of(building.min_clearance) + " m is less than two voxels of " +
@@ -234,8 +243,9 @@ void add_build_command(Command& program) {
   command.number("--max-distance", build.max_distance, kReaches,
                  "Distances to obstacles are known up to here, metres; halls wider than twice that "
                  "get a dense graph");
-  command.choice("--unknown", options->unknown, {"obstacle", "ignore"},
-                 "Unknown space is an obstacle, or is kept out of without a distance to it");
+  command.choice("--unknown", options->unknown, {"obstacle", "ignore", "free"},
+                 "Unknown space is an obstacle, or is kept out of without a distance to it, or is "
+                 "taken for free around what is known");
   command.number("--theta", build.theta, {0.0, std::numbers::pi},
                  "Least angle between the directions to two obstacles, radians");
   command.number("--prune-radius", build.prune_radius, kLengthsFromZero,
@@ -255,6 +265,10 @@ void add_build_command(Command& program) {
               "Flight volume x0,y0,z0,x1,y1,z1, metres; required for point clouds");
   command.boxes("--exclude", options->exclude,
                 "No-fly box x0,y0,z0,x1,y1,z1, metres; may be repeated");
+  add_limit_options(command, options->limits);
+  command.tuple("--planar", options->planar, 2, "Z0,Z1",
+                "For a robot in the plane: whatever is occupied between these heights, metres, is "
+                "in its way; distances, ridges and paths are those of this one layer");
   command.transform("--transform", options->transform,
                     "From the file's frame to the map's (z up): x,y,z,roll,pitch,yaw in metres "
                     "and degrees, 16 numbers of a matrix row by row, camera (x right, y down, "

@@ -11,6 +11,7 @@
 #include "files/atomic_file.hpp"
 #include "interruption.hpp"
 #include "json.hpp"
+#include "limit_options.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
 
 namespace ridgeway::cli {
@@ -23,6 +24,7 @@ constexpr int kMostQueries = 1000000;  // their paths are all kept
 struct CheckOptions {
   std::string file, paths;
   CheckConfig check{.queries = 200};
+  LimitOptions limits;
 };
 
 Json json_of(const CheckReport& report, bool complete) {
@@ -83,11 +85,12 @@ void print_summary(const CheckReport& report, bool complete) {
 int run(const CheckOptions& options, const Globals& globals) {
   if (!options.paths.empty()) require_writable({options.paths}, {options.file});
   if (!options.paths.empty()) require_extension(options.paths, "paths", {".json"});
+  CheckConfig config = options.check;
+  config.limits = limits_of(options.limits);
   const Roadmap roadmap = load_roadmap(options.file);
   ProgressBar bar(globals);
   CheckReport report;
-  const bool complete =
-      completes([&] { check_roadmap(roadmap, options.check, bar.callback(), report); });
+  const bool complete = completes([&] { check_roadmap(roadmap, config, bar.callback(), report); });
   bar.clear();
   if (!options.paths.empty()) write_text_file(options.paths, paths_json(report).dump() + "\n");
   if (globals.json)
@@ -107,6 +110,9 @@ void add_check_command(Command& program) {
   command.whole("--queries", options->check.queries, {0, kMostQueries},
                 "Random queries to compare with A*");
   command.seed(options->check.seed, "Of the random queries");
+  add_limit_options(command, options->limits);
+  command.number("--robot-height", options->check.robot_height, kLengthsFromZero,
+                 "Metres: the robot is an upright cylinder of this height; 0: it is a sphere");
   command.path("--paths", options->paths,
                "File to write the checked paths to, .json, for other checkers");
   command.footer(

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "commands.hpp"
 #include "console.hpp"
 #include "json.hpp"
+#include "limit_options.hpp"
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/planning/blocked_route.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
 #include "ridgeway/roadmap/components.hpp"
 #include "roadmap_facts.hpp"
@@ -23,7 +27,13 @@ constexpr std::size_t kShownComponents = 10;
 
 struct InfoOptions {
   std::string file;
+  std::optional<Point> at;
 };
+
+/// As plan has it, but of no start: "unknown", "in_collision", ...
+std::string reason_of(const PlaceFacts& facts) {
+  return std::string(name_of(facts.status)).substr(std::string("start_").size());
+}
 
 struct Memory {
   const char* part;
@@ -55,6 +65,14 @@ std::vector<Memory> memory_of(const Roadmap& roadmap) {
           {"tree", bytes_of(tree.parent) + bytes_of(tree.clearance) + bytes_of(tree.place)}};
 }
 
+Json json_of(const ComponentJoin& join) {
+  return {{"a", join.a},
+          {"b", join.b},
+          {"radius", join.radius},
+          {"place", cli::json_of(join.place)},
+          {"by", std::string(name_of(join.by))}};
+}
+
 Json json_of(const ComponentReport& report) {
   Json components = Json::array(), joins = Json::array();
   for (const Component& c : report.components)
@@ -62,9 +80,7 @@ Json json_of(const ComponentReport& report) {
                           {"volume", c.volume},
                           {"widest", cli::json_of(c.widest)},
                           {"clearance", c.clearance}});
-  for (const ComponentJoin& j : report.joins)
-    joins.push_back(
-        {{"a", j.a}, {"b", j.b}, {"radius", j.radius}, {"place", cli::json_of(j.place)}});
+  for (const ComponentJoin& j : report.joins) joins.push_back(json_of(j));
   return {{"components", std::move(components)}, {"joins", std::move(joins)}};
 }
 
@@ -81,6 +97,8 @@ Json roadmap_json(const InfoOptions& options, const Roadmap& roadmap, const Ridg
                {"unknown_policy", name_of(roadmap.esdf.unknown)},
                {"max_distance", roadmap.esdf.max_distance},
                {"min_clearance", roadmap.min_clearance}};
+  if (roadmap.esdf.planar) json["planar"] = true;
+  if (roadmap.esdf.limits.any()) json["limits"] = cli::json_of(limits_in_world(roadmap.esdf));
   if (const auto bounds = known_bounds(occupancy)) json["bounds"] = cli::json_of(*bounds);
   json["voxels"] = {
       {"free", counts.free}, {"occupied", counts.occupied}, {"unknown", counts.unknown}};
@@ -105,6 +123,17 @@ Json roadmap_json(const InfoOptions& options, const Roadmap& roadmap, const Ridg
   return json;
 }
 
+double rest_volume(const ComponentReport& report, std::size_t shown) {
+  double volume = 0.0;
+  for (std::size_t i = shown; i < report.components.size(); ++i)
+    volume += report.components[i].volume;
+  return volume;
+}
+
+std::string blocker_text(Blocker by) {
+  return by == Blocker::kUnknown ? "unknown space" : "obstacles";
+}
+
 void print_components(const ComponentReport& report) {
   const std::size_t shown = std::min(report.components.size(), kShownComponents);
   for (std::size_t i = 0; i < shown; ++i) {
@@ -114,7 +143,8 @@ void print_components(const ComponentReport& report) {
                   text_of(c.clearance) + " m at " + point_text(c.widest));
   }
   if (shown < report.components.size())
-    print_row("", "and " + count_text(report.components.size() - shown) + " smaller ones");
+    print_row("", "and " + count_text(report.components.size() - shown) + " smaller ones, " +
+                      text_of(rest_volume(report, shown)) + " m3 in all");
   std::size_t left_out = 0;
   for (const ComponentJoin& j : report.joins) {
     if (j.a >= shown || j.b >= shown) {
@@ -124,7 +154,7 @@ void print_components(const ComponentReport& report) {
     print_row("would join", "components " + std::to_string(std::min(j.a, j.b) + 1) + " and " +
                                 std::to_string(std::max(j.a, j.b) + 1) + " at a radius of " +
                                 text_of(rounded_down(j.radius)) + " m, narrowest at " +
-                                point_text(j.place));
+                                point_text(j.place) + ", between " + blocker_text(j.by));
   }
   if (left_out > 0)
     print_row("", "and " + count_text(left_out) + " joins of smaller components (see --json)");
@@ -139,6 +169,7 @@ void print_roadmap(const Json& json) {
   print_row("built for",
             "a radius of " + text_of(json["min_clearance"].get<double>()) +
                 " m and more; unknown space: " + json["unknown_policy"].get<std::string>());
+  if (json.contains("limits")) print_row("limits", json["limits"].dump());
   if (json.contains("bounds")) print_row("bounds", bounds_text(json["bounds"]));
   print_row("voxels", count_text(json["voxels"]["free"].get<std::uint64_t>()) + " free, " +
                           count_text(json["voxels"]["occupied"].get<std::uint64_t>()) +
@@ -150,6 +181,58 @@ void print_roadmap(const Json& json) {
                          " components");
   print_row("memory", bytes_text(json["memory_bytes"]["total"].get<std::uint64_t>()));
   print_row("config", json["config"].dump());
+}
+
+Json json_of(const PlaceFacts& facts, const Point& at) {
+  constexpr const char* kStates[] = {"unknown", "free", "occupied"};
+  Json json = {{"at", cli::json_of(at)},
+               {"status", std::string(facts.status == PlanStatus::kOk ? "ok" : reason_of(facts))},
+               {"voxel", kStates[static_cast<int>(facts.state)]},
+               {"clearance", facts.clearance}};
+  if (facts.status != PlanStatus::kOk) return json;
+  json["component"] = facts.component;
+  json["component_volume"] = facts.report.components[facts.component].volume;
+  json["ways"] = Json::array();
+  for (const ComponentJoin& way : facts.ways)
+    json["ways"].push_back({{"component", way.b},
+                            {"volume", facts.report.components[way.b].volume},
+                            {"radius", way.radius},
+                            {"place", cli::json_of(way.place)},
+                            {"by", std::string(name_of(way.by))}});
+  return json;
+}
+
+void print_place(const PlaceFacts& facts, const Point& at) {
+  constexpr const char* kStates[] = {"unknown", "free", "occupied"};
+  print_row("place", point_text(at) + ", in a voxel that is " +
+                         kStates[static_cast<int>(facts.state)] + ", clearance " +
+                         text_of(rounded_down(facts.clearance)) + " m");
+  if (facts.status != PlanStatus::kOk) return print_row("not usable", reason_of(facts));
+  const std::vector<Component>& all = facts.report.components;
+  print_row("component", std::to_string(facts.component + 1) + " of " + count_text(all.size()) +
+                             ", " + text_of(all[facts.component].volume) + " m3");
+  std::size_t shown = 0;
+  for (const ComponentJoin& way : facts.ways) {
+    if (++shown > kShownComponents) break;
+    print_row("to component " + std::to_string(way.b + 1),
+              text_of(all[way.b].volume) + " m3, at a radius of " +
+                  text_of(rounded_down(way.radius)) + " m, narrowest at " + point_text(way.place) +
+                  ", between " + blocker_text(way.by));
+  }
+  if (facts.ways.size() > kShownComponents)
+    print_row("", "and " + count_text(facts.ways.size() - kShownComponents) + " more (see --json)");
+  const std::size_t shut = all.size() - 1 - facts.ways.size();
+  if (shut > 0) print_row("", count_text(shut) + " components that no robot reaches from here");
+}
+
+int run_place(const InfoOptions& options, const Globals& globals) {
+  const Roadmap roadmap = load_roadmap(options.file);
+  const PlaceFacts facts = describe_place(roadmap, *options.at);
+  if (globals.json)
+    print_json(json_of(facts, *options.at));
+  else
+    print_place(facts, *options.at);
+  return kExitDone;
 }
 
 int run_roadmap(const InfoOptions& options, const Globals& globals) {
@@ -167,6 +250,9 @@ int run_roadmap(const InfoOptions& options, const Globals& globals) {
 }
 
 int run(const InfoOptions& options, const Globals& globals) {
+  if (options.at && !is_roadmap_file(options.file))
+    throw InputError("--at", "is of roadmaps", "build one of " + options.file + " first");
+  if (options.at) return run_place(options, globals);
   if (is_roadmap_file(options.file)) return run_roadmap(options, globals);
   const Json json = describe_source(options.file, globals);
   if (globals.json)
@@ -182,6 +268,9 @@ void add_info_command(Command& program) {
   const auto options = std::make_shared<InfoOptions>();
   Command command = program.add("info", "Tell what a roadmap or a map holds");
   command.path("file", options->file, "Roadmap .ridge, or a map that build reads").required();
+  command.point("--at", options->at,
+                "A place X,Y,Z of a roadmap, metres: the component that it is in, its clearance, "
+                "and what is in the way to the other components");
   command.footer(
       "For a roadmap also its components: how large, how wide, and where a smaller robot would\n"
       "find them joined.\n"

@@ -34,6 +34,8 @@ SamplingConfig sampling_config(const PlanOptions& options, double radius) {
   config.planner = options.chosen();
   config.radius = radius;
   config.shorten = !options.raw;
+  config.limits = limits_of(options.limits);
+  config.robot_height = options.robot_height;
   if (options.time_limit) config.time_limit = *options.time_limit;
   if (options.range) config.range = *options.range;
   if (options.iteration_limit) config.iteration_limit = *options.iteration_limit;
@@ -42,8 +44,11 @@ SamplingConfig sampling_config(const PlanOptions& options, double radius) {
 
 /// Found before the file is loaded.
 void validate(const PlanOptions& options) {
-  if (is_sampling(options.chosen()) && (options.prefer_clearance != 0.0 || options.escape))
-    throw InputError(options.escape ? "--escape" : "--prefer-clearance",
+  if (is_sampling(options.chosen()) &&
+      (options.prefer_clearance != 0.0 || options.escape || options.snap != 0.0))
+    throw InputError(options.escape        ? "--escape"
+                     : options.snap != 0.0 ? "--snap"
+                                           : "--prefer-clearance",
                      "is of planners that do not sample",
                      "leave it out with --planner " + options.planner);
   if (is_sampling(options.chosen()))
@@ -87,7 +92,7 @@ int run_one(const PlanOptions& options, const Roadmap& roadmap, const Globals& g
                        options.radius.value_or(roadmap.min_clearance)};
   const Answer answer = plan_repeatedly(roadmap, query, options);
   const PlanResult& result = answer.plan;
-  AnswerFacts facts(roadmap, options.escape);
+  AnswerFacts facts(roadmap, options.escape, limits_of(options.limits));
   const bool write = result.ok() && !options.output.empty();
   if (write) write_plan(result, options.output);
   if (globals.json) {
@@ -106,7 +111,7 @@ int run_batch(const PlanOptions& options, const Roadmap& roadmap, const Globals&
   const std::vector<Query> queries =
       read_queries(options.queries, options.radius.value_or(roadmap.min_clearance),
                    largest_radius(roadmap.esdf));
-  AnswerFacts facts(roadmap, options.escape);
+  AnswerFacts facts(roadmap, options.escape, limits_of(options.limits));
   Json results = Json::array();
   std::size_t solved = 0;
   for (const Query& query : queries) {
@@ -136,8 +141,8 @@ void require_one_form(const PlanOptions& options) {
   if ((several || options.nearest) && (is_sampling(options.chosen()) || options.repeat > 1))
     throw InputError("plan", "samples and repeats for one start and one goal alone",
                      "leave out --repeat and --planner " + options.planner);
-  if (several && !options.nearest && !options.output.empty())
-    throw InputError("--output", "is for one path", "use --json for several");
+  if (options.to.size() > 1 && !options.nearest && !options.output.empty())
+    throw InputError("--output", "is for one goal", "use --json for several");
 }
 
 int run(const PlanOptions& options, const Globals& globals) {
@@ -150,7 +155,7 @@ int run(const PlanOptions& options, const Globals& globals) {
   require_one_form(options);
   if (!options.output.empty()) {
     require_path_format(options.output);
-    require_writable({options.output}, {options.file});
+    require_writable({outputs_of(options).front()}, {options.file});
   }
   const Roadmap roadmap = load_roadmap(options.file);
   if (batch) return run_batch(options, roadmap, globals);
@@ -183,7 +188,8 @@ void add_plan_command(Command& program) {
   command.flag("--nearest", options->nearest, "Of several goals only the one nearest by path");
   command.whole("--alternatives", options->alternatives, {1, 1000},
                 "Up to so many routes, shortest first, none of which can be deformed into another "
-                "in sight of it; none winds around an obstacle");
+                "in sight of it; none winds around an obstacle. -o path.json writes path-1.json, "
+                "path-2.json, ...");
   command.choice("--planner", options->planner,
                  {"graph", "diagram", "esdf", "theta", "rrtstar", "rrtconnect", "bitstar",
                   "prmstar", "informedrrtstar"},
@@ -195,6 +201,13 @@ void add_plan_command(Command& program) {
                  "What distance d from walls is worth: a metre costs 1 + it * (radius / d)^2");
   command.flag("--escape", options->escape,
                "Start and goal may be too close to an obstacle: leave it the short way first");
+  command.number("--snap", options->snap, kLengthsFromZero,
+                 "Start and goal that cannot be used are moved to the nearest place that can, by "
+                 "so many metres at most");
+  command.number("--robot-height", options->robot_height, kLengthsFromZero,
+                 "Metres: the robot is an upright cylinder of this height and the radius; 0: it is "
+                 "a sphere");
+  add_limit_options(command, options->limits);
   command.flag("--raw", options->raw, "Do not shorten the path");
   command.flag("--quick", options->quick,
                "Settle for nearly tight where the roadmap knows such a way by heart");

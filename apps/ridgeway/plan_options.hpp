@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "command.hpp"
+#include "limit_options.hpp"
 #include "ridgeway/sampling/plan_by_sampling.hpp"
 
 namespace ridgeway::cli {
@@ -19,9 +20,10 @@ struct PlanOptions {
   std::vector<Point> to;
   std::optional<double> radius, time_limit;
   std::optional<std::size_t> alternatives;
-  double prefer_clearance = 0.0;
+  double prefer_clearance = 0.0, snap = 0.0, robot_height = 0.0;
   bool raw = false, quick = false, escape = false, nearest = false;
   int repeat = 1;
+  LimitOptions limits;
   SamplingConfig sampling;  // of planners that sample
   std::optional<std::size_t> iteration_limit;
   std::optional<double> range;
@@ -36,7 +38,10 @@ inline PlanConfig plan_config(const PlanOptions& options, std::optional<double> 
                     .shorten = !options.raw,
                     .quick = options.quick,
                     .prefer_clearance = options.prefer_clearance,
-                    .escape = options.escape};
+                    .escape = options.escape,
+                    .limits = limits_of(options.limits),
+                    .snap = options.snap,
+                    .robot_height = options.robot_height};
   if (options.time_limit) config.time_limit = *options.time_limit;
   return config;
 }

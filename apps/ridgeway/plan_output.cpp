@@ -17,6 +17,12 @@ void print_escape(const std::string& end, const Escape& escape) {
                             text_of(escape.clearance) + " m");
 }
 
+void print_moved(const std::string& end, const Moved& moved) {
+  if (moved.distance > 0.0)
+    print_row("moved", "the " + end + " by " + text_of(moved.distance) + " m, to " +
+                           point_text(moved.place));
+}
+
 }  // namespace
 
 Json json_of(AnswerFacts& facts, const Answer& answer, const Query& query) {
@@ -27,6 +33,7 @@ Json json_of(AnswerFacts& facts, const Answer& answer, const Query& query) {
     json["known"] = {{"nearest", around.known}};
     json["unknown"]["nearest"] = around.unknown;
     json["unknown"]["share"] = around.unknown_share;
+    json["unknown"]["inside"] = around.unknown_inside;
   } else {
     json["reason"] = facts.reason(query, answer.plan.status);
     if (const auto blocked = facts.blocked(query, answer.plan.status))
@@ -54,13 +61,18 @@ void print_result(AnswerFacts& facts, const Answer& answer, const Query& query) 
             text_of(result.clearance) + " m, robot radius " + text_of(query.radius) + " m");
   print_row("known obstacles",
             std::isinf(around.known) ? "none" : text_of(around.known) + " m away at the nearest");
+  print_moved("start", result.moved_start);
+  print_moved("goal", result.moved_goal);
   print_escape("start", result.escape_start);
   print_escape("goal", result.escape_goal);
-  print_row("unknown space",
-            text_of(around.unknown) + " m away at the nearest, " +
-                text_of(100.0 * around.unknown_share, 1) +
-                " % of the length nearer than the radius; asked to " +
-                (result.unknown == UnknownPolicy::kObstacle ? "keep clear of it" : "ignore it"));
+  print_row("unknown space", text_of(around.unknown) + " m away at the nearest, " +
+                                 text_of(100.0 * around.unknown_share, 1) +
+                                 " % of the length nearer than the radius; asked to " +
+                                 (result.unknown == UnknownPolicy::kObstacle ? "keep clear of it"
+                                  : result.unknown == UnknownPolicy::kIgnore ? "ignore it"
+                                                                             : "take it for free"));
+  if (result.unknown == UnknownPolicy::kFree)
+    print_row("", text_of(100.0 * around.unknown_inside, 1) + " % of the length lies in it");
   print_row("time", seconds_text(s.total) + " (attach " + seconds_text(s.attach) + ", search " +
                         seconds_text(s.search) + ", shorten " + seconds_text(s.shorten) + ")");
   if (is_sampling(result.answered_by))

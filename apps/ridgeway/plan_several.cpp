@@ -2,6 +2,9 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "plan_several.hpp"
 
+#include <algorithm>
+#include <string>
+
 #include "console.hpp"
 #include "plan_output.hpp"
 #include "ridgeway/formats/path_io.hpp"
@@ -18,11 +21,27 @@ double radius_of(const PlanOptions& options, const Roadmap& roadmap) {
 
 }  // namespace
 
+std::vector<std::filesystem::path> outputs_of(const PlanOptions& options) {
+  const std::filesystem::path output(options.output);
+  if (!options.alternatives) return {output};
+  std::vector<std::filesystem::path> files;
+  for (std::size_t i = 1; i <= *options.alternatives; ++i) {
+    files.push_back(output);
+    files.back().replace_filename(output.stem().string() + "-" + std::to_string(i) +
+                                  output.extension().string());
+  }
+  return files;
+}
+
 int run_alternatives(const PlanOptions& options, const Roadmap& roadmap, const Globals& globals) {
   const Query query = {*options.from, options.to[0], radius_of(options, roadmap)};
   const Alternatives found = plan_alternatives(
       roadmap, query.start, query.goal, *options.alternatives, plan_config(options, query.radius));
-  AnswerFacts facts(roadmap, options.escape);
+  AnswerFacts facts(roadmap, options.escape, limits_of(options.limits));
+  std::vector<std::filesystem::path> files;
+  if (!options.output.empty()) files = outputs_of(options);
+  files.resize(std::min(files.size(), found.routes.size()));
+  for (std::size_t i = 0; i < files.size(); ++i) write_plan(found.routes[i], files[i]);
   if (globals.json) {
     Json json = {{"status", std::string(name_of(found.status))},
                  {"radius", query.radius},
@@ -41,7 +60,10 @@ int run_alternatives(const PlanOptions& options, const Roadmap& roadmap, const G
     const PlanResult& route = found.routes[i];
     print_row("route " + count_text(i + 1),
               text_of(route.length) + " m, clearance " + text_of(route.clearance) + " m");
-    for (const Point& p : route.waypoints) print_row("", point_text(p));
+    if (i < files.size())
+      print_row("written to", files[i].string());
+    else
+      for (const Point& p : route.waypoints) print_row("", point_text(p));
   }
   if (found.ok() && found.routes.size() < *options.alternatives)
     print_row("no more", found.complete ? "the graph has no others" : "the search was cut short");
@@ -54,7 +76,7 @@ int run_goals(const PlanOptions& options, const Roadmap& roadmap, const Globals&
   const double radius = radius_of(options, roadmap);
   const std::vector<GoalPlan> plans =
       plan_to_many(roadmap, start, goals, plan_config(options, radius));
-  AnswerFacts facts(roadmap, options.escape);
+  AnswerFacts facts(roadmap, options.escape, limits_of(options.limits));
   Json results = Json::array();
   std::size_t solved = 0;
   for (std::size_t i = 0; i < goals.size(); ++i) {
@@ -82,7 +104,7 @@ int run_nearest(const PlanOptions& options, const Roadmap& roadmap, const Global
   const NearestGoal nearest = plan_to_nearest(roadmap, start, goals, plan_config(options, radius));
   const Query query = {start, goals[nearest.goal.value_or(0)], radius};
   const PlanResult& plan = nearest.plan;
-  AnswerFacts facts(roadmap, options.escape);
+  AnswerFacts facts(roadmap, options.escape, limits_of(options.limits));
   const bool write = plan.ok() && !options.output.empty();
   if (write) write_plan(plan, options.output);
   if (globals.json) {

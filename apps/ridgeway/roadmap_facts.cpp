@@ -39,7 +39,8 @@ std::string part_text(const BlockedRoute& blocked, bool is_start) {
 
 std::string explain_endpoint(const Roadmap& roadmap, const Query& query, PlanStatus status,
                              bool escapes) {
-  const bool is_start = status <= PlanStatus::kStartInCollision;
+  const bool is_start =
+      status <= PlanStatus::kStartInCollision || status == PlanStatus::kStartOutsideLimits;
   const Point& place = is_start ? query.start : query.goal;
   const std::string text =
       std::string(is_start ? "the start " : "the goal ") + point_text(place) + " ";
@@ -54,6 +55,9 @@ std::string explain_endpoint(const Roadmap& roadmap, const Query& query, PlanSta
     case PlanStatus::kStartUnknown:
     case PlanStatus::kGoalUnknown:
       return text + "is in space that the map does not know: move it to where the map is free";
+    case PlanStatus::kStartOutsideLimits:
+    case PlanStatus::kGoalOutsideLimits:
+      return text + "is outside the limits of the flight: move it, or give wider limits";
     default:
       return text + "cannot be used: " + explain_collision(roadmap, query, place, escapes);
   }
@@ -62,7 +66,7 @@ std::string explain_endpoint(const Roadmap& roadmap, const Query& query, PlanSta
 }  // namespace
 
 OccupancyMap occupancy_of(const EsdfMap& esdf) {
-  return {esdf.voxel_size, esdf.origin, esdf.layout, esdf.state};
+  return {esdf.voxel_size, esdf.origin, esdf.layout, esdf.state, esdf.planar};
 }
 
 std::string AnswerFacts::explain_no_route(const Query& query) {
@@ -70,6 +74,8 @@ std::string AnswerFacts::explain_no_route(const Query& query) {
       "start and goal are not connected at a radius of " + metres(query.radius);
   const std::optional<BlockedRoute> blocked = this->blocked(query, PlanStatus::kNoRoute);
   if (!blocked) return text;
+  if (blocked->by == Blocker::kLimits)
+    return text + " within the limits of the flight, but they are without: give wider limits";
   const std::string parts = " (the start is in part " + part_text(*blocked, true) +
                             ", the goal in part " + part_text(*blocked, false) + ")";
   const char* what = blocked->by == Blocker::kUnknown ? "unknown space" : "an obstacle";
@@ -106,7 +112,7 @@ std::string AnswerFacts::reason(const Query& query, PlanStatus status) {
 std::optional<BlockedRoute> AnswerFacts::blocked(const Query& query, PlanStatus status) {
   if (status != PlanStatus::kNoRoute) return std::nullopt;
   if (!blocks_) blocks_.emplace(roadmap_);
-  return blocks_->between(query.start, query.goal, query.radius);
+  return blocks_->between(query.start, query.goal, query.radius, limits_);
 }
 
 PathSurroundings AnswerFacts::surroundings(std::span<const Point> path, double radius) {

@@ -20,8 +20,10 @@ OccupancyMap occupancy_of(const EsdfMap& esdf);
 /// there is none. What that takes of the whole map is made once, when it is first asked for.
 class AnswerFacts {
  public:
-  /// The roadmap must outlive it. `escapes`: plans were asked for with --escape.
-  AnswerFacts(const Roadmap& roadmap, bool escapes) : roadmap_(roadmap), escapes_(escapes) {}
+  /// The roadmap must outlive it. `escapes`: plans were asked for with --escape; `limits`: those
+  /// of the flights (world).
+  AnswerFacts(const Roadmap& roadmap, bool escapes, FlightLimits limits = {})
+      : roadmap_(roadmap), escapes_(escapes), limits_(std::move(limits)) {}
 
   /// Why a plan has its status, and what to do about it; empty if it is ok.
   std::string reason(const Query& query, PlanStatus status);
@@ -36,6 +38,7 @@ class AnswerFacts {
 
   const Roadmap& roadmap_;
   const bool escapes_;
+  const FlightLimits limits_;
   std::optional<RouteBlocks> blocks_;
   std::optional<Surroundings> around_;
 };

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "arguments.hpp"
@@ -14,8 +15,11 @@
 #include "flight_picture.hpp"
 #include "interruption.hpp"
 #include "json.hpp"
+#include "limit_options.hpp"
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/formats/path_io.hpp"
+#include "ridgeway/planning/many_goals.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
 #include "ridgeway/trajectory/plan_trajectory.hpp"
@@ -29,10 +33,14 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 
 struct TrajectoryOptions {
   std::string file, derivative = "snap", output, picture;
+  std::string path;
   std::optional<Point> from, to, from_velocity;
+  std::vector<Point> via;
   std::optional<double> radius, max_jerk, yaw;
   double max_speed = 2.0, max_acceleration = 2.0, max_yaw_rate = 90.0, step = 0.01;
-  bool stop_and_go = false;
+  double prefer_clearance = 0.0, snap = 0.0, robot_height = 0.0;
+  bool stop_and_go = false, escape = false;
+  LimitOptions limits;
 };
 
 TrajectoryConfig trajectory_config(const TrajectoryOptions& options, double radius) {
@@ -46,6 +54,8 @@ TrajectoryConfig trajectory_config(const TrajectoryOptions& options, double radi
   if (options.from_velocity) config.start_velocity = *options.from_velocity;
   if (options.yaw) config.start_yaw = *options.yaw * kDegree;
   config.follow_yaw = !options.yaw;
+  config.flight_limits = limits_of(options.limits);
+  config.robot_height = options.robot_height;
   config.stop_and_go = options.stop_and_go;
   config.validate();
   return config;
@@ -63,6 +73,11 @@ void print_result(const PlanResult& path, const TrajectoryResult& flown, double 
                         " waypoints, " + seconds_text(path.seconds.total));
   print_row("trajectory", text_of(flown.duration) + " s, " + std::string(name_of(flown.step)) +
                               "; stop and go " + text_of(flown.stop_and_go_duration) + " s");
+  for (const auto& [end, moved] :
+       {std::pair("start", path.moved_start), std::pair("goal", path.moved_goal)})
+    if (moved.distance > 0.0)
+      print_row("moved", std::string("the ") + end + " by " + text_of(moved.distance) + " m, to " +
+                             point_text(moved.place));
   print_row("at most", text_of(flown.peaks.speed) + " m/s, " + text_of(flown.peaks.acceleration) +
                            " m/s^2, yaw " + text_of(flown.peaks.yaw_rate / kDegree, 1) +
                            " degrees/s");
@@ -87,27 +102,91 @@ int report_none(const std::string& status, const std::string& reason, Json json,
   return kExitNoPlan;
 }
 
+PlanConfig plan_config(const TrajectoryOptions& options, double radius) {
+  PlanConfig config{.radius = radius,
+                    .prefer_clearance = options.prefer_clearance,
+                    .escape = options.escape,
+                    .limits = limits_of(options.limits),
+                    .snap = options.snap,
+                    .robot_height = options.robot_height};
+  config.validate();
+  return config;
+}
+
+/// A path as it stands in a file; the trajectory along it says whether it is free.
+PlanResult path_of_file(const Roadmap& roadmap, const std::string& file) {
+  PlanResult path;
+  path.waypoints = read_path(file);
+  if (path.waypoints.empty())
+    throw InputError(file, "has no waypoint", "give a path of plan, or one of your own");
+  path.status = PlanStatus::kOk;
+  path.unknown = roadmap.esdf.unknown;
+  path.length = length_of(path.waypoints);
+  std::vector<Point> local;
+  for (const Point& p : path.waypoints) {
+    local.push_back(to_local(roadmap.esdf, p));
+    if (!has_voxel(local.back(), roadmap.esdf.voxel_size))
+      throw InputError(file, "has a waypoint far outside the map", "give metres, in its frame");
+  }
+  path.clearance = FreeSpace(roadmap.esdf).clearance(local);
+  return path;
+}
+
+/// What to fly along, or the query that has no path.
+struct Course {
+  PlanResult path;
+  Query query;
+};
+
+Course find_course(const TrajectoryOptions& options, const Roadmap& roadmap, double radius) {
+  if (!options.path.empty()) {
+    Course course{path_of_file(roadmap, options.path), {}};
+    course.query = {course.path.waypoints.front(), course.path.waypoints.back(), radius};
+    return course;
+  }
+  std::vector<Point> places{*options.from};
+  places.insert(places.end(), options.via.begin(), options.via.end());
+  places.push_back(*options.to);
+  ViaPlan via = plan_via(roadmap, places, plan_config(options, radius));
+  return {std::move(via.plan), {places[via.leg], places[via.leg + 1], radius}};
+}
+
+void require_one_course(const TrajectoryOptions& options) {
+  const bool of_file = !options.path.empty();
+  if (of_file ? options.from || options.to : !options.from || !options.to)
+    throw InputError("trajectory", "needs a start and a goal, or a path",
+                     "give --from X,Y,Z and --to X,Y,Z, or --path FILE alone");
+  if (of_file && (!options.via.empty() || options.escape || options.snap != 0.0 ||
+                  options.prefer_clearance != 0.0))
+    throw InputError("--path", "is flown as it is",
+                     "leave out --via, --escape, --snap and --prefer-clearance");
+}
+
 int run(const TrajectoryOptions& options, const Globals& globals) {
-  const Point start = *options.from, goal = *options.to;
+  require_one_course(options);
   trajectory_config(options, options.radius.value_or(1.0));  // bad limits, before the file is read
-  std::vector<std::filesystem::path> written;
+  plan_config(options, options.radius.value_or(1.0));
+  std::vector<std::filesystem::path> written, read{options.file};
+  if (!options.path.empty()) read.emplace_back(options.path);
   if (!options.output.empty()) {
     require_trajectory_format(options.output);
     written.emplace_back(options.output);
   }
   if (!options.picture.empty()) written.emplace_back(options.picture);
-  require_writable(written, {options.file});
+  require_writable(written, read);
   if (!options.picture.empty()) require_extension(options.picture, "a picture", {".png", ".svg"});
 
   const Roadmap roadmap = load_roadmap(options.file);
   const double radius = options.radius.value_or(roadmap.min_clearance);
   const TrajectoryConfig config = trajectory_config(options, radius);
-  const PlanResult path = plan(roadmap, start, goal, {.radius = radius});
+  const Course course = find_course(options, roadmap, radius);
+  const PlanResult& path = course.path;
   if (!path.ok())
     return report_none(std::string(name_of(path.status)),
-                       AnswerFacts(roadmap, false).reason({start, goal, radius}, path.status),
+                       AnswerFacts(roadmap, options.escape, config.flight_limits)
+                           .reason(course.query, path.status),
                        Json::parse(plan_json(path)), globals);
-  const TrajectoryResult flown = plan_trajectory(roadmap.esdf, path.waypoints, config);
+  const TrajectoryResult flown = fly_plan(roadmap.esdf, path, config);
   if (!flown.ok())
     return report_none(std::string(name_of(flown.status)), explain_no_trajectory(flown),
                        Json::parse(trajectory_json(path, flown, options.step)), globals);
@@ -137,10 +216,24 @@ void add_trajectory_command(Command& program) {
   Command command =
       program.add("trajectory", "Plan a path, and a verified trajectory to fly along it");
   command.path("roadmap", options->file, "Roadmap, .ridge").required();
-  command.point("--from", options->from, "Start X,Y,Z, metres").required();
-  command.point("--to", options->to, "Goal X,Y,Z, metres").required();
+  command.point("--from", options->from, "Start X,Y,Z, metres");
+  command.point("--to", options->to, "Goal X,Y,Z, metres");
+  command.points("--via", options->via, "Place X,Y,Z on the way, metres; may be repeated");
+  command.path("--path", options->path,
+               "Path to fly in place of one from a start to a goal, .json or .csv of plan");
+  command.flag("--escape", options->escape,
+               "Start and goal may be too close to an obstacle: leave it the short way first");
+  command.number("--snap", options->snap, kLengthsFromZero,
+                 "Start and goal that cannot be used are moved to the nearest place that can, by "
+                 "so many metres at most");
+  command.number("--prefer-clearance", options->prefer_clearance, {0.0, 1e6},
+                 "What distance d from walls is worth: a metre costs 1 + it * (radius / d)^2");
+  command.number("--robot-height", options->robot_height, kLengthsFromZero,
+                 "Metres: the robot is an upright cylinder of this height and the radius; 0: it is "
+                 "a sphere");
   command.number("--radius", options->radius, kLengths,
                  "Robot radius, metres (default: the smallest the roadmap is for)");
+  add_limit_options(command, options->limits);
   command.number("--max-speed", options->max_speed, kMotions, "Metres a second");
   command.number("--max-acceleration", options->max_acceleration, kMotions, "Metres a second^2");
   command.number("--max-jerk", options->max_jerk, kMotions,

@@ -164,7 +164,7 @@ TEST_F(CliPlan, AlternativesAreRoutesWithTheKeysOfPlans) {
   EXPECT_NE(run(with({"--alternatives", "5"})).out.find("no others"), std::string::npos);
   expect_refused(with({"--alternatives", "2", "--planner", "esdf"}), {"alternatives", "graph"});
   expect_refused(with({"--alternatives", "2", "--to", "1,0,1"}), {"--alternatives", "one --to"});
-  expect_refused(with({"--alternatives", "2", "-o", path("path.csv")}), {"--output"});
+  expect_refused(with({"--to", "2,0,1", "-o", path("path.csv")}), {"--output"});
 }
 
 TEST_F(CliPlan, KeepsFromWallsWhenAskedTo) {
