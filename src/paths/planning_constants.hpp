@@ -24,7 +24,7 @@ struct PlanningConstants {
   double near = 1.05;  ///< good enough: nothing else is asked, nor ways past what blocks it tried
   double far = 1.12;   ///< too long to be believed: the sparse graph is searched as well
   double as_found = 1.1;  ///< a route over cells or corners over its tight path, at most
-  int voxel_reach = 32;   ///< of twice as many voxels is a path for which their square is searched
+  int voxel_reach = 32;  ///< voxels: ends up to twice as far apart, and its square searched at most
 
   // Ways past what blocks a stretch (planning/detour.cpp).
   int detour_rays = 6;             ///< around the stretch

@@ -153,19 +153,18 @@ class Answering {
     const bool knows_any = !known.empty();
     CellRoute cells = path_over_cells(roadmap_, space_, query_, attachment(),
                                       knows_any ? length_of(known) : 0.0, deadline_);
-    is_sure_ = cells.is_direct && (cells.found || (knows_any && !cells.gave_up));
     known = improve(shorter(std::move(known), std::move(cells.waypoints)));
   }
 
   bool is_plausible(const Route& path) const {
     if (path.empty()) return false;
     if (config_.within > 0.0) return excess(path) <= config_.within;
-    return over_expected(path) <= kPlanning.far || (is_sure_ && !is_short(path));
+    return over_expected(path) <= kPlanning.far;
   }
 
   /// So short that the cells may be too coarse, and a search over voxels comes around.
-  bool is_short(const Route& path) const {
-    return length_of(path) <= 2.0 * kPlanning.voxel_reach * esdf_.voxel_size;
+  bool is_short() const {
+    return (query_.goal - query_.start).norm() <= 2.0 * kPlanning.voxel_reach * esdf_.voxel_size;
   }
 
   Route shorter(Route a, Route b) const { return excess(b) < excess(a) ? b : a; }
@@ -180,7 +179,7 @@ class Answering {
         known.empty() ? std::numeric_limits<double>::infinity() : length_of(known);
     Route path = improve(shorten_below(space_, found, query_.radius, shortest, deadline_));
     path = shorter(std::move(known), std::move(path));
-    if (is_short(path) && over_expected(path) > kPlanning.far && !deadline_.has_passed())
+    if (is_short() && over_expected(path) > kPlanning.far && !deadline_.has_passed())
       path = shorter(std::move(path),
                      path_over_voxels(esdf_, space_, query_, length_of(path), deadline_));
     if (config_.within > 0.0 && excess(path) > config_.within && !deadline_.has_passed())
@@ -221,7 +220,6 @@ class Answering {
   RouteQuery query_;
   std::optional<Attachment> attachment_;
   PlanResult result_;
-  bool is_sure_ = false;  ///< the cells had a way from end to end, or none that is shorter
 };
 
 }  // namespace

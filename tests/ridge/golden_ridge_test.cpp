@@ -19,6 +19,7 @@ namespace {
 // planned with it. A change that reads the file differently is found here. Where the format is
 // changed on purpose, both are written anew, and looked at before they are committed:
 //   RIDGEWAY_WRITE_GOLDEN=1 build/bin/ridge_tests --gtest_filter='GoldenRidge.*'
+// Where planning is changed on purpose, the text alone becomes what is planned on the kept file.
 
 const std::string kFolder = std::string(RIDGEWAY_SOURCE_DIR) + "/tests/ridge/golden/";
 
