@@ -92,7 +92,7 @@ TEST(Snap, IsTheNearestReachablePlaceByBruteForce) {
     for (int i = 0; i < 8; ++i) {
       const VoxelId from = regions.voxels[random() % regions.voxels.size()];
       const Point start = centre_of(esdf.layout.index_of(from), esdf.voxel_size);
-      const VoxelId any = random() % esdf.layout.voxel_count();
+      const VoxelId any = static_cast<VoxelId>(random() % esdf.layout.voxel_count());
       const Point goal = centre_of(esdf.layout.index_of(any), esdf.voxel_size) + Point(0.02, 0, 0);
       const PlanResult plain = plan(*roadmap, start, goal);
       const PlanResult result = plan(*roadmap, start, goal, {.snap = 0.7});
