@@ -22,7 +22,7 @@ namespace {
   rlim_t pages = 0;
   statm >> pages;
   statm.close();
-  const rlim_t megabytes = 64;
+  const rlim_t megabytes = 24;
   const rlimit limit{pages * 4096 + megabytes * 1000000, RLIM_INFINITY};
   if (setrlimit(RLIMIT_AS, &limit) != 0) std::_Exit(3);
   try {
@@ -36,7 +36,7 @@ namespace {
 }
 
 TEST(BuildRoadmapDeathTest, RefusesAMapThatMemoryWouldNotDoFor) {
-  const OccupancyMap map =  // of 2 MB; 78 MB as a roadmap is made of it
+  const OccupancyMap map =  // of 2 MB; 31 MB at least as a roadmap is made of it
       testing::make_map(0.1, {0, 0, 0}, {127, 127, 127}, [](const VoxelIndex& v) {
         return v.z == 0 ? VoxelState::kOccupied : VoxelState::kFree;
       });
