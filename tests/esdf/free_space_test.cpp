@@ -139,11 +139,12 @@ TEST_P(FreeSpaceOnRandomMaps, FreeLengthEndsWithinAVoxelOfTheFirstPlaceThatIsToo
         }
         ++(free == length ? all : part);
         if (free == length) continue;
-        double first = length;  // place that is too near, or unknown
+        double first = length;  // place that is too near, or unknown; it may begin a step before
         for (int k = kSteps; k >= 0; --k) {
           const Point p = a + (b - a) * (static_cast<double>(k) / kSteps);
           if (!space.is_free(p, radius)) first = length * k / kSteps;
         }
+        first -= length / kSteps;
         const double least = GetParam() == UnknownPolicy::kObstacle
                                  ? first - s * (1.0 + 1e-9)
                                  : 0.5 * (first - s * (1.0 + 1e-9)) - s;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -23,9 +24,12 @@ inline OccupancyMap pillars(unsigned seed, std::vector<Eigen::Vector2d>& axes,
   std::vector<double> radii;
   axes.clear();
   for (int tries = 0; tries < 12 && axes.size() < most; ++tries) {
-    const Eigen::Vector2d axis(x(random), y(random));
+    const double along_y = y(random);  // one by one, as compilers differ in the order of arguments
+    const double along_x = x(random);
+    const Eigen::Vector2d axis(along_x, along_y);
     const double r = radius(random);
-    bool clear = true;
+    const double to_wall = std::min({along_x - 0.1, 7.9 - along_x, along_y - 0.1, 5.9 - along_y});
+    bool clear = to_wall > r + 2.0 * kPillarClearance + 0.2;
     for (std::size_t i = 0; i < axes.size(); ++i)
       clear &= (axis - axes[i]).norm() > r + radii[i] + 2.0 * kPillarClearance + 0.4;
     if (!clear) continue;
