@@ -17,8 +17,9 @@ namespace {
 constexpr SquaredHalves kMeasuredByTheOther(-1.0);  // clearance that the move back has
 
 /// A move to each neighbour in a diagram, its clearance known to the first of the two.
-std::vector<DiagramMove> moves_to_neighbours(const RememberedSpace& space, const DiagramCurves& curves,
-                                             DiagramNumber from, Cube27 neighbours) {
+std::vector<DiagramMove> moves_to_neighbours(const RememberedSpace& space,
+                                             const DiagramCurves& curves, DiagramNumber from,
+                                             Cube27 neighbours) {
   constexpr std::array<float, 4> kLengths{0.0f, 1.0f, 1.41421356f, 1.73205081f};
   std::vector<DiagramMove> moves;
   const VoxelId id = curves.voxels[from];
