@@ -140,7 +140,7 @@ class Answering {
                      accept({query_.start, query_.goal}, {})
                  ? PlanStatus::kOk
                  : PlanStatus::kNoRoute;
-    if (wants_short() && accept(tightened(found.route, std::move(known)), {})) {
+    if (wants_short() && accept(tightened(found.route, known), {})) {
       lap(result_.seconds.shorten);
       return PlanStatus::kOk;
     }
@@ -153,7 +153,7 @@ class Answering {
     const bool knows_any = !known.empty();
     CellRoute cells = path_over_cells(roadmap_, space_, query_, attachment(),
                                       knows_any ? length_of(known) : 0.0, deadline_);
-    known = improve(shorter(std::move(known), std::move(cells.waypoints)));
+    known = improve(shorter(known, cells.waypoints));
   }
 
   bool is_plausible(const Route& path) const {
@@ -167,24 +167,22 @@ class Answering {
     return (query_.goal - query_.start).norm() <= 2.0 * kPlanning.voxel_reach * esdf_.voxel_size;
   }
 
-  Route shorter(Route a, Route b) const { return excess(b) < excess(a) ? b : a; }
+  Route shorter(const Route& a, const Route& b) const { return excess(b) < excess(a) ? b : a; }
 
   Route improve(Route path) const {
     if (path.empty() || over_expected(path) <= kPlanning.near) return path;
     return past_what_blocks(esdf_, space_, query_, std::move(path), deadline_);
   }
 
-  Route tightened(const Route& found, Route known) const {
+  Route tightened(const Route& found, const Route& known) const {
     const double shortest =
         known.empty() ? std::numeric_limits<double>::infinity() : length_of(known);
     Route path = improve(shorten_below(space_, found, query_.radius, shortest, deadline_));
-    path = shorter(std::move(known), std::move(path));
+    path = shorter(known, path);
     if (is_short() && over_expected(path) > kPlanning.far && !deadline_.has_passed())
-      path = shorter(std::move(path),
-                     path_over_voxels(esdf_, space_, query_, length_of(path), deadline_));
+      path = shorter(path, path_over_voxels(esdf_, space_, query_, length_of(path), deadline_));
     if (config_.within > 0.0 && excess(path) > config_.within && !deadline_.has_passed())
-      path =
-          shorter(std::move(path), improve(shortest_over_voxels(esdf_, space_, query_, deadline_)));
+      path = shorter(path, improve(shortest_over_voxels(esdf_, space_, query_, deadline_)));
     return path;
   }
 

@@ -87,10 +87,10 @@ class LimitedSearch {
  private:
   Route route_over(const std::vector<VertexId>& vertices, const std::vector<Leg>& first,
                    const Leg& last) const {
-    const Leg* begin = nullptr;  // the shortest that leads to the first vertex
+    const VertexId head = vertices.front();
+    const Leg* begin = &first.front();  // the shortest that leads there
     for (const Leg& leg : first)
-      if (leg.vertex == vertices.front() && (begin == nullptr || leg.length < begin->length))
-        begin = &leg;
+      if (leg.vertex == head && (begin->vertex != head || leg.length < begin->length)) begin = &leg;
     Route route = begin->places;
     for (const VertexId v : vertices) route.push_back(place_of(v));
     route.insert(route.end(), last.places.rbegin(), last.places.rend());

@@ -34,18 +34,18 @@ class EndPlaces {
       is_given_ = true;
       if (has_voxel(end_, space_.map().voxel_size)) {
         const VoxelIndex own = voxel_at(end_, space_.map().voxel_size);
-        if (const auto place = use(own)) return place;  // too near to walls but for its middle
+        if (auto place = use(own)) return place;  // too near to walls but for its middle
       }
     }
     while (const std::optional<Point> place = around_.next(deadline))
-      if (const auto used = use(voxel_at(*place, space_.map().voxel_size))) return used;
+      if (auto used = use(voxel_at(*place, space_.map().voxel_size))) return used;
     return std::nullopt;
   }
 
  private:
   std::optional<Point> use(const VoxelIndex& voxel) {
     const VoxelId id = space_.map().layout.find(voxel);
-    if (id == kNoVoxel || seen_.count(id) > 0 || !is_place(id)) return std::nullopt;
+    if (id == kNoVoxel || seen_.contains(id) || !is_place(id)) return std::nullopt;
     tried_ = id;
     return centre_of(voxel, space_.map().voxel_size);
   }
@@ -66,7 +66,7 @@ class EndPlaces {
       open.pop_back();
       for (int d = 0; d < 27; ++d) {
         const VoxelId next = space_.map().layout.neighbour(here, d);
-        if (d == kCentre || next == kNoVoxel || seen_.count(next) > 0 || !is_place(next) ||
+        if (d == kCentre || next == kNoVoxel || seen_.contains(next) || !is_place(next) ||
             !space_.move_is_free(here, next, d, threshold_))
           continue;
         seen_.insert(next);
