@@ -69,7 +69,7 @@ struct Approach {
 
 /// How many levels of radii an edge has to let through for a radius over the smallest; the widest
 /// have to be looked at beyond all levels.
-static std::size_t width_for(double factor) {
+std::size_t width_for(double factor) {
   std::size_t width = 1;
   while (width < kRadiusLevels.size() && factor > kRadiusLevels[width - 1] * (1.0 + 1e-9)) ++width;
   return width;

@@ -56,6 +56,7 @@ struct SquaredHalves {
   constexpr explicit SquaredHalves(double squared_halves) : value(squared_halves) {}
   /// Of a number that the field holds.
   template <std::same_as<std::uint32_t> OfField>
+  // NOLINTNEXTLINE(google-explicit-constructor): the unit is the same
   constexpr SquaredHalves(OfField squared_halves) : value(squared_halves) {}
 
   /// The distance itself, metres.
