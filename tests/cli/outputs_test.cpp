@@ -106,8 +106,9 @@ TEST_F(CliOutputs, OneThreadIsEnough) {
   const std::string user =
       ::geteuid() == 0 ? "setpriv --reuid=54321 --regid=54321 --clear-groups --inh-caps=-all " : "";
   // What looks for leaks at the end of a sanitized program needs a thread.
-  const std::string command = "ASAN_OPTIONS=detect_leaks=0 " + user + "prlimit --nproc=1:1 " + RIDGEWAY_PROGRAM + " check " + map +
-                              " --queries 20 > " + path("stdout") + " 2> " + path("stderr");
+  const std::string command = "ASAN_OPTIONS=detect_leaks=0 " + user + "prlimit --nproc=1:1 " +
+                              RIDGEWAY_PROGRAM + " check " + map + " --queries 20 > " +
+                              path("stdout") + " 2> " + path("stderr");
   const int status = std::system(command.c_str());
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 0) << read_whole(folder_ / "stderr");
