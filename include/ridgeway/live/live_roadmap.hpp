@@ -60,9 +60,10 @@ struct UpdateReport {
 
 /// A roadmap that follows its map while the map is being made.
 ///
-/// Contract: after every update the snapshot has the same bytes as build_roadmap(map(), config),
-/// the tangent graph apart, and settled() has the same with it, for any order and grouping of the
-/// changes and any number of threads, voxels that become free or unknown again included.
+/// Contract: after every update the snapshot has the same bytes as build_roadmap(map(),
+/// config.build), the tangent graph apart, and settled() has the same with it, for any order and
+/// grouping of the changes and any number of threads, voxels that become free or unknown again
+/// included.
 ///
 /// One thread updates; any number may call snapshot() meanwhile and plan on what they get. An
 /// update that throws leaves map and snapshot as they were: InputError for bad input, naming the
@@ -100,10 +101,11 @@ class LiveRoadmap {
   /// traversable. Thread-safe.
   std::shared_ptr<const Roadmap> snapshot() const;
 
-  /// The same with the tangent graph, which is learnt from the whole map and takes as long as many
-  /// updates: snapshots come without it (Roadmap::is_settled), and queries on them are as right,
-  /// but slower. Learns it, unless that was done, in the thread that asks, while others go on; from
-  /// then on, until the next update, snapshot() has it too. Thread-safe.
+  /// The same with cell graph and tangent graph, which are of the whole map and take as long as
+  /// many updates: snapshots come without them (Roadmap::is_settled), and queries on those are as
+  /// right, but slower, their paths at times longer. Makes them, unless that was done, in the
+  /// thread that asks, while others go on; from then on, until the next update, snapshot() has them
+  /// too. Thread-safe.
   std::shared_ptr<const Roadmap> settled();
 
   /// The map after the last update: the blocks in which something is known, without what waits
