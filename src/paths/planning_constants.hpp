@@ -7,6 +7,13 @@
 
 namespace ridgeway::detail {
 
+/// How hard the cell graph is searched.
+struct CellEffort {
+  double weight;   ///< of A*'s heuristic: more is faster, and its routes a little longer
+  int most_cells;  ///< taken before the search gives up: a thousand take a third of a millisecond
+  double over;     ///< length of what is known over what may be expected: below, it is not done
+};
+
 /// What queries, and the learning of corners for them, trade length against time by: every number
 /// that could as well be another one. Each says its unit and what more of it costs. Lengths are in
 /// voxels or radii; `docs/performance.md` has what each is worth.
@@ -14,17 +21,19 @@ struct PlanningConstants {
   // The cell graph (roadmap/build_cell_graph.cpp, roadmap/cell_search.cpp).
   double cell_room = 1.5;      ///< voxels beyond the widest radius that a cell's place may be wide
   double cell_centring = 0.5;  ///< voxels of width that a voxel off the middle is worth
-  double cell_weight = 1.2;    ///< of A*'s heuristic: less is slower, and paths a little shorter
-  int most_cells = 1000;       ///< taken by a search before it gives up: a third of a millisecond
-  int most_cells_again = 400;  ///< the same where a path is known
+  /// One after the other; a straight search finds what is nearly as short as what a wide one finds.
+  std::array<CellEffort, 3> cell_efforts{{{1.35, 400, 1.05}, {2.0, 800, 1.05}, {1.2, 1500, 1.12}}};
+  CellEffort last_cell_effort{1.2, 5000, 1.15};  ///< where those gave up and the graph's is long
   double landmark_share = 0.93;  ///< of lengths by landmarks that paths are hardly shorter than
-  double winding = 1.1;  ///< of ways over straight lines on average: landmarks say more than those
 
   // What a query tries (planning/plan.cpp). Lengths over what a path may be expected to have.
   double near = 1.05;  ///< good enough: nothing else is asked, nor ways past what blocks it tried
   double far = 1.12;   ///< too long to be believed: the sparse graph is searched as well
-  double as_found = 1.1;  ///< a route over cells or corners over its tight path, at most
-  int voxel_reach = 32;  ///< voxels: ends up to twice as far apart, and its square searched at most
+  double as_found = 1.1;         ///< a route over cells or corners over its tight path, at most
+  int voxel_reach = 64;          ///< voxels that ends are apart at most for a search over voxels
+  int most_voxels = 1500;        ///< taken by it before it gives up: half a millisecond
+  int most_voxels_alone = 6000;  ///< the same where the cells connect nothing
+  double voxel_weight = 1.3;  ///< of A*'s heuristic over voxels: 1 seldom gets there in the limit
 
   // Ways past what blocks a stretch (planning/detour.cpp).
   int detour_rays = 6;             ///< around the stretch
@@ -67,6 +76,6 @@ struct PlanningConstants {
 inline constexpr PlanningConstants kPlanning{};
 
 /// Radii, over the smallest, that edges of the cell graph are looked at for.
-inline constexpr std::array<double, 4> kRadiusLevels{1.0, 1.25, 1.5, 2.0};
+inline constexpr std::array kRadiusLevels{1.0, 1.25, 1.5, 2.0};
 
 }  // namespace ridgeway::detail

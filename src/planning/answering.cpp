@@ -21,6 +21,8 @@ namespace {
 
 /// A query that is being answered.
 class Answering {
+  enum class Cells : std::uint8_t { kNone, kFound, kGaveUp };  // of the last search over them
+
  public:
   Answering(const Roadmap& roadmap, const FreeSpace& space, const Point& start, const Point& goal,
             double radius, const PlanConfig& config, const Deadline& deadline)
@@ -109,7 +111,7 @@ class Answering {
   double over_expected(const Route& path) const {
     if (path.empty()) return std::numeric_limits<double>::infinity();
     const double straight = (query_.goal - query_.start).norm();
-    const double expected = length_between(roadmap_, query_.from, query_.to);
+    const double expected = length_between(roadmap_, query_.from, query_.to, query_.radius);
     return length_of(path) / std::max(straight, expected);
   }
 
@@ -148,12 +150,22 @@ class Answering {
     return accept(std::move(found.route), found.known) ? PlanStatus::kOk : PlanStatus::kNoRoute;
   }
 
-  /// Makes what is known shorter by way of the cells where they have something shorter.
+  /// Makes what is known shorter by way of the cells, as far as they have something shorter: first
+  /// by searches that go straight for the goal, wider ones only while what is known is too long to
+  /// be believed.
   void search_cells(Route& known) {
-    const bool knows_any = !known.empty();
-    CellRoute cells = path_over_cells(roadmap_, space_, query_, attachment(),
-                                      knows_any ? length_of(known) : 0.0, deadline_);
-    known = improve(shorter(known, cells.waypoints));
+    for (const CellEffort& effort : kPlanning.cell_efforts)
+      if (over_expected(known) > effort.over) search_cells(known, effort);
+    known = improve(std::move(known));
+  }
+  void search_cells(Route& known, const CellEffort& effort) {
+    CellRoute cells = path_over_cells(roadmap_, space_, query_, attachment(), effort,
+                                      known.empty() ? 0.0 : length_of(known), deadline_);
+    if (cells.gave_up)
+      cells_ = Cells::kGaveUp;
+    else  // where there is something known, the search was for something shorter
+      cells_ = cells.found || !known.empty() ? Cells::kFound : Cells::kNone;
+    known = shorter(known, cells.waypoints);
   }
 
   bool is_plausible(const Route& path) const {
@@ -162,9 +174,15 @@ class Answering {
     return over_expected(path) <= kPlanning.far;
   }
 
-  /// So short that the cells may be too coarse, and a search over voxels comes around.
-  bool is_short() const {
-    return (query_.goal - query_.start).norm() <= 2.0 * kPlanning.voxel_reach * esdf_.voxel_size;
+  /// The same by way of voxels, where the cells are too coarse: over short distances, and where
+  /// nothing joins them at the radius.
+  void search_voxels(Route& known) const {
+    const double reach = kPlanning.voxel_reach * esdf_.voxel_size;
+    const bool are_alone = cells_ == Cells::kNone;
+    if (!are_alone && (query_.goal - query_.start).norm() > reach) return;
+    const int most = are_alone ? kPlanning.most_voxels_alone : kPlanning.most_voxels;
+    known =
+        shorter(known, path_over_voxels(esdf_, space_, query_, length_of(known), most, deadline_));
   }
 
   Route shorter(const Route& a, const Route& b) const { return excess(b) < excess(a) ? b : a; }
@@ -174,13 +192,14 @@ class Answering {
     return past_what_blocks(esdf_, space_, query_, std::move(path), deadline_);
   }
 
-  Route tightened(const Route& found, const Route& known) const {
+  Route tightened(const Route& found, const Route& known) {
     const double shortest =
         known.empty() ? std::numeric_limits<double>::infinity() : length_of(known);
     Route path = improve(shorten_below(space_, found, query_.radius, shortest, deadline_));
     path = shorter(known, path);
-    if (is_short() && over_expected(path) > kPlanning.far && !deadline_.has_passed())
-      path = shorter(path, path_over_voxels(esdf_, space_, query_, length_of(path), deadline_));
+    if (cells_ == Cells::kGaveUp && over_expected(path) > kPlanning.last_cell_effort.over)
+      search_cells(path, kPlanning.last_cell_effort);
+    if (over_expected(path) > kPlanning.far && !deadline_.has_passed()) search_voxels(path);
     if (config_.within > 0.0 && excess(path) > config_.within && !deadline_.has_passed())
       path = shorter(path, improve(shortest_over_voxels(esdf_, space_, query_, deadline_)));
     return path;
@@ -216,6 +235,7 @@ class Answering {
   const PlanConfig& config_;
   const Deadline& deadline_;
   RouteQuery query_;
+  Cells cells_ = Cells::kNone;
   std::optional<Attachment> attachment_;
   PlanResult result_;
 };

@@ -48,11 +48,11 @@ class SearchMemory {
 };
 
 std::vector<VoxelId> trace_back(const BlockLayout& layout, SearchMemory& memory, VoxelId start,
-                                VoxelId goal, int stride) {
+                                VoxelId goal) {
   std::vector<VoxelId> voxels{goal};
   for (VoxelId id = goal; id != start;) {
     const VoxelIndex& o = offset_of(memory.block_of(id).from[id % kBlockVoxels]);
-    id = layout.step(id, stride * o.x, stride * o.y, stride * o.z);
+    id = layout.step(id, o.x, o.y, o.z);
     voxels.push_back(id);
   }
   std::reverse(voxels.begin(), voxels.end());
@@ -67,60 +67,41 @@ LatticePath search_lattice(const FreeSpace& space, VoxelId start, VoxelId goal, 
   const SquaredHalves threshold = least_clearance(space.inner_radius(radius), esdf.voxel_size);
   const VoxelIndex target = esdf.layout.index_of(goal);
   SearchMemory memory(esdf.layout.block_count());
-  const int stride = options.stride;
-  const auto move_is_free = [&](VoxelId from, VoxelId to, int d) {
-    if (stride == 1 || !space.is_for_sphere())
-      return stride == 1 && space.move_is_free(from, to, d, threshold);
-    if (FreeSpace::move_bound(esdf.squared[from], esdf.squared[to],
-                              squared_length(d) * stride * stride) < threshold)
-      return false;
-    if (!space.is_within_limits(centre_of(esdf.layout.index_of(from), esdf.voxel_size),
-                                centre_of(esdf.layout.index_of(to), esdf.voxel_size)))
-      return false;
-    return esdf.unknown == UnknownPolicy::kObstacle ||
-           space.is_known_free(centre_of(esdf.layout.index_of(from), esdf.voxel_size),
-                               centre_of(esdf.layout.index_of(to), esdf.voxel_size));
-  };
   const double least = options.weight * lattice_distance(esdf.layout.index_of(start), target);
   OpenBuckets open(least);
   memory.block_of(start).cost[start % kBlockVoxels] = 0.0;
   open.push(least, {0.0, start});
   double& goal_cost = memory.block_of(goal).cost[goal % kBlockVoxels];
-  int expansions = 0, in_vain = 0;
-  double nearest = std::numeric_limits<double>::infinity();  // to the goal, of those expanded
+  int expansions = 0;
   while (const std::optional<OpenBuckets::Entry> best = open.pop(goal_cost)) {
     if (best->cost > memory.block_of(best->voxel).cost[best->voxel % kBlockVoxels]) continue;
     if (++expansions > options.most_expansions) break;
     if (expansions % kExpansionsBetweenLooks == 0 && deadline.has_passed())
       return {SearchStatus::kTimeout, {}};
     const VoxelIndex here = esdf.layout.index_of(best->voxel);
-    const double to_goal = lattice_distance(here, target);
-    in_vain = to_goal < nearest ? 0 : in_vain + 1;
-    nearest = std::min(nearest, to_goal);
-    if (in_vain > options.most_in_vain) break;
     for (int d = 0; d < 27; ++d) {
       const VoxelIndex& o = offset_of(d);
-      const VoxelId next = esdf.layout.step(best->voxel, stride * o.x, stride * o.y, stride * o.z);
+      const VoxelId next = esdf.layout.step(best->voxel, o.x, o.y, o.z);
       if (d == kCentre || next == kNoVoxel || esdf.squared[next] < threshold ||
           !esdf.is_open(next) || (options.within != nullptr && !options.within->test(next)) ||
           !space.is_within_limits(next))
         continue;
       SearchMemory::Block& there = memory.block_of(next);
       const std::size_t place = next % kBlockVoxels;
-      const double cost =
-          best->cost + stride * kLengths[static_cast<std::size_t>(squared_length(d))];
+      const double cost = best->cost + kLengths[static_cast<std::size_t>(squared_length(d))];
       // Sums of the same steps in another order may differ in the last digit: no improvement.
       if (cost > there.cost[place] - kNoGain) continue;
-      const VoxelIndex there_index = here + VoxelIndex{stride * o.x, stride * o.y, stride * o.z};
+      const VoxelIndex there_index = here + o;
       const double to_go = lattice_distance(there_index, target);
-      if (cost + to_go > options.longest || !move_is_free(best->voxel, next, d)) continue;
+      if (cost + to_go > options.longest || !space.move_is_free(best->voxel, next, d, threshold))
+        continue;
       there.cost[place] = cost;
       there.from[place] = static_cast<Direction>(opposite(d));
       open.push(cost + options.weight * to_go, {cost, next});
     }
   }
   if (std::isinf(goal_cost)) return {SearchStatus::kNoRoute, {}};
-  return {SearchStatus::kFound, trace_back(esdf.layout, memory, start, goal, stride), goal_cost};
+  return {SearchStatus::kFound, trace_back(esdf.layout, memory, start, goal), goal_cost};
 }
 
 }  // namespace ridgeway::detail

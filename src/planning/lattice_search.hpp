@@ -22,18 +22,14 @@ struct LatticePath {
 /// How a lattice is searched. The defaults give the exact shortest path.
 struct LatticeOptions {
   const VoxelMask* within = nullptr;  ///< only voxels of this set
-  int stride = 1;                     ///< 2: moves of two voxels, taken only where clearly free
   double weight = 1.0;                ///< of the heuristic; above 1 faster, not the shortest
   double longest = std::numeric_limits<double>::infinity();  ///< paths of interest, voxels
   int most_expansions = std::numeric_limits<int>::max();
-  /// Gives up after so many of them, one after the other, of which none came nearer to the goal.
-  int most_in_vain = std::numeric_limits<int>::max();
 };
 
 /// A* over legal 26-moves between voxels that are free at a radius and within the limits, Euclidean
 /// costs, with the lattice's own distance as heuristic. Buckets instead of a heap. Start and goal
-/// must be traversable voxels, and a whole number of strides apart. Memory follows the blocks
-/// visited.
+/// must be traversable voxels. Memory follows the blocks visited.
 LatticePath search_lattice(const FreeSpace& space, VoxelId start, VoxelId goal, double radius,
                            const LatticeOptions& options, const Deadline& deadline);
 

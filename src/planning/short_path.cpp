@@ -16,12 +16,11 @@
 
 namespace ridgeway::detail {
 CellRoute path_over_cells(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query,
-                          const Attachment& attachment, double known, const Deadline& deadline) {
+                          const Attachment& attachment, const CellEffort& effort, double known,
+                          const Deadline& deadline) {
   CellQuery cells{query.start, query.goal, attachment.from, attachment.to, query.radius};
-  if (known > 0.0) {
-    cells.longest = kPlanning.as_found * known;
-    cells.most_cells = kPlanning.most_cells_again;
-  }
+  if (known > 0.0) cells.longest = kPlanning.as_found * known;
+  cells.effort = effort;
   CellRoute route = search_cells(roadmap, space, cells);
   const double longest = known > 0.0 ? known : std::numeric_limits<double>::infinity();
   route.waypoints =
@@ -44,9 +43,10 @@ Route past_what_blocks(const EsdfMap& esdf, const FreeSpace& space, const RouteQ
 }
 
 Route path_over_voxels(const EsdfMap& esdf, const FreeSpace& space, const RouteQuery& query,
-                       double length, const Deadline& deadline) {
-  const LatticeOptions options{.longest = length / esdf.voxel_size,
-                               .most_expansions = kPlanning.voxel_reach * kPlanning.voxel_reach};
+                       double length, int most_voxels, const Deadline& deadline) {
+  const LatticeOptions options{.weight = kPlanning.voxel_weight,
+                               .longest = length / esdf.voxel_size,
+                               .most_expansions = most_voxels};
   const LatticePath path =
       search_lattice(space, query.from, query.to, query.radius, options, deadline);
   if (path.status != SearchStatus::kFound) return {};

@@ -8,10 +8,10 @@
 namespace ridgeway::detail {
 
 /// Between ends that space connects: a route over the cell graph, pulled tight; empty where that
-/// graph has none. `known`: length of a path that it has to be shorter than, metres, 0 for none:
-/// then the search is a short one.
+/// graph has none. `known`: length of a path that it has to be shorter than, metres, 0 for none.
 CellRoute path_over_cells(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query,
-                          const Attachment& attachment, double known, const Deadline& deadline);
+                          const Attachment& attachment, const CellEffort& effort, double known,
+                          const Deadline& deadline);
 
 /// A route pulled tight; empty where it becomes clear that it will not be shorter than `longest`,
 /// metres.
@@ -22,10 +22,10 @@ Route shorten_below(const FreeSpace& space, Route route, double radius, double l
 Route past_what_blocks(const EsdfMap& esdf, const FreeSpace& space, const RouteQuery& query,
                        Route path, const Deadline& deadline);
 
-/// A path shorter than `length`, metres, by a search over voxels, pulled tight; empty where it
-/// finds none within its limit.
+/// A path shorter than `length`, metres, by a search over at most so many voxels, pulled tight;
+/// empty where that finds none.
 Route path_over_voxels(const EsdfMap& esdf, const FreeSpace& space, const RouteQuery& query,
-                       double length, const Deadline& deadline);
+                       double length, int most_voxels, const Deadline& deadline);
 
 /// The shortest path over voxels at any angle (search_any_angle), pulled tight; empty where time is
 /// up.

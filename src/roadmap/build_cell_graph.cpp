@@ -56,7 +56,7 @@ class CellGraphBuilder {
         16);
     parallel_for_each_index(
         count, [&](std::size_t i) { link(static_cast<CellId>(i)); }, 64);
-    number_parts();
+    parallel_for_each_index(CellGraph::kLevels, [&](std::size_t level) { number_parts(level); });
     return {std::move(cells_), {}, {}};
   }
 
@@ -141,24 +141,26 @@ class CellGraphBuilder {
     return levels;
   }
 
-  void number_parts() {
+  /// Of the edges that let a level of radii through.
+  void number_parts(std::size_t level) {
     std::vector<CellId> open;
     std::uint16_t part = 0;
+    const auto part_of = [&](CellId cell) -> std::uint16_t& { return cells_[cell].parts[level]; };
     for (CellId first = 0; first < cells_.size(); ++first) {
-      if (cells_[first].place == CellGraph::kNoPlace || cells_[first].part != CellGraph::kNoPart)
+      if (cells_[first].place == CellGraph::kNoPlace || part_of(first) != CellGraph::kNoPart)
         continue;
       if (part == CellGraph::kNoPart) return;
-      cells_[first].part = part;
+      part_of(first) = part;
       for (open.assign(1, first); !open.empty();) {
         const CellId cell = open.back();
         open.pop_back();
         for (int d = 0; d < 27; ++d) {
           if (d == kCentre) continue;
           const CellId next = lattice_.neighbour(cell, d);
-          if (next == detail::kNoCell || detail::edge_width(cells_, cell, next, d) == 0 ||
-              cells_[next].part != CellGraph::kNoPart)
+          if (next == detail::kNoCell || detail::edge_width(cells_, cell, next, d) <= level ||
+              part_of(next) != CellGraph::kNoPart)
             continue;
-          cells_[next].part = part;
+          part_of(next) = part;
           open.push_back(next);
         }
       }

@@ -13,6 +13,7 @@ namespace ridgeway::detail {
 namespace {
 
 using Middle = Eigen::Vector3f;  // voxels
+constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr float kUnreached = std::numeric_limits<float>::infinity();
 
 /// The graph of cells seen from farther away: a node for each block that has cells, in the middle
@@ -64,28 +65,23 @@ class BlockGraph {
   }
   float length(std::uint32_t rank) const { return search_.cost(rank); }
 
-  /// Of the part that has the most blocks: the one farthest from the first, and how long ways from
-  /// the first and straight lines are, summed over all.
-  struct Part {
-    std::uint32_t farthest = 0;
-    std::size_t blocks = 0;
-    double ways = 0.0, straight = 0.0;  ///< voxels
-  };
-  Part largest_part() {
+  /// Of the part that has the most blocks: the one farthest from the first; none without links.
+  std::uint32_t farthest_in_largest_part() {
     std::vector<char> is_seen(links_.size());
-    Part largest;
+    std::size_t most = 0;
+    std::uint32_t farthest = kNone;
     for (std::uint32_t rank = 0; rank < links_.size(); ++rank) {
       if (links_[rank] == 0 || is_seen[rank] != 0) continue;
-      Part part;
-      part.farthest = search_from(rank, [&](std::uint32_t reached) {
-        part.ways += length(reached);
-        part.straight += (middles_[reached] - middles_[rank]).norm();
+      std::size_t count = 0;
+      const std::uint32_t last = search_from(rank, [&](std::uint32_t reached) {
         is_seen[reached] = 1;
-        ++part.blocks;
+        ++count;
       });
-      if (part.blocks > largest.blocks) largest = part;
+      if (count <= most) continue;
+      most = count;
+      farthest = last;
     }
-    return largest;
+    return farthest;
   }
 
  private:
@@ -131,12 +127,12 @@ void place_cell_landmarks(const BlockLayout& layout, CellGraph& graph) {
   parallel_for_each_index(2, [&](std::size_t i) {
     CellGraph::Lengths& lengths = i == 0 ? graph.lengths : graph.lengths_wide;
     BlockGraph blocks(layout, graph.cells, i == 0 ? 1 : kRadiusLevels.size());
-    const BlockGraph::Part part = blocks.largest_part();
-    if (part.ways <= kPlanning.winding * part.straight) return;
+    const std::uint32_t farthest = blocks.farthest_in_largest_part();
+    if (farthest == kNone) return;
     CellGraph::Lengths::value_type nothing;
     nothing.fill(std::numeric_limits<float>::quiet_NaN());
     lengths.assign(layout.block_count(), nothing);
-    place_landmarks_from(part.farthest, blocks, lengths);
+    place_landmarks_from(farthest, blocks, lengths);
   });
 }
 

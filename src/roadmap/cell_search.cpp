@@ -103,7 +103,7 @@ class CellSearch {
     aim_at(in.joins.front().cell);
     const CellId last = search(out, in);
     CellRoute result{
-        {}, last != kNoCell, out.walked == 0 && in.walked == 0, taken_ >= query_.most_cells};
+        {}, last != kNoCell, out.walked == 0 && in.walked == 0, taken_ >= query_.effort.most_cells};
     if (last != kNoCell) result.waypoints = route_over(out, in, last);
     return result;
   }
@@ -118,6 +118,7 @@ class CellSearch {
             static_cast<float>(first.y + (place >> 2 & 3)) + 0.5f,
             static_cast<float>(first.z + (place >> 4)) + 0.5f};
   }
+  std::uint16_t part_of(CellId cell) const { return cells_[cell].parts[least_width_ - 1]; }
   Point point_of(CellId cell) const {
     return centre_of(lattice_.voxel_at(cell, cells_[cell].place), esdf_.voxel_size);
   }
@@ -130,7 +131,7 @@ class CellSearch {
     const CellId own = lattice_.cell_of(voxel_at(place, esdf_.voxel_size));
     for (int d = 0; d < 27 && own != kNoCell; ++d) {
       const CellId cell = lattice_.neighbour(own, d);
-      if (cell == kNoCell || cells_[cell].part == CellGraph::kNoPart) continue;
+      if (cell == kNoCell || part_of(cell) == CellGraph::kNoPart) continue;
       const double length = (point_of(cell) - place).norm() / esdf_.voxel_size;
       approach.joins.push_back({cell, static_cast<float>(length)});
     }
@@ -159,7 +160,7 @@ class CellSearch {
   bool have_common_part(Approach& a, Approach& b) const {
     for (Approach::Join& x : a.joins)
       for (Approach::Join& y : b.joins)
-        if (cells_[x.cell].part == cells_[y.cell].part && sees(a, x) && sees(b, y)) return true;
+        if (part_of(x.cell) == part_of(y.cell) && sees(a, x) && sees(b, y)) return true;
     return false;
   }
 
@@ -190,7 +191,7 @@ class CellSearch {
   void reach(CellId cell, float cost, CellId from, float rest, MetCells::Met& met) {
     met.cost = cost;
     met.from = from;
-    open_.push({cost + static_cast<float>(kPlanning.cell_weight) * rest, cost, cell});
+    open_.push({cost + static_cast<float>(query_.effort.weight) * rest, cost, cell});
   }
 
   /// The last cell of the best route found, or kNoCell.
@@ -202,7 +203,7 @@ class CellSearch {
       }
     float best = longest_;
     CellId best_last = kNoCell;
-    for (; !open_.empty() && taken_ < query_.most_cells; ++taken_) {
+    for (; !open_.empty() && taken_ < query_.effort.most_cells; ++taken_) {
       const Open next = open_.top();
       open_.pop();
       if (best_last != kNoCell && next.estimate >= best) break;
@@ -276,15 +277,16 @@ class CellSearch {
 
 }  // namespace
 
-double length_between(const Roadmap& roadmap, VoxelId a, VoxelId b) {
-  const CellGraph::Lengths& lengths = roadmap.cells.lengths;
+double length_between(const Roadmap& roadmap, VoxelId a, VoxelId b, double radius) {
+  const CellGraph::Lengths& lengths = lengths_for(roadmap.cells, radius / roadmap.min_clearance);
   if (lengths.empty()) return 0.0;
   const auto& from = lengths[roadmap.esdf.layout.rank(a / kBlockVoxels)];
   const auto& to = lengths[roadmap.esdf.layout.rank(b / kBlockVoxels)];
   float length = 0.0f;
   for (std::size_t k = 0; k < from.size(); ++k)  // what is no number does not count
     length = std::max(length, std::abs(from[k] - to[k]));
-  return kPlanning.landmark_share * length * roadmap.esdf.voxel_size;
+  // Between the middles of two blocks: the ends may be nearer to each other.
+  return kPlanning.landmark_share * std::max(length - kBlockSide, 0.0f) * roadmap.esdf.voxel_size;
 }
 
 CellRoute search_cells(const Roadmap& roadmap, const FreeSpace& space, const CellQuery& query) {

@@ -18,7 +18,7 @@ struct CellQuery {
   const AttachWay& to;
   double radius;
   double longest = std::numeric_limits<double>::infinity();  ///< routes of interest, metres
-  int most_cells = kPlanning.most_cells;                     ///< taken before the search gives up
+  CellEffort effort = kPlanning.cell_efforts.back();
 };
 
 /// A route over cells.
@@ -37,6 +37,6 @@ CellRoute search_cells(const Roadmap& roadmap, const FreeSpace& space, const Cel
 
 /// About how long a way between two places is at least, metres, by the landmarks of the cell graph:
 /// an estimate at no cost, not a bound. 0 where they say nothing.
-double length_between(const Roadmap& roadmap, VoxelId a, VoxelId b);
+double length_between(const Roadmap& roadmap, VoxelId a, VoxelId b, double radius);
 
 }  // namespace ridgeway::detail

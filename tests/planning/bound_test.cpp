@@ -131,7 +131,7 @@ TEST(Within, LandmarksForetellHowLongWindingWaysAre) {
     };
     const PlanResult exact = plan(roadmap, place(from), place(to), {.planner = Planner::kEsdf});
     ASSERT_TRUE(exact.ok());
-    const double expected = detail::length_between(roadmap, from, to);
+    const double expected = detail::length_between(roadmap, from, to, kRadius);
     // Each end may be half a block's diagonal away from the middle of its block's cells.
     EXPECT_LE(expected, 1.05 * exact.length + std::sqrt(3.0) * kBlockSide * kVoxel);
     if (exact.length < 1.5 * (place(from) - place(to)).norm()) continue;

@@ -50,7 +50,8 @@ TEST(CellGraph, EveryPlaceAndEdgeKeepsItsClearance) {
         const std::size_t width = detail::edge_width(cells, cell, next, d);
         if (width == 0) continue;
         ++edges;
-        EXPECT_EQ(cells[cell].part, cells[next].part);
+        for (std::size_t level = 0; level < width; ++level)
+          EXPECT_EQ(cells[cell].parts[level], cells[next].parts[level]);
         EXPECT_GE(space.clearance(place(cell), place(next)) * (1.0 + 1e-6),
                   kClearance * detail::kRadiusLevels[width - 1]);
       }
@@ -65,7 +66,7 @@ TEST(CellGraph, IsTheSameForAnyNumberOfThreads) {
   const std::vector<CellGraph::Cell> one = with_threads(1, run), two = with_threads(2, run);
   EXPECT_TRUE(std::equal(one.begin(), one.end(), two.begin(), two.end(),
                          [](const CellGraph::Cell& a, const CellGraph::Cell& b) {
-                           return a.place == b.place && a.widths == b.widths && a.part == b.part;
+                           return a.place == b.place && a.widths == b.widths && a.parts == b.parts;
                          }));
 }
 

@@ -45,20 +45,21 @@ struct CellGraph {
   static constexpr int kPerBlock = 8;  ///< cells
   static constexpr std::uint8_t kNoPlace = 64;
   static constexpr std::uint16_t kNoPart = 0xffff;  ///< no part, or one of too many
+  static constexpr std::size_t kLevels = 4;  ///< of radii: 1, 1.25, 1.5 and 2 times the smallest
 
   struct Cell {
     std::uint8_t place = kNoPlace;  ///< the voxel in the cell, x fastest
-    /// How wide a robot passes the edges in the directions 14 to 26 (voxel/neighbourhood.hpp): one
-    /// of 1, 1.25, 1.5 or 2 times the smallest radius from 1, 2, 3 or 4 on; 0: no edge. The cell
-    /// beyond has those of the others.
+    /// How many of the radii the edges in the directions 14 to 26 (voxel/neighbourhood.hpp) let
+    /// through; 0: no edge. The cell beyond has those of the others.
     std::array<std::uint8_t, 13> widths{};
-    std::uint16_t part = kNoPart;  ///< connected part of this graph
+    /// Connected parts of this graph, of the edges that let each of these radii through.
+    std::array<std::uint16_t, kLevels> parts{kNoPart, kNoPart, kNoPart, kNoPart};
   };
   std::vector<Cell> cells;  ///< by block in order (BlockLayout::rank), then x, y, z in the block
 
   /// Lengths of ways from landmarks to each block, voxels, about: the way between two blocks is
   /// hardly shorter than the difference. By block in order; no number where no
-  /// way leads. Empty where ways are hardly longer than straight lines.
+  /// way leads. Empty where no cells of two blocks are linked.
   static constexpr std::size_t kLandmarks = 3;
   using Lengths = std::vector<std::array<float, kLandmarks>>;
   Lengths lengths;       ///< over all edges
