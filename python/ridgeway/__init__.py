@@ -16,4 +16,13 @@ TypeError; that there is no route is an answer (`path.status`, `path.reason`), n
 
 from ridgeway._core import *  # noqa: F401,F403
 from ridgeway._core import __version__
-from ridgeway._values import FREE, OCCUPIED, UNKNOWN, Cancelled, Grid, InputError
+from ridgeway._values import (
+    FREE,
+    OCCUPIED,
+    UNKNOWN,
+    Cancelled,
+    Grid,
+    InputError,
+    Surface,
+    TrajectorySamples,
+)

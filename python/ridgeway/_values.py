@@ -40,3 +40,31 @@ FREE = np.uint8(1)
 """State of a voxel that is known to be free."""
 OCCUPIED = np.uint8(2)
 """State of a voxel that is known to be occupied."""
+
+
+class TrajectorySamples(NamedTuple):
+    """A trajectory at N times."""
+
+    time: np.ndarray
+    """(N,), seconds from the start."""
+    position: np.ndarray
+    """(N, 3), metres, world frame."""
+    velocity: np.ndarray
+    """(N, 3), metres a second."""
+    acceleration: np.ndarray
+    """(N, 3), metres a second^2."""
+    yaw: np.ndarray
+    """(N,), radians, never jumps."""
+    yaw_rate: np.ndarray
+    """(N,), radians a second."""
+
+
+class Surface(NamedTuple):
+    """A surface as triangles, their fronts towards free space."""
+
+    vertices: np.ndarray
+    """(N, 3), metres, world frame."""
+    normals: np.ndarray
+    """(N, 3), of length one, towards free space."""
+    triangles: np.ndarray
+    """(M, 3) uint32: places in `vertices`."""

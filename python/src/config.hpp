@@ -9,6 +9,7 @@
 
 #include "convert.hpp"
 #include "ridgeway/esdf/esdf.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/load_map.hpp"
 #include "ridgeway/live/live_roadmap.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"

@@ -149,7 +149,6 @@ const Fields<TrajectoryConfig>& trajectory_fields() {
   using Config = TrajectoryConfig;
   static const Fields<Config> fields =
       Fields<Config>()
-          .add("radius", &Config::radius, "of the robot, metres")
           .add(&Config::limits, "max_speed", &MotionLimits::max_speed, "metres a second")
           .add(&Config::limits, "max_acceleration", &MotionLimits::max_acceleration,
                "metres a second^2")

@@ -160,6 +160,7 @@ Alternatives alternatives(const RoadmapFace& face, py::handle start, py::handle 
   const Point from = point_from(start, "start"), to = point_from(goal, "goal");
   int routes = 0;
   read(count, "count", routes);
+  if (routes == 0) throw InputError("count", "is 0", "ask for at least one route");
   const py::gil_scoped_release release;
   return plan_alternatives(*face.roadmap, from, to, static_cast<std::size_t>(routes), config);
 }
