@@ -14,6 +14,9 @@ are indexed [x, y, z]. What is wrong with an argument is said by InputError (a V
 TypeError; that there is no route is an answer (`path.status`, `path.reason`), no error.
 """
 
+import os as _os
+
+from ridgeway import _core
 from ridgeway._core import *  # noqa: F401,F403
 from ridgeway._core import __version__
 from ridgeway._values import (
@@ -26,3 +29,12 @@ from ridgeway._values import (
     Surface,
     TrajectorySamples,
 )
+
+__all__ = [name for name in vars(_core) if not name.startswith("_")]
+__all__ += ["FREE", "OCCUPIED", "UNKNOWN", "Grid", "Surface", "TrajectorySamples", "__version__"]
+
+# The program that reads meshes comes with the package where pip installed it.
+_reader = _os.path.join(_os.path.dirname(__file__), "ridgeway-mesh-reader")
+if _os.access(_reader, _os.X_OK):
+    _os.environ.setdefault("RIDGEWAY_MESH_READER", _reader)
+del _reader

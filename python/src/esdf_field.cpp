@@ -167,7 +167,7 @@ void add_limits(py::module_& module) {
       "Where the robot's centre may be, boxes ((x0, y0, z0), (x1, y1, z1)), metres, world: in "
       "`keep_in`,\nand in none of `keep_out`. No distance to them is kept.")
       .def(py::init(&make_limits), py::arg("keep_in") = py::none(),
-           py::arg("keep_out") = py::make_tuple())
+           py::arg("keep_out") = py::make_tuple(), "__init__(self, keep_in=None, keep_out=())\n--\n\n")
       .def_property_readonly("keep_in",
                              [](const FlightLimits& limits) { return tuple_of(limits.keep_in); },
                              "A box, infinite where nothing limits.")
@@ -187,25 +187,25 @@ void add_fields(py::module_& module) {
                        "Exact Euclidean distances from voxel centres to the nearest obstacle's "
                        "cube.")
       .def("distances", &distances, py::arg("bounds") = py::none(),
-           "distances($self, bounds=None)\n--\n\n"
+           "distances(self, bounds=None)\n--\n\n"
            "Distances at voxel centres as a Grid of float32, (nx, ny, nz), metres: 0 in obstacles, "
            "inf where none is\nnear; outside of the map 0, or NaN where unknown space is no "
            "obstacle. For looking at and for costs:\n`is_free` decides what is safe.")
       .def("states", &states, py::arg("bounds") = py::none(),
-           "states($self, bounds=None)\n--\n\nStates as a Grid of uint8, (nx, ny, nz).")
+           "states(self, bounds=None)\n--\n\nStates as a Grid of uint8, (nx, ny, nz).")
       .def("distance_at", &distance_at, py::arg("points"), py::arg("deepest") = 1.0,
-           "distance_at($self, points, deepest=1.0)\n--\n\n"
+           "distance_at(self, points, deepest=1.0)\n--\n\n"
            "Interpolated signed distances (N,), metres, and their gradients (N, 3), at points "
            "(N, 3), world; NaN\nwhere nothing was seen. Negative in obstacles, down to -deepest.")
       .def("is_free", &is_free, py::arg("points"), py::arg("radius"),
-           "is_free($self, points, radius)\n--\n\n"
+           "is_free(self, points, radius)\n--\n\n"
            "Whether a sphere (radius in metres) fits at points (N, 3), world: (N,) bool, exact.")
       .def("path_is_free", &path_is_free, py::arg("path"), py::arg("radius"),
-           "path_is_free($self, path, radius)\n--\n\n"
+           "path_is_free(self, path, radius)\n--\n\n"
            "Whether a sphere (radius in metres) can move along straight segments (N, 3), world: "
            "exact.")
       .def("clearance", &clearance, py::arg("path"),
-           "clearance($self, path)\n--\n\n"
+           "clearance(self, path)\n--\n\n"
            "Smallest distance to an obstacle along straight segments (N, 3), metres, exact.")
       .def_property_readonly("voxel_size",
                              [](const EsdfFace& face) { return face.esdf->voxel_size; }, "Metres.")
@@ -244,7 +244,7 @@ void add_fields(py::module_& module) {
                                              self);
           },
           py::arg("slot"),
-          "block($self, slot)\n--\n\n"
+          "block(self, slot)\n--\n\n"
           "One block of `block_squared`, (8, 8, 8) uint32: the map's memory, always.")
       .def("__repr__", &repr);
 

@@ -152,7 +152,7 @@ void add_flights(py::module_& module) {
                              "Of the pieces, (S, 4, 10): x, y, z (metres), yaw (radians) by powers "
                              "of t (seconds).")
       .def("sample", &sample, py::arg("step") = 0.05,
-           "sample($self, step=0.05)\n--\n\nStates every `step` seconds, and at the end, as "
+           "sample(self, step=0.05)\n--\n\nStates every `step` seconds, and at the end, as "
            "TrajectorySamples.")
       .def(
           "save",
@@ -162,13 +162,13 @@ void add_flights(py::module_& module) {
                              number_from(step, "step"));
           },
           py::arg("path"), py::arg("step") = 0.05,
-          "save($self, path, step=0.05)\n--\n\nAs .csv, .json, or .yaml (polynomials).")
+          "save(self, path, step=0.05)\n--\n\nAs .csv, .json, or .yaml (polynomials).")
       .def("__repr__", &repr);
 }
 
 void add_trajectories(py::class_<RoadmapFace>& type) {
   type.def("trajectory", &fly, py::arg("path"), py::arg("radius") = py::none(),
-           ("trajectory($self, path, radius=None, *, " + trajectory_fields().signature().substr(2) +
+           ("trajectory(self, path, radius=None, *, " + trajectory_fields().signature().substr(2) +
             ")\n--\n\nA verified Trajectory along a path: a PlanResult, or points (N, 3), metres, "
             "world.\n\n  radius: of the robot, metres; None: the roadmap's" +
             trajectory_fields().docs())

@@ -95,9 +95,9 @@ void add_tsdf(py::module_& module) {
             const py::gil_scoped_release release;
             return face_of(occupancy_of(*face.tsdf));
           },
-          "occupancy($self)\n--\n\n"
+          "occupancy(self)\n--\n\n"
           "The OccupancyMap: occupied behind surfaces, free before them, unknown where never seen.")
-      .def("surface", &surface, "surface($self)\n--\n\nThe zero level as triangles, a Surface.")
+      .def("surface", &surface, "surface(self)\n--\n\nThe zero level as triangles, a Surface.")
       .def(
           "save",
           [](const TsdfFace& face, py::handle path, py::handle source) {
@@ -107,7 +107,7 @@ void add_tsdf(py::module_& module) {
             save_tsdf(*face.tsdf, text, file);
           },
           py::arg("path"), py::arg("source") = "",
-          "save($self, path, source='')\n--\n\nWrites a .ridge file that build and load_map read.")
+          "save(self, path, source='')\n--\n\nWrites a .ridge file that build and load_map read.")
       .def("__repr__", [](const TsdfFace& face) {
         return "TsdfMap(voxel_size=" + literal(face.tsdf->voxel_size) +
                ", blocks=" + std::to_string(face.tsdf->layout.block_count()) + ")";
@@ -145,19 +145,20 @@ void add_fusion(py::module_& module) {
                           fusion_fields().docs())
                              .c_str())
       .def(py::init([](const py::kwargs& keywords) {
-        return std::make_unique<FusionFace>(fusion_fields().read_all(keywords));
-      }))
+             return std::make_unique<FusionFace>(fusion_fields().read_all(keywords));
+           }),
+           ("__init__(self, *, " + signature + ")\n--\n\n").c_str())
       .def("integrate_depth", &FusionFace::integrate_depth, py::arg("image"), py::arg("camera"),
            py::arg("T_world_camera"),
-           "integrate_depth($self, image, camera, T_world_camera)\n--\n\n"
+           "integrate_depth(self, image, camera, T_world_camera)\n--\n\n"
            "Depths along the optical axis (H, W), metres, 0 or NaN where nothing was measured; a "
            "PinholeCamera;\nits pose (4, 4). Where it throws, the map is as before.")
       .def("integrate_points", &FusionFace::integrate_points, py::arg("points"),
            py::arg("T_world_sensor"),
-           "integrate_points($self, points, T_world_sensor)\n--\n\n"
+           "integrate_points(self, points, T_world_sensor)\n--\n\n"
            "Points (N, 3) in the sensor's frame, metres, and its pose (4, 4). Those not finite are "
            "passed over.")
-      .def("map", &FusionFace::map, "map($self)\n--\n\nAll that was fused so far, a TsdfMap.")
+      .def("map", &FusionFace::map, "map(self)\n--\n\nAll that was fused so far, a TsdfMap.")
       .def("__len__", &FusionFace::frames)
       .def("__repr__", [](const FusionFace& face) {
         return "TsdfFusion(" + std::to_string(face.frames()) + " measurements)";

@@ -100,7 +100,7 @@ void add_graph(py::module_& module) {
                              [](const GraphFace& face) { return face.graph->min_clearance; },
                              "Of every edge, metres.")
       .def("to_networkx", &to_networkx,
-           "to_networkx($self)\n--\n\n"
+           "to_networkx(self)\n--\n\n"
            "As networkx.Graph: nodes with `pos` and `clearance`, edges with `length` and "
            "`clearance`, metres.")
       .def("__repr__", &repr);

@@ -149,7 +149,7 @@ void add_deltas(py::module_& module) {
             return may_be_invalid(points_from(path, "path"), number_from(radius, "radius"), delta);
           },
           py::arg("path"), py::arg("radius"),
-          "may_invalidate($self, path, radius)\n--\n\n"
+          "may_invalidate(self, path, radius)\n--\n\n"
           "Whether a path (N, 3) that was free may not be so any more; False is certain. Then ask\n"
           "EsdfMap.path_is_free of the new snapshot.")
       .def("__repr__", [](const GraphDelta& delta) {
@@ -181,36 +181,37 @@ void add_live(py::module_& module) {
        live_fields().docs())
           .c_str())
       .def(py::init([](const py::kwargs& keywords) {
-        return std::make_unique<LiveFace>(live_fields().read_all(keywords));
-      }))
+             return std::make_unique<LiveFace>(live_fields().read_all(keywords));
+           }),
+           ("__init__(self, *, " + signature + ")\n--\n\n").c_str())
       .def("integrate_depth", &LiveFace::integrate_depth, py::arg("image"), py::arg("camera"),
            py::arg("T_world_camera"),
-           "integrate_depth($self, image, camera, T_world_camera)\n--\n\n"
+           "integrate_depth(self, image, camera, T_world_camera)\n--\n\n"
            "Depths along the optical axis (H, W), metres, 0 or NaN where nothing was measured; a "
            "PinholeCamera;\nits pose (4, 4).")
       .def("integrate_points", &LiveFace::integrate_points, py::arg("points"),
            py::arg("T_world_sensor"),
-           "integrate_points($self, points, T_world_sensor)\n--\n\n"
+           "integrate_points(self, points, T_world_sensor)\n--\n\n"
            "Points (N, 3) in the sensor's frame, metres, and its pose (4, 4).")
       .def("set_voxels", &LiveFace::set_voxels, py::arg("voxels"), py::arg("states"),
-           "set_voxels($self, voxels, states)\n--\n\n"
+           "set_voxels(self, voxels, states)\n--\n\n"
            "Voxels of the lattice (N, 3), whole numbers (v holds the points from v * voxel_size to "
            "(v + 1) *\nvoxel_size), and the states (N,), or one, that they now have.")
       .def("correct_poses", &LiveFace::correct_poses, py::arg("poses"),
-           "correct_poses($self, poses)\n--\n\n"
+           "correct_poses(self, poses)\n--\n\n"
            "Fuses frames again with other poses: {frame, counted from 1: (4, 4)}. Needs "
            "log_folder.")
       .def("catch_up", &LiveFace::catch_up,
-           "catch_up($self)\n--\n\nFollows what waits outside of the window.")
+           "catch_up(self)\n--\n\nFollows what waits outside of the window.")
       .def("snapshot", &LiveFace::snapshot,
-           "snapshot($self)\n--\n\n"
+           "snapshot(self)\n--\n\n"
            "The Roadmap after the last update, which stays as it is; None while nothing is "
            "traversable.")
       .def("settled", &LiveFace::settled,
-           "settled($self)\n--\n\n"
+           "settled(self)\n--\n\n"
            "The same with shortcuts around corners, which takes as long as many updates.")
       .def("map", &LiveFace::map,
-           "map($self)\n--\n\nThe OccupancyMap after the last update.")
+           "map(self)\n--\n\nThe OccupancyMap after the last update.")
       .def("__repr__", [](const LiveFace& face) {
         const py::object snapshot = face.snapshot();
         return "LiveRoadmap(snapshot=" + std::string(py::repr(snapshot)) + ")";

@@ -108,7 +108,7 @@ void add_edits(py::class_<MapFace>& type) {
         return edited(face, [&](const OccupancyMap& map) { return resample(map, size); });
       },
       py::arg("voxel_size"),
-      "resampled($self, voxel_size)\n--\n\n"
+      "resampled(self, voxel_size)\n--\n\n"
       "The same space at a coarser voxel size (metres), without ever losing an obstacle.");
   type.def(
       "cropped",
@@ -117,7 +117,7 @@ void add_edits(py::class_<MapFace>& type) {
         return edited(face, [&](const OccupancyMap& map) { return crop(map, box); });
       },
       py::arg("bounds"),
-      "cropped($self, bounds)\n--\n\n"
+      "cropped(self, bounds)\n--\n\n"
       "What lies inside ((x0, y0, z0), (x1, y1, z1)), metres; all else becomes unknown.");
   type.def(
       "with_no_fly",
@@ -127,7 +127,7 @@ void add_edits(py::class_<MapFace>& type) {
         return edited(face, [&](const OccupancyMap& map) { return add_no_fly(map, all); });
       },
       py::arg("boxes"),
-      "with_no_fly($self, boxes)\n--\n\n"
+      "with_no_fly(self, boxes)\n--\n\n"
       "With every voxel that shares volume with one of the boxes occupied.");
   type.def(
       "without_isolated",
@@ -137,7 +137,7 @@ void add_edits(py::class_<MapFace>& type) {
         return edited(face, [&](const OccupancyMap& map) { return remove_isolated(map, least); });
       },
       py::arg("min_cluster"),
-      "without_isolated($self, min_cluster)\n--\n\n"
+      "without_isolated(self, min_cluster)\n--\n\n"
       "With clusters of fewer occupied voxels free: for noise. Removes small real obstacles too.");
   type.def(
       "flattened",
@@ -146,7 +146,7 @@ void add_edits(py::class_<MapFace>& type) {
         return edited(face, [&](const OccupancyMap& map) { return flatten(map, from, to); });
       },
       py::arg("low"), py::arg("high"),
-      "flattened($self, low, high)\n--\n\n"
+      "flattened(self, low, high)\n--\n\n"
       "The map of a robot that stays in a plane: one layer of what is between the heights, metres.");
   type.def(
       "transformed",
@@ -158,7 +158,7 @@ void add_edits(py::class_<MapFace>& type) {
                       [&](const OccupancyMap& map) { return transform_map(map, motion, size); });
       },
       py::arg("transform"), py::arg("voxel_size") = py::none(),
-      "transformed($self, transform, voxel_size=None)\n--\n\n"
+      "transformed(self, transform, voxel_size=None)\n--\n\n"
       "Moved by a (4, 4) matrix. No obstacle is lost: they and the unknown grow by up to a voxel's "
       "diagonal.");
 }
@@ -206,11 +206,11 @@ void add_maps(py::module_& module) {
                   "others wholly inside\n`bounds` free. Points that are not finite are passed "
                   "over. `transform`: (4, 4) from cloud to world.");
   type.def("to_numpy", &to_numpy, py::arg("bounds") = py::none(),
-           "to_numpy($self, bounds=None)\n--\n\n"
+           "to_numpy(self, bounds=None)\n--\n\n"
            "States as a Grid of uint8, (nx, ny, nz): of all that is known, or in "
            "((x0, y0, z0), (x1, y1, z1)).\n`from_numpy(*map.to_numpy())` is the map again.");
   type.def("state_at", &state_at, py::arg("points"),
-           "state_at($self, points)\n--\n\n"
+           "state_at(self, points)\n--\n\n"
            "States of the voxels that hold points (N, 3), world: (N,) uint8.");
   type.def_property_readonly(
       "voxel_size", [](const MapFace& face) { return face.map->voxel_size; }, "Metres.");

@@ -9,6 +9,7 @@
 
 #include "config.hpp"
 #include "long_call.hpp"
+#include "ridgeway/formats/path_io.hpp"
 #include "ridgeway/planning/alternatives.hpp"
 #include "ridgeway/planning/blocked_route.hpp"
 #include "ridgeway/planning/many_goals.hpp"
@@ -225,6 +226,10 @@ void add_results(py::module_& module) {
       .def_property_readonly(
           "moved_goal", [](const PlanResult& plan) { return plan.moved_goal.distance; },
           "How far the goal was moved (snap), metres.")
+      .def(
+          "save",
+          [](const PlanResult& plan, py::handle path) { write_plan(plan, path_from(path, "path")); },
+          py::arg("path"), "save(self, path)\n--\n\nAs .csv or .json, as the command line does.")
       .def("__repr__", &repr);
 
   py::class_<Alternatives>(module, "Alternatives",
@@ -282,44 +287,44 @@ void add_queries(py::class_<RoadmapFace>& type) {
   const std::string fields = plan_fields().signature(), docs = plan_fields().docs();
   const std::string keywords = ", *, " + fields.substr(2);
   type.def("plan", &plan_one, py::arg("start"), py::arg("goal"),
-           ("plan($self, start, goal" + keywords +
+           ("plan(self, start, goal" + keywords +
             ")\n--\n\nThe path from start to goal, (x, y, z), metres, world: a PlanResult. Every "
             "segment is verified.\n" +
             docs)
                .c_str());
   type.def("plan_many", &plan_many, py::arg("starts"), py::arg("goals"), py::kw_only(),
            py::arg("threads") = 0,
-           ("plan_many($self, starts, goals, *, threads=0" + fields +
+           ("plan_many(self, starts, goals, *, threads=0" + fields +
             ")\n--\n\nThe paths from each start to each goal, (N, 3), or one of either for all: a "
             "list of PlanResult,\nthe same as `plan` gives. On so many threads (0: all). Ctrl-C "
             "stops it.\n" +
             docs)
                .c_str());
   type.def("plan_nearest", &plan_nearest, py::arg("start"), py::arg("goals"),
-           ("plan_nearest($self, start, goals" + keywords +
+           ("plan_nearest(self, start, goals" + keywords +
             ")\n--\n\nThe nearest of goals (N, 3): its index (None where none can be reached) and "
             "its PlanResult.\n" +
             docs)
                .c_str());
   type.def("plan_via", &plan_over, py::arg("places"),
-           ("plan_via($self, places" + keywords +
+           ("plan_via(self, places" + keywords +
             ")\n--\n\nA path over places (N, 3): a PlanResult, and the leg that has none, or "
             "None.\n" +
             docs)
                .c_str());
   type.def("alternatives", &alternatives, py::arg("start"), py::arg("goal"), py::arg("count") = 3,
-           ("alternatives($self, start, goal, count=3" + keywords +
+           ("alternatives(self, start, goal, count=3" + keywords +
             ")\n--\n\nUp to `count` routes on different sides of obstacles, as Alternatives.\n" +
             docs)
                .c_str());
   type.def("distances", &distances, py::arg("start"), py::arg("goals"),
            py::arg("radius") = py::none(),
-           "distances($self, start, goals, radius=None)\n--\n\n"
+           "distances(self, start, goals, radius=None)\n--\n\n"
            "Lengths along the graph from start to goals (N, 3): (N,), metres; inf where it has no "
            "way.");
   type.def("explain", &explain, py::arg("start"), py::arg("goal"), py::arg("radius") = py::none(),
            py::arg("limits") = py::none(),
-           "explain($self, start, goal, radius=None, limits=None)\n--\n\n"
+           "explain(self, start, goal, radius=None, limits=None)\n--\n\n"
            "Why there is no route at a radius (metres), as BlockedRoute: at which there would be "
            "one, and where it\nis too narrow. None where start or goal themselves are no place to "
            "be. Takes longer than a plan.");

@@ -201,7 +201,7 @@ void add_roadmap(py::module_& module) {
   add_queries(type);
   add_trajectories(type);
   type.def("save", &save, py::arg("path"),
-           "save($self, path)\n--\n\n"
+           "save(self, path)\n--\n\n"
            "Writes a .ridge file, whole or not at all. The same roadmap gives the same bytes.")
       .def(
           "export_graph",
@@ -211,14 +211,14 @@ void add_roadmap(py::module_& module) {
             write_graph(*face.roadmap, file);
           },
           py::arg("path"),
-          "export_graph($self, path)\n--\n\nWrites the graph as .json, .graphml or .ply.")
+          "export_graph(self, path)\n--\n\nWrites the graph as .json, .graphml or .ply.")
       .def("components", &components_of,
-           "components($self)\n--\n\n"
+           "components(self)\n--\n\n"
            "Connected parts of traversable space, largest first: dicts of voxels, volume (m^3), "
            "widest (place)\nand clearance (there, metres). Takes about as long as a build's half.")
       .def("check", &check, py::arg("queries") = 0, py::arg("seed") = 1,
            py::arg("progress") = py::none(),
-           "check($self, queries=0, seed=1, progress=None)\n--\n\n"
+           "check(self, queries=0, seed=1, progress=None)\n--\n\n"
            "Verifies every edge, and random queries against A* through the distance field: a dict "
            "of counts;\n`clean` says that nothing was wrong.")
       .def("__repr__", &repr);

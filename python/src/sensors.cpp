@@ -80,11 +80,11 @@ void add_world(py::module_& module) {
             return face_of(occupancy_of(world, size, box), world.name);
           },
           py::arg("voxel_size"), py::arg("bounds"),
-          "occupancy($self, voxel_size, bounds)\n--\n\n"
+          "occupancy(self, voxel_size, bounds)\n--\n\n"
           "The OccupancyMap of who knows all of the world within a box, metres.")
       .def("render_depth", &render, py::arg("camera"), py::arg("T_world_camera"),
            py::arg("max_range") = 10.0, py::arg("range_sigma") = 0.0, py::arg("seed") = 0,
-           "render_depth($self, camera, T_world_camera, max_range=10.0, range_sigma=0.0, seed=0)"
+           "render_depth(self, camera, T_world_camera, max_range=10.0, range_sigma=0.0, seed=0)"
            "\n--\n\nWhat a depth camera sees from a pose (4, 4): (H, W) float32, metres, 0 where "
            "nothing is near.")
       .def("__repr__", [](const World& world) {
@@ -128,7 +128,8 @@ void add_sensors(py::module_& module) {
       "forward.")
       .def(py::init(&make_camera), py::arg("width") = 320, py::arg("height") = 240,
            py::arg("fx") = 160.0, py::arg("fy") = 160.0, py::arg("cx") = 159.5,
-           py::arg("cy") = 119.5)
+           py::arg("cy") = 119.5,
+           "__init__(self, width=320, height=240, fx=160.0, fy=160.0, cx=159.5, cy=119.5)\n--\n\n")
       .def_readonly("width", &PinholeCamera::width)
       .def_readonly("height", &PinholeCamera::height)
       .def_readonly("fx", &PinholeCamera::fx)

@@ -89,7 +89,7 @@ void add_mask(py::module_& module) {
       .def_property_readonly("distances", &distances_of,
                              "Their distances to the nearest obstacle, (N,), metres.")
       .def("to_numpy", &dense_mask, py::arg("bounds") = py::none(),
-           "to_numpy($self, bounds=None)\n--\n\nAs a Grid of bool, (nx, ny, nz).")
+           "to_numpy(self, bounds=None)\n--\n\nAs a Grid of bool, (nx, ny, nz).")
       .def("__eq__",
            [](const MaskFace& a, const MaskFace& b) {
              return a.esdf->layout == b.esdf->layout && *a.mask == *b.mask;
