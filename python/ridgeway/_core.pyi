@@ -65,6 +65,7 @@ class OccupancyMap:
     ) -> OccupancyMap: ...
 
 class FlightLimits:
+    def __init__(self, keep_in: Optional[_Box] = ..., keep_out: Iterable[_Box] = ...) -> None: ...
     @property
     def keep_in(self) -> Tuple[_Triple, _Triple]: ...
     @property
@@ -368,6 +369,15 @@ class Trajectory:
     def __repr__(self) -> str: ...
 
 class PinholeCamera:
+    def __init__(
+        self,
+        width: int = ...,
+        height: int = ...,
+        fx: float = ...,
+        fy: float = ...,
+        cx: float = ...,
+        cy: float = ...,
+    ) -> None: ...
     @property
     def width(self) -> int: ...
     @property
@@ -424,6 +434,21 @@ class TsdfMap:
     def __repr__(self) -> str: ...
 
 class TsdfFusion:
+    def __init__(
+        self,
+        *,
+        voxel_size: float = ...,
+        truncation: float = ...,
+        depth_behind: float = ...,
+        min_range: float = ...,
+        max_range: float = ...,
+        carve: bool = ...,
+        max_weight: float = ...,
+        forget_after: int = ...,
+        clear_radius: float = ...,
+        integrator: str = ...,
+        origin: Optional[_Point] = ...,
+    ) -> None: ...
     def integrate_depth(
         self,
         image: ArrayLike,
@@ -444,6 +469,37 @@ class GraphDelta:
     def __repr__(self) -> str: ...
 
 class LiveRoadmap:
+    def __init__(
+        self,
+        *,
+        voxel_size: float = ...,
+        truncation: float = ...,
+        depth_behind: float = ...,
+        min_range: float = ...,
+        max_range: float = ...,
+        carve: bool = ...,
+        max_weight: float = ...,
+        forget_after: int = ...,
+        clear_radius: float = ...,
+        integrator: str = ...,
+        min_clearance: float = ...,
+        unknown: str = ...,
+        max_distance: float = ...,
+        limits: Optional[FlightLimits] = ...,
+        theta: float = ...,
+        least_apart: float = ...,
+        prune_radius: float = ...,
+        split_deviation: float = ...,
+        significance: float = ...,
+        simplify: bool = ...,
+        tangent_pairs: int = ...,
+        basis_point_edges: bool = ...,
+        paper_diagram: bool = ...,
+        origin: Optional[_Point] = ...,
+        window: float = ...,
+        log_folder: _Path = ...,
+        log_bytes: int = ...,
+    ) -> None: ...
     def integrate_depth(
         self,
         image: ArrayLike,

@@ -21,8 +21,6 @@ def floor_plan(roadmap, *paths, height=None, graph=True, axes=None):
     """
     import matplotlib.pyplot as plt
 
-    if axes is None:
-        _, axes = plt.subplots(figsize=(9, 6), layout="constrained")
     states = roadmap.esdf.states()
     size, low = states.voxel_size, np.array(states.origin)
     if height is None:
@@ -37,6 +35,9 @@ def floor_plan(roadmap, *paths, height=None, graph=True, axes=None):
     shades[shown == FREE] = 1.0
     shades[shown == OCCUPIED] = 0.25
     high = low + size * np.array(states.values.shape)
+    if axes is None:
+        wide, deep = high[:2] - low[:2]
+        _, axes = plt.subplots(figsize=(9, np.clip(9 * deep / wide + 0.8, 3, 12)), layout="constrained")
     axes.imshow(
         shades.transpose(1, 0, 2), origin="lower", extent=(low[0], high[0], low[1], high[1])
     )
