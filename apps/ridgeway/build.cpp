@@ -65,8 +65,7 @@ BuildConfig build_config(const BuildOptions& options) {
 }
 
 /// Everything that shapes the roadmap, as it is kept in the file.
-std::string config_text(const BuildOptions& options, const BuildConfig& build,
-                        double voxel_size) {
+std::string config_text(const BuildOptions& options, const BuildConfig& build, double voxel_size) {
   Json json = build_record(build, voxel_size);
   if (options.bounds) json["bounds"] = box_text(*options.bounds);
   for (const Box& box : options.exclude) json["exclude"].push_back(box_text(box));

@@ -33,8 +33,10 @@ std::string string_literal(std::string_view text) { return "'" + std::string(tex
 template <typename Whole>
 void read_whole(py::handle value, const char* name, Whole& field) {
   const std::int64_t number = whole_from(value, name);
-  if (number < 0 || static_cast<std::uint64_t>(number) > std::uint64_t{std::numeric_limits<Whole>::max()})
-    throw InputError(name, "is " + std::to_string(number), "give a whole number, 0 or above, below 2^31");
+  if (number < 0 ||
+      static_cast<std::uint64_t>(number) > std::uint64_t{std::numeric_limits<Whole>::max()})
+    throw InputError(name, "is " + std::to_string(number),
+                     "give a whole number, 0 or above, below 2^31");
   field = static_cast<Whole>(number);
 }
 
@@ -126,9 +128,10 @@ void refuse_keyword(const std::string& keyword, const std::vector<std::string>& 
   py::list names;
   for (const std::string& name : known) names.append(name);
   const py::list near = py::module_::import("difflib").attr("get_close_matches")(keyword, names, 1);
-  throw py::type_error("unexpected keyword argument '" + keyword + "'" +
-                       (near.empty() ? "; there are " + std::string(py::str(py::str(", ").attr("join")(names)))
-                                     : "; did you mean '" + std::string(py::str(near[0])) + "'?"));
+  throw py::type_error(
+      "unexpected keyword argument '" + keyword + "'" +
+      (near.empty() ? "; there are " + std::string(py::str(py::str(", ").attr("join")(names)))
+                    : "; did you mean '" + std::string(py::str(near[0])) + "'?"));
 }
 
 }  // namespace ridgeway::python

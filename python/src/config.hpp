@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "convert.hpp"
-#include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/formats/load_map.hpp"
 #include "ridgeway/live/live_roadmap.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
@@ -86,10 +86,9 @@ class Fields {
   }
   template <typename Value>
   Fields& add(const char* name, Value Config::*member, const char* doc) {
-    fields_.push_back({name, doc, literal(Config{}.*member),
-                       [member, name](Config& config, py::handle value) {
-                         read(value, name, config.*member);
-                       }});
+    fields_.push_back(
+        {name, doc, literal(Config{}.*member),
+         [member, name](Config& config, py::handle value) { read(value, name, config.*member); }});
     return *this;
   }
 

@@ -24,7 +24,9 @@ namespace {
 
 std::string shape_text(const py::array& array) { return py::str(array.attr("shape")); }
 
-bool is_text(py::handle value) { return PyUnicode_Check(value.ptr()) || PyBytes_Check(value.ptr()); }
+bool is_text(py::handle value) {
+  return PyUnicode_Check(value.ptr()) || PyBytes_Check(value.ptr());
+}
 
 void require_finite(const Point& point, const std::string& name) {
   if (point.allFinite()) return;
@@ -100,9 +102,8 @@ std::filesystem::path path_from(py::handle value, const char* name) {
 }
 
 Doubles doubles_from(py::handle value, const char* name, const std::string& expected) {
-  const auto array = py::isinstance<py::array>(value)
-                         ? py::reinterpret_borrow<py::array>(value)
-                         : py::array::ensure(value);
+  const auto array = py::isinstance<py::array>(value) ? py::reinterpret_borrow<py::array>(value)
+                                                      : py::array::ensure(value);
   if (!array) {
     PyErr_Clear();
     wrong_type(value, name, expected);
@@ -152,8 +153,7 @@ std::vector<VoxelIndex> voxels_from(py::handle value, const char* name) {
     wrong_type(value, name, expected);
   }
   if (array.size() == 0) return {};
-  if (array.dtype().kind() != 'i' && array.dtype().kind() != 'u')
-    wrong_type(value, name, expected);
+  if (array.dtype().kind() != 'i' && array.dtype().kind() != 'u') wrong_type(value, name, expected);
   if (array.ndim() != 2 || array.shape(1) != 3) wrong_shape(value, name, expected);
   const py::array_t<std::int64_t, py::array::c_style | py::array::forcecast> whole(array);
   std::vector<VoxelIndex> voxels(static_cast<std::size_t>(array.shape(0)));
@@ -202,7 +202,8 @@ Box box_from(py::handle value, const char* name) {
   const bool is_flat = array.ndim() == 1 && array.shape(0) == 6;
   const bool is_square = array.ndim() == 2 && array.shape(0) == 2 && array.shape(1) == 3;
   if (!is_flat && !is_square) wrong_shape(value, name, expected);
-  const Box box = {Eigen::Map<const Point>(array.data()), Eigen::Map<const Point>(array.data() + 3)};
+  const Box box = {Eigen::Map<const Point>(array.data()),
+                   Eigen::Map<const Point>(array.data() + 3)};
   validate_box(box, name);
   return box;
 }

@@ -67,10 +67,10 @@ py::array array_of(std::vector<Point> points);
 template <typename Value>
 py::array view_of(const Value* data, std::vector<py::ssize_t> shape,
                   std::vector<py::ssize_t> strides, py::handle owner) {
-  py::array array = strides.empty()
-                        ? py::array(py::dtype::of<Value>(), std::move(shape), data, owner)
-                        : py::array(py::dtype::of<Value>(), std::move(shape), std::move(strides),
-                                    data, owner);
+  py::array array =
+      strides.empty()
+          ? py::array(py::dtype::of<Value>(), std::move(shape), data, owner)
+          : py::array(py::dtype::of<Value>(), std::move(shape), std::move(strides), data, owner);
   py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;
 }

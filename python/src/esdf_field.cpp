@@ -2,13 +2,12 @@
 // Copyright (c) 2026 The Ridgeway authors
 //
 // Distance fields: distances, gradients, and what is free.
-#include "ridgeway/esdf/distance_field.hpp"
-
 #include <limits>
 
 #include "config.hpp"
 #include "faces.hpp"
 #include "long_call.hpp"
+#include "ridgeway/esdf/distance_field.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "voxel_arrays.hpp"
@@ -30,9 +29,8 @@ VoxelRange known_on_lattice(const EsdfMap& esdf) {
 
 py::object distances(const EsdfFace& face, py::handle bounds) {
   const EsdfMap& esdf = *face.esdf;
-  const float outside = esdf.unknown == UnknownPolicy::kObstacle
-                            ? 0.0f
-                            : std::numeric_limits<float>::quiet_NaN();
+  const float outside =
+      esdf.unknown == UnknownPolicy::kObstacle ? 0.0f : std::numeric_limits<float>::quiet_NaN();
   return dense<float>(
       esdf, dense_range(bounds, known_on_lattice(esdf), esdf.voxel_size), [&](VoxelId id) {
         return id == kNoVoxel ? outside
@@ -44,11 +42,10 @@ py::object distances(const EsdfFace& face, py::handle bounds) {
 
 py::object states(const EsdfFace& face, py::handle bounds) {
   const EsdfMap& esdf = *face.esdf;
-  return dense<std::uint8_t>(esdf, dense_range(bounds, known_on_lattice(esdf), esdf.voxel_size),
-                             [&](VoxelId id) {
-                               return id == kNoVoxel ? std::uint8_t{0}
-                                                     : static_cast<std::uint8_t>(esdf.state[id]);
-                             });
+  return dense<std::uint8_t>(
+      esdf, dense_range(bounds, known_on_lattice(esdf), esdf.voxel_size), [&](VoxelId id) {
+        return id == kNoVoxel ? std::uint8_t{0} : static_cast<std::uint8_t>(esdf.state[id]);
+      });
 }
 
 py::tuple distance_at(const EsdfFace& face, py::handle points, py::handle deepest) {
@@ -167,10 +164,11 @@ void add_limits(py::module_& module) {
       "Where the robot's centre may be, boxes ((x0, y0, z0), (x1, y1, z1)), metres, world: in "
       "`keep_in`,\nand in none of `keep_out`. No distance to them is kept.")
       .def(py::init(&make_limits), py::arg("keep_in") = py::none(),
-           py::arg("keep_out") = py::make_tuple(), "__init__(self, keep_in=None, keep_out=())\n--\n\n")
-      .def_property_readonly("keep_in",
-                             [](const FlightLimits& limits) { return tuple_of(limits.keep_in); },
-                             "A box, infinite where nothing limits.")
+           py::arg("keep_out") = py::make_tuple(),
+           "__init__(self, keep_in=None, keep_out=())\n--\n\n")
+      .def_property_readonly(
+          "keep_in", [](const FlightLimits& limits) { return tuple_of(limits.keep_in); },
+          "A box, infinite where nothing limits.")
       .def_property_readonly("keep_out", &boxes_of, "Boxes.")
       .def("__eq__", [](const FlightLimits& a, const FlightLimits& b) { return a == b; })
       .def("__repr__", [](const FlightLimits& limits) {
@@ -207,17 +205,17 @@ void add_fields(py::module_& module) {
       .def("clearance", &clearance, py::arg("path"),
            "clearance(self, path)\n--\n\n"
            "Smallest distance to an obstacle along straight segments (N, 3), metres, exact.")
-      .def_property_readonly("voxel_size",
-                             [](const EsdfFace& face) { return face.esdf->voxel_size; }, "Metres.")
+      .def_property_readonly(
+          "voxel_size", [](const EsdfFace& face) { return face.esdf->voxel_size; }, "Metres.")
       .def_property_readonly(
           "unknown", [](const EsdfFace& face) { return std::string(name_of(face.esdf->unknown)); },
           "'obstacle', 'ignore' or 'free'.")
-      .def_property_readonly("max_distance",
-                             [](const EsdfFace& face) { return face.esdf->max_distance; },
-                             "Metres; distances stop here.")
-      .def_property_readonly("block_corners",
-                             [](const EsdfFace& face) { return block_corners(*face.esdf); },
-                             "Low corners of the blocks, (B, 3), metres, world.")
+      .def_property_readonly(
+          "max_distance", [](const EsdfFace& face) { return face.esdf->max_distance; },
+          "Metres; distances stop here.")
+      .def_property_readonly(
+          "block_corners", [](const EsdfFace& face) { return block_corners(*face.esdf); },
+          "Low corners of the blocks, (B, 3), metres, world.")
       .def_property_readonly(
           "block_states",
           [](py::object self) {
@@ -248,10 +246,9 @@ void add_fields(py::module_& module) {
           "One block of `block_squared`, (8, 8, 8) uint32: the map's memory, always.")
       .def("__repr__", &repr);
 
-  const std::string doc = "compute_esdf(map" +
-                          esdf_fields().signature().replace(0, 2, ", *, threads=0, ") +
-                          ")\n--\n\nThe distance field of an OccupancyMap.\n" +
-                          esdf_fields().docs();
+  const std::string doc =
+      "compute_esdf(map" + esdf_fields().signature().replace(0, 2, ", *, threads=0, ") +
+      ")\n--\n\nThe distance field of an OccupancyMap.\n" + esdf_fields().docs();
   module.def(
       "compute_esdf",
       [](const MapFace& face, const py::object& threads, const py::kwargs& keywords) {

@@ -106,10 +106,10 @@ const Fields<SimplifyConfig>& simplify_fields() {
                "dead ends that reach less far go, metres")
           .add("steepness", &SimplifyConfig::steepness,
                "and those that reach less far than this share of their length")
-          .add("widest_kept", &SimplifyConfig::widest_kept,
-               "up to this clearance ways stay as wide as they were, metres; 0: twice min_clearance")
-          .add("width_step", &SimplifyConfig::width_step,
-               "in steps of this share of min_clearance")
+          .add(
+              "widest_kept", &SimplifyConfig::widest_kept,
+              "up to this clearance ways stay as wide as they were, metres; 0: twice min_clearance")
+          .add("width_step", &SimplifyConfig::width_step, "in steps of this share of min_clearance")
           .add("stretch", &SimplifyConfig::stretch, "but may become longer by this factor");
   return fields;
 }
@@ -190,8 +190,7 @@ const Fields<LiveConfig>& live_fields() {
     });
     all.add("origin", &LiveConfig::origin,
             "voxel of the lattice that is the map's own (0, 0, 0); None: the sensor's at first")
-        .add("window", &LiveConfig::window,
-             "blocks farther than this from the sensor wait, metres")
+        .add("window", &LiveConfig::window, "blocks farther than this from the sensor wait, metres")
         .add("log_folder", &LiveConfig::log_folder,
              "new or empty, keeps scans for correct_poses; '': none are")
         .add("log_bytes", &LiveConfig::log_bytes, "of all scans that are kept");

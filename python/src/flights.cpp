@@ -19,8 +19,10 @@ struct FlightFace {
 
 std::string reason_of(TrajectoryStatus status) {
   switch (status) {
-    case TrajectoryStatus::kOk: return "";
-    case TrajectoryStatus::kPathNotFree: return "the path is not free at the radius";
+    case TrajectoryStatus::kOk:
+      return "";
+    case TrajectoryStatus::kPathNotFree:
+      return "the path is not free at the radius";
     case TrajectoryStatus::kCannotStopInTime:
       return "from this motion neither the path can be followed nor is braking free";
   }
@@ -73,11 +75,10 @@ py::object sample(const FlightFace& flight, py::handle step) {
   }
   const std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(states.size())};
   return py::module_::import("ridgeway._values")
-      .attr("TrajectorySamples")(owning_array(std::move(time), shape),
-                                 array_of(std::move(position)), array_of(std::move(velocity)),
-                                 array_of(std::move(acceleration)),
-                                 owning_array(std::move(yaw), shape),
-                                 owning_array(std::move(yaw_rate), shape));
+      .attr("TrajectorySamples")(
+          owning_array(std::move(time), shape), array_of(std::move(position)),
+          array_of(std::move(velocity)), array_of(std::move(acceleration)),
+          owning_array(std::move(yaw), shape), owning_array(std::move(yaw_rate), shape));
 }
 
 py::array durations(const FlightFace& flight) {
@@ -100,8 +101,7 @@ py::array coefficients(const FlightFace& flight) {
 
 std::string repr(const FlightFace& flight) {
   const TrajectoryResult& result = flight.result;
-  if (!result.ok())
-    return "Trajectory(status='" + std::string(name_of(result.status)) + "')";
+  if (!result.ok()) return "Trajectory(status='" + std::string(name_of(result.status)) + "')";
   return "Trajectory(status='ok', duration=" + literal(result.duration) +
          ", clearance=" + literal(result.clearance) + ", max_speed=" + literal(result.peaks.speed) +
          ", segments=" + std::to_string(result.trajectory.segments.size()) + ")";
@@ -120,30 +120,31 @@ void add_flights(py::module_& module) {
       .def_property_readonly(
           "reason", [](const FlightFace& flight) { return reason_of(flight.result.status); },
           "The status in words; '' where ok.")
-      .def_property_readonly("ok", [](const FlightFace& flight) { return flight.result.ok(); },
-                             "Whether there is one.")
+      .def_property_readonly(
+          "ok", [](const FlightFace& flight) { return flight.result.ok(); },
+          "Whether there is one.")
       .def("__bool__", [](const FlightFace& flight) { return flight.result.ok(); })
-      .def_property_readonly("duration",
-                             [](const FlightFace& flight) { return flight.result.duration; },
-                             "Seconds.")
-      .def_property_readonly("clearance",
-                             [](const FlightFace& flight) { return flight.result.clearance; },
-                             "Smallest distance to an obstacle all along, metres.")
-      .def_property_readonly("max_speed",
-                             [](const FlightFace& flight) { return flight.result.peaks.speed; },
-                             "Certified, metres a second.")
+      .def_property_readonly(
+          "duration", [](const FlightFace& flight) { return flight.result.duration; }, "Seconds.")
+      .def_property_readonly(
+          "clearance", [](const FlightFace& flight) { return flight.result.clearance; },
+          "Smallest distance to an obstacle all along, metres.")
+      .def_property_readonly(
+          "max_speed", [](const FlightFace& flight) { return flight.result.peaks.speed; },
+          "Certified, metres a second.")
       .def_property_readonly(
           "max_acceleration",
           [](const FlightFace& flight) { return flight.result.peaks.acceleration; },
           "Certified, metres a second^2.")
-      .def_property_readonly("max_jerk",
-                             [](const FlightFace& flight) { return flight.result.peaks.jerk; },
-                             "Certified, metres a second^3.")
-      .def_property_readonly("max_yaw_rate",
-                             [](const FlightFace& flight) { return flight.result.peaks.yaw_rate; },
-                             "Certified, radians a second.")
-      .def_property_readonly("stops", [](const FlightFace& flight) { return flight.result.stops; },
-                             "Between start and goal.")
+      .def_property_readonly(
+          "max_jerk", [](const FlightFace& flight) { return flight.result.peaks.jerk; },
+          "Certified, metres a second^3.")
+      .def_property_readonly(
+          "max_yaw_rate", [](const FlightFace& flight) { return flight.result.peaks.yaw_rate; },
+          "Certified, radians a second.")
+      .def_property_readonly(
+          "stops", [](const FlightFace& flight) { return flight.result.stops; },
+          "Between start and goal.")
       .def_property_readonly(
           "step", [](const FlightFace& flight) { return std::string(name_of(flight.result.step)); },
           "How it came about: 'smooth', 'pushed', 'inserted', 'with_stops' or 'stop_and_go'.")

@@ -69,14 +69,14 @@ py::object surface(const TsdfFace& face) {
 void add_tsdf(py::module_& module) {
   py::class_<TsdfFace>(module, "TsdfMap",
                        "Truncated signed distances to measured surfaces, negative behind them.")
-      .def_property_readonly("voxel_size",
-                             [](const TsdfFace& face) { return face.tsdf->voxel_size; }, "Metres.")
-      .def_property_readonly("truncation",
-                             [](const TsdfFace& face) { return face.tsdf->truncation; },
-                             "Metres; distances are known no farther than this.")
-      .def_property_readonly("block_corners",
-                             [](const TsdfFace& face) { return block_corners(*face.tsdf); },
-                             "Low corners of the blocks, (B, 3), metres, world.")
+      .def_property_readonly(
+          "voxel_size", [](const TsdfFace& face) { return face.tsdf->voxel_size; }, "Metres.")
+      .def_property_readonly(
+          "truncation", [](const TsdfFace& face) { return face.tsdf->truncation; },
+          "Metres; distances are known no farther than this.")
+      .def_property_readonly(
+          "block_corners", [](const TsdfFace& face) { return block_corners(*face.tsdf); },
+          "Low corners of the blocks, (B, 3), metres, world.")
       .def_property_readonly(
           "block_distances",
           [](py::object self) {
@@ -139,11 +139,11 @@ void add_fusion(py::module_& module) {
   add_sensors(module);
   add_tsdf(module);
   const std::string signature = fusion_fields().signature().substr(2);
-  py::class_<FusionFace>(module, "TsdfFusion",
-                         ("TsdfFusion(*, " + signature +
-                          ")\n--\n\nFuses depth images and point clouds with known poses.\n" +
-                          fusion_fields().docs())
-                             .c_str())
+  py::class_<FusionFace>(
+      module, "TsdfFusion",
+      ("TsdfFusion(*, " + signature +
+       ")\n--\n\nFuses depth images and point clouds with known poses.\n" + fusion_fields().docs())
+          .c_str())
       .def(py::init([](const py::kwargs& keywords) {
              return std::make_unique<FusionFace>(fusion_fields().read_all(keywords));
            }),

@@ -96,9 +96,9 @@ void add_graph(py::module_& module) {
           "Smallest distance to an obstacle along each edge, (M,), metres.")
       .def_property_readonly("components", &components,
                              "The connected part that each vertex is in, (N,) uint32.")
-      .def_property_readonly("min_clearance",
-                             [](const GraphFace& face) { return face.graph->min_clearance; },
-                             "Of every edge, metres.")
+      .def_property_readonly(
+          "min_clearance", [](const GraphFace& face) { return face.graph->min_clearance; },
+          "Of every edge, metres.")
       .def("to_networkx", &to_networkx,
            "to_networkx(self)\n--\n\n"
            "As networkx.Graph: nodes with `pos` and `clearance`, edges with `length` and "

@@ -2,12 +2,11 @@
 // Copyright (c) 2026 The Ridgeway authors
 //
 // Roadmaps of maps that change.
-#include "ridgeway/live/live_roadmap.hpp"
-
 #include "config.hpp"
 #include "faces.hpp"
 #include "maps.hpp"
 #include "ridgeway/live/graph_delta.hpp"
+#include "ridgeway/live/live_roadmap.hpp"
 #include "sensors.hpp"
 
 namespace ridgeway::python {
@@ -41,17 +40,16 @@ std::vector<VoxelChange> changes_from(py::handle voxels, py::handle states) {
                          describe(states));
   const bool is_one = array.ndim() == 0;
   if (!is_one && (array.ndim() != 1 || static_cast<std::size_t>(array.size()) != places.size()))
-    throw InputError("states", "is " + describe(states),
-                     "give one state, or as many as there are voxels: " +
-                         std::to_string(places.size()));
+    throw InputError(
+        "states", "is " + describe(states),
+        "give one state, or as many as there are voxels: " + std::to_string(places.size()));
   std::vector<VoxelChange> changes;
   changes.reserve(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     const std::int64_t state = is_one ? *array.data() : array.at(static_cast<py::ssize_t>(i));
     if (state < 0 || state > 2)
       throw InputError(is_one ? "states" : "states[" + std::to_string(i) + "]",
-                       "is " + std::to_string(state),
-                       "give 0 (unknown), 1 (free) or 2 (occupied)");
+                       "is " + std::to_string(state), "give 0 (unknown), 1 (free) or 2 (occupied)");
     changes.push_back({places[i], static_cast<VoxelState>(state)});
   }
   return changes;
@@ -210,8 +208,7 @@ void add_live(py::module_& module) {
       .def("settled", &LiveFace::settled,
            "settled(self)\n--\n\n"
            "The same with shortcuts around corners, which takes as long as many updates.")
-      .def("map", &LiveFace::map,
-           "map(self)\n--\n\nThe OccupancyMap after the last update.")
+      .def("map", &LiveFace::map, "map(self)\n--\n\nThe OccupancyMap after the last update.")
       .def("__repr__", [](const LiveFace& face) {
         const py::object snapshot = face.snapshot();
         return "LiveRoadmap(snapshot=" + std::string(py::repr(snapshot)) + ")";

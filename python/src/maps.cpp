@@ -2,10 +2,11 @@
 // Copyright (c) 2026 The Ridgeway authors
 //
 // Occupancy maps: from arrays, clouds and files, changed, and back to arrays.
+#include "maps.hpp"
+
 #include "config.hpp"
 #include "faces.hpp"
 #include "long_call.hpp"
-#include "maps.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/point_cloud.hpp"
 #include "ridgeway/mapping/map_edits.hpp"
@@ -18,10 +19,9 @@ namespace {
 
 MapFace from_numpy(py::handle states, py::handle voxel_size, py::handle origin,
                    py::handle free_below, py::handle occupied_above) {
-  return face_of(map_of_array(states, number_from(voxel_size, "voxel_size"),
-                              point_from(origin, "origin"),
-                              {number_from(free_below, "free_below"),
-                               number_from(occupied_above, "occupied_above")}));
+  return face_of(map_of_array(
+      states, number_from(voxel_size, "voxel_size"), point_from(origin, "origin"),
+      {number_from(free_below, "free_below"), number_from(occupied_above, "occupied_above")}));
 }
 
 MapFace from_points(py::handle points, py::handle voxel_size, py::handle bounds,
@@ -56,11 +56,10 @@ VoxelRange known_on_lattice(const OccupancyMap& map) {
 
 py::object to_numpy(const MapFace& face, py::handle bounds) {
   const OccupancyMap& map = *face.map;
-  return dense<std::uint8_t>(map, dense_range(bounds, known_on_lattice(map), map.voxel_size),
-                             [&](VoxelId id) {
-                               return id == kNoVoxel ? std::uint8_t{0}
-                                                     : static_cast<std::uint8_t>(map.state[id]);
-                             });
+  return dense<std::uint8_t>(
+      map, dense_range(bounds, known_on_lattice(map), map.voxel_size), [&](VoxelId id) {
+        return id == kNoVoxel ? std::uint8_t{0} : static_cast<std::uint8_t>(map.state[id]);
+      });
 }
 
 py::array state_at(const MapFace& face, py::handle points) {
@@ -147,7 +146,8 @@ void add_edits(py::class_<MapFace>& type) {
       },
       py::arg("low"), py::arg("high"),
       "flattened(self, low, high)\n--\n\n"
-      "The map of a robot that stays in a plane: one layer of what is between the heights, metres.");
+      "The map of a robot that stays in a plane: one layer of what is between the heights, "
+      "metres.");
   type.def(
       "transformed",
       [](const MapFace& face, py::handle transform, py::handle voxel_size) {
@@ -186,19 +186,20 @@ void add_maps(py::module_& module) {
   py::class_<MapFace> type(module, "OccupancyMap",
                            "What is known of each voxel: free, occupied or unknown. Never changes: "
                            "what edits it gives another map.");
-  type.def_static("from_numpy", &from_numpy, py::arg("states"), py::arg("voxel_size"),
-                  py::arg("origin") = py::make_tuple(0.0, 0.0, 0.0), py::arg("free_below") = 0.5,
-                  py::arg("occupied_above") = 0.5,
-                  "from_numpy(states, voxel_size, origin=(0.0, 0.0, 0.0), free_below=0.5, "
-                  "occupied_above=0.5)\n--\n\n"
-                  "The map of an (nx, ny, nz) array [x, y, z], in any memory order.\n\n"
-                  "  states: bool (True: occupied, False: free); whole numbers (UNKNOWN, FREE, "
-                  "OCCUPIED); or\n"
-                  "    floats, the probability of being occupied: free below `free_below`, "
-                  "occupied above\n    `occupied_above`, else unknown\n"
-                  "  voxel_size: metres\n"
-                  "  origin: low corner of the voxel [0, 0, 0], metres; a whole number of voxels\n\n"
-                  "The array is read once, into the map; no other copy is made.");
+  type.def_static(
+      "from_numpy", &from_numpy, py::arg("states"), py::arg("voxel_size"),
+      py::arg("origin") = py::make_tuple(0.0, 0.0, 0.0), py::arg("free_below") = 0.5,
+      py::arg("occupied_above") = 0.5,
+      "from_numpy(states, voxel_size, origin=(0.0, 0.0, 0.0), free_below=0.5, "
+      "occupied_above=0.5)\n--\n\n"
+      "The map of an (nx, ny, nz) array [x, y, z], in any memory order.\n\n"
+      "  states: bool (True: occupied, False: free); whole numbers (UNKNOWN, FREE, "
+      "OCCUPIED); or\n"
+      "    floats, the probability of being occupied: free below `free_below`, "
+      "occupied above\n    `occupied_above`, else unknown\n"
+      "  voxel_size: metres\n"
+      "  origin: low corner of the voxel [0, 0, 0], metres; a whole number of voxels\n\n"
+      "The array is read once, into the map; no other copy is made.");
   type.def_static("from_points", &from_points, py::arg("points"), py::arg("voxel_size"),
                   py::arg("bounds"), py::arg("transform") = py::none(),
                   "from_points(points, voxel_size, bounds, transform=None)\n--\n\n"

@@ -25,8 +25,8 @@ void raise(const InputError& error) {
 }
 
 void raise(const std::filesystem::filesystem_error& error) {
-  const py::object value = py::handle(PyExc_OSError)(
-      error.code().value(), error.code().message(), error.path1().string());
+  const py::object value = py::handle(PyExc_OSError)(error.code().value(), error.code().message(),
+                                                     error.path1().string());
   PyErr_SetObject(PyExc_OSError, value.ptr());
 }
 

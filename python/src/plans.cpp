@@ -21,22 +21,30 @@ namespace {
 /// A status in words.
 std::string reason_of(PlanStatus status) {
   switch (status) {
-    case PlanStatus::kOk: return "";
-    case PlanStatus::kStartOutsideMap: return "the start is outside of the map";
-    case PlanStatus::kStartUnknown: return "the start is in unknown space";
+    case PlanStatus::kOk:
+      return "";
+    case PlanStatus::kStartOutsideMap:
+      return "the start is outside of the map";
+    case PlanStatus::kStartUnknown:
+      return "the start is in unknown space";
     case PlanStatus::kStartInCollision:
       return "the start is nearer to an obstacle than the radius (escape=True may lead out)";
-    case PlanStatus::kGoalOutsideMap: return "the goal is outside of the map";
-    case PlanStatus::kGoalUnknown: return "the goal is in unknown space";
+    case PlanStatus::kGoalOutsideMap:
+      return "the goal is outside of the map";
+    case PlanStatus::kGoalUnknown:
+      return "the goal is in unknown space";
     case PlanStatus::kGoalInCollision:
       return "the goal is nearer to an obstacle than the radius (snap=METRES moves it)";
     case PlanStatus::kNoRoute:
       return "no route joins start and goal at this radius (Roadmap.explain tells why)";
     case PlanStatus::kRadiusTooSmall:
       return "the radius is smaller than the roadmap was built for";
-    case PlanStatus::kTimeout: return "the time limit has passed";
-    case PlanStatus::kStartOutsideLimits: return "the start is outside of the flight's limits";
-    case PlanStatus::kGoalOutsideLimits: return "the goal is outside of the flight's limits";
+    case PlanStatus::kTimeout:
+      return "the time limit has passed";
+    case PlanStatus::kStartOutsideLimits:
+      return "the start is outside of the flight's limits";
+    case PlanStatus::kGoalOutsideLimits:
+      return "the goal is outside of the flight's limits";
   }
   return "invalid";
 }
@@ -98,8 +106,8 @@ py::list list_of(std::vector<PlanResult> plans) {
   return list;
 }
 
-py::list plan_many(const RoadmapFace& face, py::handle starts, py::handle goals,
-                   py::handle threads, const py::kwargs& keywords) {
+py::list plan_many(const RoadmapFace& face, py::handle starts, py::handle goals, py::handle threads,
+                   const py::kwargs& keywords) {
   const PlanConfig config = plan_fields().read_all(keywords);
   const std::vector<Point> from = one_or_many(starts, "starts"), to = one_or_many(goals, "goals");
   if (from.size() != to.size() && from.size() != 1 && to.size() != 1)
@@ -186,19 +194,17 @@ py::object explain(const RoadmapFace& face, py::handle start, py::handle goal, p
 void add_results(py::module_& module) {
   py::class_<PlanResult>(module, "PlanResult",
                          "A path, or the one reason why there is none: true where there is one.")
-      .def_property_readonly("status",
-                             [](const PlanResult& plan) { return std::string(name_of(plan.status)); },
-                             "'ok', or why there is no path: 'no_route', 'start_in_collision', ...")
-      .def_property_readonly("reason",
-                             [](const PlanResult& plan) { return reason_of(plan.status); },
-                             "The status in words; '' where ok.")
+      .def_property_readonly(
+          "status", [](const PlanResult& plan) { return std::string(name_of(plan.status)); },
+          "'ok', or why there is no path: 'no_route', 'start_in_collision', ...")
+      .def_property_readonly(
+          "reason", [](const PlanResult& plan) { return reason_of(plan.status); },
+          "The status in words; '' where ok.")
       .def_property_readonly("ok", &PlanResult::ok, "Whether there is a path.")
       .def("__bool__", &PlanResult::ok)
       .def_property_readonly(
           "waypoints",
-          [](py::object self) {
-            return view_of(self.cast<const PlanResult&>().waypoints, self);
-          },
+          [](py::object self) { return view_of(self.cast<const PlanResult&>().waypoints, self); },
           "Start first, goal last, (N, 3), metres, world; (0, 3) where there is no path. "
           "Read-only.")
       .def_readonly("length", &PlanResult::length, "Metres.")
@@ -228,7 +234,9 @@ void add_results(py::module_& module) {
           "How far the goal was moved (snap), metres.")
       .def(
           "save",
-          [](const PlanResult& plan, py::handle path) { write_plan(plan, path_from(path, "path")); },
+          [](const PlanResult& plan, py::handle path) {
+            write_plan(plan, path_from(path, "path"));
+          },
           py::arg("path"), "save(self, path)\n--\n\nAs .csv or .json, as the command line does.")
       .def("__repr__", &repr);
 
@@ -238,9 +246,9 @@ void add_results(py::module_& module) {
       .def_property_readonly(
           "status", [](const Alternatives& all) { return std::string(name_of(all.status)); },
           "'ok', or why there is no route.")
-      .def_property_readonly("reason",
-                             [](const Alternatives& all) { return reason_of(all.status); },
-                             "The status in words; '' where ok.")
+      .def_property_readonly(
+          "reason", [](const Alternatives& all) { return reason_of(all.status); },
+          "The status in words; '' where ok.")
       .def_readonly("complete", &Alternatives::complete, "Whether more would find no more.")
       .def_readonly("seconds", &Alternatives::seconds, "In all.")
       .def("__len__", [](const Alternatives& all) { return all.routes.size(); })
@@ -254,7 +262,8 @@ void add_results(py::module_& module) {
           },
           py::arg("index"))
       .def("__repr__", [](const Alternatives& all) {
-        std::string text = "Alternatives(status='" + std::string(name_of(all.status)) + "', lengths=[";
+        std::string text =
+            "Alternatives(status='" + std::string(name_of(all.status)) + "', lengths=[";
         for (std::size_t i = 0; i < all.routes.size(); ++i)
           text += (i == 0 ? "" : ", ") + literal(all.routes[i].length);
         return text + "], complete=" + literal(all.complete) + ")";
@@ -312,11 +321,11 @@ void add_queries(py::class_<RoadmapFace>& type) {
             "None.\n" +
             docs)
                .c_str());
-  type.def("alternatives", &alternatives, py::arg("start"), py::arg("goal"), py::arg("count") = 3,
-           ("alternatives(self, start, goal, count=3" + keywords +
-            ")\n--\n\nUp to `count` routes on different sides of obstacles, as Alternatives.\n" +
-            docs)
-               .c_str());
+  type.def(
+      "alternatives", &alternatives, py::arg("start"), py::arg("goal"), py::arg("count") = 3,
+      ("alternatives(self, start, goal, count=3" + keywords +
+       ")\n--\n\nUp to `count` routes on different sides of obstacles, as Alternatives.\n" + docs)
+          .c_str());
   type.def("distances", &distances, py::arg("start"), py::arg("goals"),
            py::arg("radius") = py::none(),
            "distances(self, start, goals, radius=None)\n--\n\n"

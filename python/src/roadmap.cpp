@@ -169,17 +169,18 @@ void add_parts(py::class_<RoadmapFace>& type) {
                              {face.roadmap, &face.roadmap->graph}};
           },
           "The SparseGraph; not a copy.")
-      .def_property_readonly("min_clearance",
-                             [](const RoadmapFace& face) { return face.roadmap->min_clearance; },
-                             "Smallest robot radius that may be asked for, metres.")
-      .def_property_readonly("voxel_size",
-                             [](const RoadmapFace& face) { return face.roadmap->esdf.voxel_size; },
-                             "Metres.")
-      .def_property_readonly("is_settled",
-                             [](const RoadmapFace& face) { return face.roadmap->is_settled; },
-                             "False: a live snapshot without its shortcuts around corners.")
-      .def_property_readonly("source", [](const RoadmapFace& face) { return face.roadmap->source; },
-                             "Name of the map's file, or ''.")
+      .def_property_readonly(
+          "min_clearance", [](const RoadmapFace& face) { return face.roadmap->min_clearance; },
+          "Smallest robot radius that may be asked for, metres.")
+      .def_property_readonly(
+          "voxel_size", [](const RoadmapFace& face) { return face.roadmap->esdf.voxel_size; },
+          "Metres.")
+      .def_property_readonly(
+          "is_settled", [](const RoadmapFace& face) { return face.roadmap->is_settled; },
+          "False: a live snapshot without its shortcuts around corners.")
+      .def_property_readonly(
+          "source", [](const RoadmapFace& face) { return face.roadmap->source; },
+          "Name of the map's file, or ''.")
       .def_property_readonly(
           "config",
           [](const RoadmapFace& face) -> py::object {
@@ -233,8 +234,7 @@ void add_roadmap(py::module_& module) {
       parameters + build_fields().docs();
   module.def("build", &build, py::arg("map"), py::kw_only(), py::arg("progress") = py::none(),
              py::arg("threads") = 0, doc.c_str());
-  module.def("load", &load, py::arg("path"),
-             "load(path)\n--\n\nThe Roadmap of a .ridge file.");
+  module.def("load", &load, py::arg("path"), "load(path)\n--\n\nThe Roadmap of a .ridge file.");
 }
 
 }  // namespace ridgeway::python

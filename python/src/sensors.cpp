@@ -106,8 +106,7 @@ void add_world(py::module_& module) {
 DepthImage image_from(py::handle value, const char* name) {
   const std::string expected = "an (H, W) array of depths, metres";
   const Doubles checked = doubles_from(value, name, expected);
-  if (checked.ndim() != 2)
-    throw InputError(name, "is " + describe(value), "give " + expected);
+  if (checked.ndim() != 2) throw InputError(name, "is " + describe(value), "give " + expected);
   constexpr py::ssize_t kLongest = 1 << 20;
   if (checked.shape(0) > kLongest || checked.shape(1) > kLongest)
     throw InputError(name, "is " + describe(value), "give a smaller image");

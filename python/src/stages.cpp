@@ -73,9 +73,8 @@ VoxelRange range_of(const EsdfMap& esdf) {
 py::object dense_mask(const MaskFace& face, py::handle bounds) {
   const EsdfMap& esdf = *face.esdf;
   py::object grid = dense<std::uint8_t>(
-      esdf, dense_range(bounds, range_of(esdf), esdf.voxel_size), [&](VoxelId id) -> std::uint8_t {
-        return id != kNoVoxel && face.mask->test(id) ? 1 : 0;
-      });
+      esdf, dense_range(bounds, range_of(esdf), esdf.voxel_size),
+      [&](VoxelId id) -> std::uint8_t { return id != kNoVoxel && face.mask->test(id) ? 1 : 0; });
   return grid.attr("_replace")(py::arg("values") = grid.attr("values").attr("view")("bool"));
 }
 
@@ -182,8 +181,7 @@ void add_stages(py::module_& module) {
       [](const EsdfFace& face, py::handle min_clearance, const py::kwargs& keywords) {
         const GvdConfig config = gvd_fields().read_all(keywords);
         const double clearance = number_from(min_clearance, "min_clearance");
-        return mask_by(face.esdf,
-                       [&] { return compute_skeleton(*face.esdf, clearance, config); });
+        return mask_by(face.esdf, [&] { return compute_skeleton(*face.esdf, clearance, config); });
       },
       py::arg("esdf"), py::arg("min_clearance") = 0.4,
       ("compute_skeleton(esdf, min_clearance=0.4, *, " + gvd_fields().signature().substr(2) +

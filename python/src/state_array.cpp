@@ -44,7 +44,9 @@ struct WholeStates {
 template <typename Value>
 struct TruthStates {
   static bool is_valid(Value) { return true; }
-  VoxelState operator()(Value v) const { return v != 0 ? VoxelState::kOccupied : VoxelState::kFree; }
+  VoxelState operator()(Value v) const {
+    return v != 0 ? VoxelState::kOccupied : VoxelState::kFree;
+  }
   static constexpr const char* kRemedy = "";
 };
 
@@ -79,9 +81,9 @@ void require_valid(const Layout& layout, const States& states) {
   if (first == bad.end()) return;
   const std::ptrdiff_t x = first - bad.begin(), y = *first / layout.shape[2],
                        z = *first % layout.shape[2];
-  throw InputError("states[" + std::to_string(x) + ", " + std::to_string(y) + ", " +
-                       std::to_string(z) + "]",
-                   "is " + number_text(layout.at<Value>(x, y, z)), States::kRemedy);
+  throw InputError(
+      "states[" + std::to_string(x) + ", " + std::to_string(y) + ", " + std::to_string(z) + "]",
+      "is " + number_text(layout.at<Value>(x, y, z)), States::kRemedy);
 }
 
 template <typename Value, typename States>
@@ -131,11 +133,11 @@ py::array array_from(py::handle states) {
                          describe(states));
   const auto array = py::reinterpret_borrow<py::array>(states);
   if (array.ndim() != 3)
-    throw InputError("states", "is " + describe(states),
-                     std::string("give ") + kExpected);
+    throw InputError("states", "is " + describe(states), std::string("give ") + kExpected);
   if (!array.dtype().attr("isnative").cast<bool>())
-    throw py::type_error("states: is in another byte order than this machine's (use "
-                         "states.astype(states.dtype.newbyteorder('=')))");
+    throw py::type_error(
+        "states: is in another byte order than this machine's (use "
+        "states.astype(states.dtype.newbyteorder('=')))");
   for (int axis = 0; axis < 3; ++axis)
     if (array.shape(axis) > kMaxVoxelIndex)
       throw InputError("states", "is " + describe(states), "give 1e9 voxels at most along an axis");
@@ -182,8 +184,8 @@ OccupancyMap map_of_array(py::handle states, double voxel_size, const Point& ori
   if (kind == 'f' && size == 4) return real(float{});
   if (kind == 'f' && size == 8) return real(double{});
   const py::gil_scoped_acquire acquire;
-  throw py::type_error("states: expected " + std::string(kExpected) + ", got " +
-                       describe(states) + "; use states.astype(np.uint8) or np.float32");
+  throw py::type_error("states: expected " + std::string(kExpected) + ", got " + describe(states) +
+                       "; use states.astype(np.uint8) or np.float32");
 }
 
 }  // namespace ridgeway::python

@@ -79,9 +79,7 @@ inline VoxelRange dense_range(py::handle bounds, const VoxelRange& known, double
   if (bounds.is_none()) return known;
   Box box = box_from(bounds, "bounds");
   for (int axis = 0; axis < 3; ++axis) {
-    const auto end = [&](const VoxelIndex& v) {
-      return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-    };
+    const auto end = [&](const VoxelIndex& v) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; };
     if (std::isinf(box.min[axis])) box.min[axis] = end(known.min) * voxel_size;
     if (std::isinf(box.max[axis])) box.max[axis] = (end(known.max) + 1) * voxel_size;
   }
@@ -92,9 +90,7 @@ inline VoxelRange dense_range(py::handle bounds, const VoxelRange& known, double
 /// none is allocated. Refused where memory would not do.
 template <typename Value, typename Map, typename Get>
 py::object dense(const Map& map, const VoxelRange& range, const Get& value) {
-  const auto count = [](int first, int last) {
-    return static_cast<py::ssize_t>(last) - first + 1;
-  };
+  const auto count = [](int first, int last) { return static_cast<py::ssize_t>(last) - first + 1; };
   std::array<py::ssize_t, 3> shape{};
   if (!range.empty())
     shape = {count(range.min.x, range.max.x), count(range.min.y, range.max.y),

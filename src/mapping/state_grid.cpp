@@ -40,10 +40,10 @@ class GridBlocks {
   void read(const BlockIndex& block, VoxelState* states) const {
     const VoxelIndex first = first_ + voxel_of(block, 0);
     grid_->read(first,
-               {std::min(kBlockSide, grid_->shape[0] - first.x),
-                std::min(kBlockSide, grid_->shape[1] - first.y),
-                std::min(kBlockSide, grid_->shape[2] - first.z)},
-               states);
+                {std::min(kBlockSide, grid_->shape[0] - first.x),
+                 std::min(kBlockSide, grid_->shape[1] - first.y),
+                 std::min(kBlockSide, grid_->shape[2] - first.z)},
+                states);
   }
 
   std::vector<LowestKnown> find_known() const {
