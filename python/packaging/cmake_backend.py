@@ -2,7 +2,8 @@
 # Copyright (c) 2026 The Ridgeway authors
 """How pip builds the package (PEP 517): by CMake, in build/wheel, without anything to download.
 
-Variables: CMAKE_ARGS for CMake, RIDGEWAY_JOBS for the number of parallel jobs.
+Variables: CMAKE_ARGS for CMake, RIDGEWAY_JOBS for the number of parallel jobs,
+RIDGEWAY_WHEEL_BUILD for another build folder.
 """
 
 import base64
@@ -19,7 +20,9 @@ import tarfile
 import zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-BUILD = ROOT / "build" / "wheel"
+BUILD = pathlib.Path(os.environ.get("RIDGEWAY_WHEEL_BUILD", ROOT / "build" / "wheel"))
+
+WHEEL = "Wheel-Version: 1.0\nGenerator: ridgeway\nRoot-Is-Purelib: false\nTag: {tag}\n"
 
 
 def version():
@@ -84,12 +87,21 @@ class Wheel:
 
     def close(self):
         self.add(f"{self.info}/METADATA", metadata().encode())
-        self.add(f"{self.info}/WHEEL",
-                 f"Wheel-Version: 1.0\nGenerator: ridgeway\nRoot-Is-Purelib: false\nTag: {tag()}\n".encode())
+        self.add(f"{self.info}/WHEEL", WHEEL.format(tag=tag()).encode())
         self.add(f"{self.info}/LICENSE", (ROOT / "LICENSE").read_bytes())
         name = f"{self.info}/RECORD"
         self.zip.writestr(name, "".join(self.record) + f"{name},,\n")
         self.zip.close()
+
+
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    """What pip asks for first, without a build."""
+    info = f"ridgeway-{version()}.dist-info"
+    folder = pathlib.Path(metadata_directory) / info
+    folder.mkdir()
+    (folder / "METADATA").write_text(metadata(), encoding="utf-8")
+    (folder / "WHEEL").write_text(WHEEL.format(tag=tag()))
+    return info
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
