@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 The Ridgeway authors
 
-# Installation, find_package(ridgeway COMPONENTS ...), and the Debian packages ridgeway (the program)
-# and ridgeway-dev (headers and static libraries).
+# Installation, find_package(ridgeway COMPONENTS ...), pkg-config, and the Debian packages ridgeway
+# (the program), ridgeway-dev (headers and static libraries), python3-ridgeway and ridgeway-doc.
 
 include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/ridgeway")
@@ -65,6 +65,50 @@ install(
   DESTINATION "${package_dir}"
   COMPONENT dev)
 
+# pkg-config: ridgeway for core, ridgeway-NAME for each other component. The libraries are static, so
+# those that they need are always named, and libraries stand before what they use.
+set(pc_needs_ridge ridgeway libzstd)
+set(pc_needs_pictures ridgeway cairo)
+set(pc_needs_sampling ridgeway ompl)
+set(pc_needs_trajectory ridgeway nlopt)
+set(pc_needs_formats ridgeway-ridge ridgeway-trajectory liblzf yaml-cpp)
+set(pc_needs_recordings ridgeway-formats libpng)
+set(pc_needs_core eigen3 tbb)
+foreach(component IN ITEMS core ${components})
+  get_property(modules GLOBAL PROPERTY RIDGEWAY_MODULES_${component})
+  if(NOT modules)
+    continue()
+  endif()
+  set(pc_name ridgeway-${component})
+  if(component STREQUAL "core")
+    set(pc_name ridgeway)
+  endif()
+  set(pc_libraries)
+  foreach(module IN LISTS modules)
+    get_target_property(type ${module} TYPE)
+    if(type STREQUAL "STATIC_LIBRARY")
+      list(PREPEND pc_libraries "-l${module}")
+    endif()
+  endforeach()
+  list(JOIN pc_libraries " " pc_libraries)
+  list(JOIN pc_needs_${component} ", " pc_requires)
+  configure_file(cmake/ridgeway.pc.in "${PROJECT_BINARY_DIR}/pkgconfig/${pc_name}.pc" @ONLY)
+  install(
+    FILES "${PROJECT_BINARY_DIR}/pkgconfig/${pc_name}.pc"
+    DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig"
+    COMPONENT dev)
+endforeach()
+
+install(
+  FILES README.md CHANGELOG.md
+  DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/ridgeway-doc"
+  COMPONENT doc)
+install(
+  DIRECTORY docs examples
+  DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/ridgeway-doc"
+  COMPONENT doc
+  PATTERN "CMakeLists.txt" EXCLUDE)
+
 if(TARGET ridgeway_cli)
   install(TARGETS ridgeway_cli RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT runtime)
 endif()
@@ -82,6 +126,18 @@ install(
   DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/ridgeway-dev"
   RENAME copyright
   COMPONENT dev)
+install(
+  FILES LICENSE
+  DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/ridgeway-doc"
+  RENAME copyright
+  COMPONENT doc)
+if(TARGET ridgeway_python)
+  install(
+    FILES LICENSE
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/python3-ridgeway"
+    RENAME copyright
+    COMPONENT python)
+endif()
 
 if(PROJECT_IS_TOP_LEVEL)
   set(CPACK_GENERATOR DEB)
@@ -89,7 +145,10 @@ if(PROJECT_IS_TOP_LEVEL)
   set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
   set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
   set(CPACK_STRIP_FILES ON)
-  set(CPACK_COMPONENTS_ALL runtime dev)
+  set(CPACK_COMPONENTS_ALL runtime dev doc)
+  if(TARGET ridgeway_python)
+    list(APPEND CPACK_COMPONENTS_ALL python)
+  endif()
   set(CPACK_DEB_COMPONENT_INSTALL ON)
   set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
   set(CPACK_DEBIAN_PACKAGE_SECTION science)
@@ -104,5 +163,17 @@ if(PROJECT_IS_TOP_LEVEL)
     libnlopt-dev
     pkg-config libcairo2-dev libzstd-dev liblzf-dev libpng-dev libyaml-cpp-dev
     ridgeway)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-ridgeway)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  # The compiled part is for one version of Python.
+  math(EXPR next_python "${PYTHON_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+      "python3 (>= 3.${PYTHON_VERSION_MINOR}), python3 (<< 3.${next_python}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "ridgeway")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, python3-networkx")
+  set(CPACK_DEBIAN_DOC_PACKAGE_NAME ridgeway-doc)
+  set(CPACK_DEBIAN_DOC_PACKAGE_SECTION doc)
+  set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
   include(CPack)
 endif()

@@ -12,6 +12,7 @@
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "formats/build_record.hpp"
 #include "json.hpp"
 #include "limit_options.hpp"
 #include "ridgeway/common/error.hpp"
@@ -64,23 +65,12 @@ BuildConfig build_config(const BuildOptions& options) {
 }
 
 /// Everything that shapes the roadmap, as it is kept in the file.
-std::string config_text(const BuildOptions& options, double voxel_size) {
-  const BuildConfig& build = options.build;
-  Json json = {{"voxel_size", voxel_size},
-               {"min_clearance", build.min_clearance},
-               {"max_distance", build.max_distance},
-               {"unknown", options.unknown},
-               {"theta", build.theta},
-               {"prune_radius", build.prune_radius},
-               {"split_deviation", build.split_deviation},
-               {"edges", options.edges},
-               {"significance", build.significance},
-               {"diagram", options.diagram},
-               {"graph", options.graph}};
+std::string config_text(const BuildOptions& options, const BuildConfig& build, double voxel_size) {
+  Json json = build_record(build, voxel_size);
   if (options.bounds) json["bounds"] = box_text(*options.bounds);
   for (const Box& box : options.exclude) json["exclude"].push_back(box_text(box));
   if (!options.planar.empty()) json["planar"] = options.planar;
-  if (options.limits.any()) json["limits"] = cli::json_of(limits_of(options.limits));
+  if (options.limits.any()) json["limits"] = limits_record(build.limits);
   if (options.transform) json["transform"] = options.transform->text;
   if (options.isolated > 0) json["isolated"] = options.isolated;
   return json.dump();
@@ -205,7 +195,7 @@ int run(const BuildOptions& options, const Globals& globals) {
          "--min-clearance " + text_of(building.min_clearance) + " m is less than two voxels of " +
              text_of(map.voxel_size, 6) +
              " m: whether narrow passages are open depends on how the walls fall on the voxels");
-  const std::string config = config_text(options, map.voxel_size);
+  const std::string config = config_text(options, building, map.voxel_size);
 
   outcome.built = build_repeatedly(std::move(map), building, options.repeat, bar.callback());
   Roadmap& roadmap = outcome.built.roadmap;

@@ -154,6 +154,7 @@ Json json_of(const Program::Entry& entry) {
 /// A command with its options and its own commands.
 Json describe(const Program& program, const CLI::App& command) {
   Json json = {{"name", command.get_name()}, {"help", command.get_description()}};
+  if (const std::string& footer = command.get_footer(); !footer.empty()) json["footer"] = footer;
   json["options"] = Json::array();
   for (const Program::Entry& entry : program.options)
     if (entry.command == &command) json["options"].push_back(json_of(entry));

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/number_text.hpp"
+#include "formats/build_record.hpp"
 #include "ridgeway/common/error.hpp"
 
 namespace ridgeway::cli {
@@ -43,16 +44,6 @@ FlightLimits limits_of(const LimitOptions& options) {
   return limits;
 }
 
-Json json_of(const FlightLimits& limits) {
-  const auto box_json = [](const Box& box) {
-    Json numbers = Json::array();
-    for (const Point& corner : {box.min, box.max})
-      for (const double x : corner) numbers.push_back(std::isfinite(x) ? Json(x) : Json());
-    return numbers;
-  };
-  Json json = {{"keep_in", box_json(limits.keep_in)}, {"keep_out", Json::array()}};
-  for (const Box& box : limits.keep_out) json["keep_out"].push_back(box_json(box));
-  return json;
-}
+Json json_of(const FlightLimits& limits) { return limits_record(limits); }
 
 }  // namespace ridgeway::cli

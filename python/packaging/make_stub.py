@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 The Ridgeway authors
+"""PYTHONPATH=build/python python3 python/packaging/make_stub.py > python/ridgeway/_core.pyi
+
+The names, parameters and defaults come from the module, the types from the tables below; what has
+none is an error. A test compares the stub with what this makes.
+"""
+
+import inspect
+import re
+
+from ridgeway import _core
+
+HEAD = '''# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 The Ridgeway authors
+#
+# Made by python/packaging/make_stub.py.
+import os
+from typing import Any, Callable, Dict, Iterable, List, Optional, Sequence, Tuple, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ridgeway._values import Cancelled as Cancelled
+from ridgeway._values import Grid, Surface, TrajectorySamples
+from ridgeway._values import InputError as InputError
+
+_Path = Union[str, "os.PathLike[str]"]
+_Point = Union[Sequence[float], NDArray[Any]]
+_Box = Union[Sequence[Sequence[float]], Sequence[float], NDArray[Any]]
+_Triple = Tuple[float, float, float]
+_Progress = Optional[Callable[[str, float], Any]]
+
+__version__: str
+'''
+
+PARAMETERS = {
+    "start goal origin start_velocity start_acceleration": "_Point",
+    "points path waypoints starts goals places transform T_world_camera T_world_sensor image states "
+    "voxels": "ArrayLike",
+    "bounds keep_in": "Optional[_Box]",
+    "boxes keep_out exclude": "Iterable[_Box]",
+    "voxel_size free_below occupied_above low high deepest step max_range range_sigma fx fy cx cy "
+    "min_clearance max_distance theta least_apart prune_radius split_deviation significance "
+    "widest_kept steepness width_step stretch within time_limit prefer_clearance snap robot_height "
+    "max_speed max_acceleration max_jerk max_yaw_rate truncation depth_behind min_range max_weight "
+    "clear_radius window": "float",
+    "radius start_yaw": "Optional[float]",
+    "unknown planner smoothness integrator source": "str",
+    "simplify basis_point_edges paper_diagram shorten quick escape follow_yaw stop_and_go carve": "bool",
+    "threads count queries seed slot index min_cluster isolated_below tangent_pairs most_evaluations "
+    "width height forget_after log_bytes": "int",
+    "limits flight_limits": "Optional[FlightLimits]",
+    "progress": "_Progress",
+    "loading": "Any",
+    "log_folder folder": "_Path",
+    "esdf": "EsdfMap",
+    "diagram traversable gvd": "VoxelMask",
+    "graph": "SparseGraph",
+    "camera": "PinholeCamera",
+    "before now": "Roadmap",
+    "poses": "Dict[int, ArrayLike]",
+}
+TYPES = {name: kind for names, kind in PARAMETERS.items() for name in names.split()}
+# Where a name means something else than usually.
+PARTICULAR = {
+    "load_map.path": "_Path", "load.path": "_Path", "load_tsdf.path": "_Path", "load_world.path": "_Path",
+    "Roadmap.save.path": "_Path", "Roadmap.export_graph.path": "_Path", "TsdfMap.save.path": "_Path",
+    "Trajectory.save.path": "_Path", "PlanResult.save.path": "_Path",
+    "build.map": "Union[OccupancyMap, _Path]", "compute_esdf.map": "OccupancyMap",
+    "Roadmap.trajectory.path": "Union[PlanResult, ArrayLike]",
+    "load_map.voxel_size": "Optional[float]", "OccupancyMap.transformed.voxel_size": "Optional[float]",
+    "load_map.transform": "Optional[ArrayLike]", "OccupancyMap.from_points.transform": "Optional[ArrayLike]",
+    "OccupancyMap.from_points.bounds": "_Box", "OccupancyMap.cropped.bounds": "_Box",
+    "World.occupancy.bounds": "_Box", "thin.voxels": "VoxelMask",
+    "TsdfFusion.__init__.origin": "Optional[_Point]", "LiveRoadmap.__init__.origin": "Optional[_Point]",
+    "EsdfMap.is_free.radius": "float", "EsdfMap.path_is_free.radius": "float",
+    "traversable_voxels.radius": "float", "GraphDelta.may_invalidate.radius": "float",
+}
+RETURNS = {
+    "build load": "Roadmap", "load_map": "OccupancyMap", "load_tsdf": "TsdfMap", "load_world": "World",
+    "open_sequence": "DepthSequence", "compute_esdf": "EsdfMap", "delta_between": "GraphDelta",
+    "traversable_voxels compute_gvd extract_edges thin compute_skeleton": "VoxelMask",
+    "build_graph simplify_graph": "SparseGraph",
+    "from_numpy from_points resampled cropped with_no_fly without_isolated flattened transformed "
+    "occupancy": "OccupancyMap",
+    "to_numpy distances states": "Grid", "state_at": "NDArray[np.uint8]",
+    "is_free": "NDArray[np.bool_]", "path_is_free may_invalidate": "bool", "clearance": "float",
+    "distance_at": "Tuple[NDArray[np.float64], NDArray[np.float64]]", "block": "NDArray[np.uint32]",
+    "plan": "PlanResult", "plan_many": "List[PlanResult]",
+    "plan_nearest": "Tuple[Optional[int], PlanResult]", "plan_via": "Tuple[PlanResult, Optional[int]]",
+    "alternatives": "Alternatives", "explain": "Optional[BlockedRoute]", "trajectory": "Trajectory",
+    "save export_graph": "None", "components": "List[Dict[str, Any]]",
+    "check integrate_depth integrate_points set_voxels correct_poses catch_up": "Dict[str, Any]",
+    "sample": "TrajectorySamples", "surface": "Surface", "to_networkx": "Any",
+    "snapshot settled": "Optional[Roadmap]", "render_depth": "NDArray[np.float32]",
+    "__len__": "int", "__bool__ __eq__": "bool", "__repr__": "str", "__init__": "None",
+    "map": "OccupancyMap",
+}
+RESULTS = {name: kind for names, kind in RETURNS.items() for name in names.split()}
+RESULTS.update({"TsdfFusion.map": "TsdfMap", "Roadmap.distances": "NDArray[np.float64]",
+                "TsdfFusion.integrate_depth": "None", "TsdfFusion.integrate_points": "None",
+                "Alternatives.__getitem__": "PlanResult",
+                "DepthSequence.__getitem__": "Tuple[NDArray[np.float32], NDArray[np.float64]]"})
+PROPERTIES = {
+    "bounds": "Optional[Tuple[_Triple, _Triple]]", "keep_in": "Tuple[_Triple, _Triple]",
+    "keep_out": "List[Tuple[_Triple, _Triple]]", "place": "Optional[_Triple]",
+    "counts": "Dict[str, int]", "seconds": "Dict[str, float]", "config": "Dict[str, Any]",
+    "report": "Optional[Dict[str, Any]]",
+    "vertices points waypoints block_corners distances durations coefficients edge_lengths "
+    "edge_clearances vertex_clearances": "NDArray[np.float64]",
+    "edges components block_squared": "NDArray[np.uint32]", "voxels": "NDArray[np.int32]",
+    "block_states": "NDArray[np.uint8]", "block_sites": "NDArray[np.int16]",
+    "block_distances block_weights": "NDArray[np.float32]",
+    "voxel_size min_clearance max_distance truncation length clearance within radius duration "
+    "max_speed max_acceleration max_jerk max_yaw_rate escape_start escape_goal moved_start moved_goal "
+    "fx fy cx cy": "float",
+    "source unknown status reason answered_by by step name layout": "str",
+    "planar ok complete is_settled is_empty": "bool", "stops width height without_pose": "int",
+    "esdf": "EsdfMap", "diagram": "VoxelMask", "graph": "SparseGraph", "camera": "PinholeCamera",
+}
+ATTRIBUTES = {name: kind for names, kind in PROPERTIES.items() for name in names.split()}
+ATTRIBUTES["Alternatives.seconds"] = "float"
+
+
+def parameters(where, signature):
+    words, had_star = [], False
+    for parameter in signature.parameters.values():
+        if parameter.name == "self":
+            continue
+        kind = PARTICULAR.get(f"{where}.{parameter.name}") or TYPES[parameter.name]
+        if parameter.kind is parameter.KEYWORD_ONLY and not had_star:
+            words.append("*")
+            had_star = True
+        prefix = "**" if parameter.kind is parameter.VAR_KEYWORD else ""
+        default = "" if parameter.default is parameter.empty else " = ..."
+        words.append(f"{prefix}{parameter.name}: {kind}{default}")
+    return words
+
+
+def function(where, indent, words, result, static=False):
+    first = [] if static or not indent else ["self"]
+    name = where.split(".")[-1]
+    text = f"{indent}def {name}({', '.join(first + words)}) -> {result}: ..."
+    if len(text) > 100:
+        inner = f",\n{indent}    ".join(first + words)
+        text = f"{indent}def {name}(\n{indent}    {inner},\n{indent}) -> {result}: ..."
+    return (f"{indent}@staticmethod\n" if static else "") + text + "\n"
+
+
+def stub_of(cls):
+    own, lines = vars(cls), []
+    for name, member in own.items():
+        where = f"{cls.__name__}.{name}"
+        if isinstance(member, property):
+            kind = ATTRIBUTES.get(where) or ATTRIBUTES[name]
+            lines.append(f"    @property\n    def {name}(self) -> {kind}: ...\n")
+        elif name == "__init__":
+            if cls.__text_signature__:
+                words = parameters(where, inspect.signature(cls))
+                lines.append(function(where, "    ", words, "None"))
+        elif name in ("__len__", "__bool__", "__repr__"):
+            lines.append(function(where, "    ", [], RESULTS[name]))
+        elif name == "__eq__":
+            lines.append(function(where, "    ", ["other: object"], "bool"))
+            lines.append("    __hash__: None  # type: ignore\n")
+        elif name == "__getitem__":
+            lines.append(function(where, "    ", ["index: int"], RESULTS[where]))
+        elif not name.startswith("_"):
+            static = isinstance(member, staticmethod)
+            words = parameters(where, inspect.signature(getattr(cls, name)))
+            lines.append(function(where, "    ", words, RESULTS.get(where) or RESULTS[name], static))
+    return f"\nclass {cls.__name__}:\n" + ("".join(lines) or "    ...\n")
+
+
+def make():
+    text = HEAD
+    for name, value in vars(_core).items():
+        if inspect.isclass(value) and not issubclass(value, Exception):
+            text += stub_of(value)
+    for name, value in vars(_core).items():
+        if inspect.isbuiltin(value):
+            text += "\n" + function(name, "", parameters(name, inspect.signature(value)), RESULTS[name])
+    return re.sub(r"\n{3,}", "\n\n", text)
+
+
+if __name__ == "__main__":
+    print(make(), end="")

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <chrono>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/common/parallel.hpp"
+#include "ridgeway/common/progress.hpp"
+
+namespace ridgeway::python {
+
+namespace py = pybind11;
+
+/// Asks Python, from within a call that holds no lock of its, whether to go on: not after Ctrl-C,
+/// and not where the caller's own function says False or throws.
+class Watch {
+ public:
+  explicit Watch(py::object callback) : callback_(std::move(callback)) {}
+
+  bool go_on(std::string_view stage, double share) {
+    const py::gil_scoped_acquire acquire;
+    try {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      if (callback_.is_none()) return true;
+      const py::object answer = callback_(py::str(stage.data(), stage.size()), share);
+      return answer.ptr() != Py_False;
+    } catch (py::error_already_set& error) {
+      error_.emplace(error);
+      return false;
+    }
+  }
+
+  /// What Python threw, if it did; for callers that hold the lock again.
+  void rethrow() {
+    if (error_) throw py::error_already_set(*error_);
+  }
+
+ private:
+  py::object callback_;
+  std::optional<py::error_already_set> error_;
+};
+
+/// Runs work(progress) on so many threads (0: all) without Python's lock. Ctrl-C, or `callback`
+/// (stage, share done) -> False, cancels it where the library can be cancelled.
+template <typename Work>
+auto run_long(const py::object& callback, int threads, Work&& work) {
+  Watch watch(callback);
+  const Progress progress = [&](std::string_view stage, double share) {
+    return watch.go_on(stage, share);
+  };
+  try {
+    const py::gil_scoped_release release;
+    return with_threads(threads, [&] { return work(progress); });
+  } catch (const Cancelled&) {
+    watch.rethrow();
+    throw;
+  }
+}
+
+}  // namespace ridgeway::python

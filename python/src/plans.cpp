@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+//
+// Queries on roadmaps and their answers.
+#include "plans.hpp"
+
+#include <cmath>
+#include <map>
+
+#include "config.hpp"
+#include "long_call.hpp"
+#include "ridgeway/formats/path_io.hpp"
+#include "ridgeway/planning/alternatives.hpp"
+#include "ridgeway/planning/blocked_route.hpp"
+#include "ridgeway/planning/many_goals.hpp"
+#include "ridgeway/planning/plan.hpp"
+
+namespace ridgeway::python {
+namespace {
+
+/// A status in words.
+std::string reason_of(PlanStatus status) {
+  switch (status) {
+    case PlanStatus::kOk:
+      return "";
+    case PlanStatus::kStartOutsideMap:
+      return "the start is outside of the map";
+    case PlanStatus::kStartUnknown:
+      return "the start is in unknown space";
+    case PlanStatus::kStartInCollision:
+      return "the start is nearer to an obstacle than the radius (escape=True may lead out)";
+    case PlanStatus::kGoalOutsideMap:
+      return "the goal is outside of the map";
+    case PlanStatus::kGoalUnknown:
+      return "the goal is in unknown space";
+    case PlanStatus::kGoalInCollision:
+      return "the goal is nearer to an obstacle than the radius (snap=METRES moves it)";
+    case PlanStatus::kNoRoute:
+      return "no route joins start and goal at this radius (Roadmap.explain tells why)";
+    case PlanStatus::kRadiusTooSmall:
+      return "the radius is smaller than the roadmap was built for";
+    case PlanStatus::kTimeout:
+      return "the time limit has passed";
+    case PlanStatus::kStartOutsideLimits:
+      return "the start is outside of the flight's limits";
+    case PlanStatus::kGoalOutsideLimits:
+      return "the goal is outside of the flight's limits";
+  }
+  return "invalid";
+}
+
+std::string repr(const PlanResult& plan) {
+  if (!plan.ok()) return "PlanResult(status='" + std::string(name_of(plan.status)) + "')";
+  return "PlanResult(status='ok', length=" + literal(plan.length) +
+         ", clearance=" + literal(plan.clearance) +
+         ", waypoints=" + std::to_string(plan.waypoints.size()) + ", answered_by='" +
+         std::string(name_of(plan.answered_by)) + "')";
+}
+
+py::dict seconds_of(const PlanResult& plan) {
+  py::dict seconds;
+  seconds["attach"] = plan.seconds.attach;
+  seconds["search"] = plan.seconds.search;
+  seconds["shorten"] = plan.seconds.shorten;
+  seconds["total"] = plan.seconds.total;
+  return seconds;
+}
+
+PlanResult plan_one(const RoadmapFace& face, py::handle start, py::handle goal,
+                    const py::kwargs& keywords) {
+  const PlanConfig config = plan_fields().read_all(keywords);
+  const Point from = point_from(start, "start"), to = point_from(goal, "goal");
+  const py::gil_scoped_release release;
+  return plan(*face.roadmap, from, to, config);
+}
+
+/// One place for each of `count` queries.
+Point at(const std::vector<Point>& points, std::size_t i) {
+  return points.size() == 1 ? points.front() : points[i];
+}
+
+std::vector<Point> one_or_many(py::handle value, const char* name) {
+  const Doubles array = doubles_from(value, name, "(3,) or (N, 3) numbers, metres");
+  if (array.ndim() == 1 && array.size() == 3) return {point_from(value, name)};
+  return points_from(value, name);
+}
+
+/// Runs `count` pieces of work on so many threads, a few at a time, and listens to Ctrl-C between.
+template <typename Work>
+void run_many(int threads, std::size_t count, const Work& work) {
+  constexpr std::size_t kAtOnce = 1024;
+  run_long(py::none(), threads, [&](const Progress& progress) {
+    for (std::size_t first = 0; first < count; first += kAtOnce) {
+      if (!progress("plan", static_cast<double>(first) / static_cast<double>(count)))
+        throw Cancelled();
+      parallel_for_each_index(std::min(kAtOnce, count - first),
+                              [&](std::size_t i) { work(first + i); });
+    }
+    return true;
+  });
+}
+
+py::list list_of(std::vector<PlanResult> plans) {
+  py::list list;
+  for (PlanResult& plan : plans) list.append(py::cast(std::move(plan)));
+  return list;
+}
+
+py::list plan_many(const RoadmapFace& face, py::handle starts, py::handle goals, py::handle threads,
+                   const py::kwargs& keywords) {
+  const PlanConfig config = plan_fields().read_all(keywords);
+  const std::vector<Point> from = one_or_many(starts, "starts"), to = one_or_many(goals, "goals");
+  if (from.size() != to.size() && from.size() != 1 && to.size() != 1)
+    throw InputError("starts and goals",
+                     "are " + std::to_string(from.size()) + " and " + std::to_string(to.size()),
+                     "give as many of both, or one of either");
+  int count = 0;
+  read(threads, "threads", count);
+  const std::size_t queries = from.empty() || to.empty() ? 0 : std::max(from.size(), to.size());
+  std::vector<PlanResult> plans(queries);
+  run_many(count, queries,
+           [&](std::size_t i) { plans[i] = plan(*face.roadmap, at(from, i), at(to, i), config); });
+  return list_of(std::move(plans));
+}
+
+py::array distances(const RoadmapFace& face, py::handle start, py::handle goals,
+                    py::handle radius) {
+  const Point from = point_from(start, "start");
+  const std::vector<Point> to = points_from(goals, "goals");
+  std::optional<double> r;
+  read(radius, "radius", r);
+  std::vector<double> lengths;
+  {
+    const py::gil_scoped_release release;
+    lengths = distances_to_goals(*face.roadmap, from, to, r);
+  }
+  return owning_array(std::move(lengths), {static_cast<py::ssize_t>(to.size())});
+}
+
+py::tuple plan_nearest(const RoadmapFace& face, py::handle start, py::handle goals,
+                       const py::kwargs& keywords) {
+  const PlanConfig config = plan_fields().read_all(keywords);
+  const Point from = point_from(start, "start");
+  const std::vector<Point> to = points_from(goals, "goals");
+  NearestGoal nearest;
+  {
+    const py::gil_scoped_release release;
+    nearest = plan_to_nearest(*face.roadmap, from, to, config);
+  }
+  return py::make_tuple(nearest.goal ? py::cast(*nearest.goal) : py::none(),
+                        py::cast(std::move(nearest.plan)));
+}
+
+py::tuple plan_over(const RoadmapFace& face, py::handle places, const py::kwargs& keywords) {
+  const PlanConfig config = plan_fields().read_all(keywords);
+  const std::vector<Point> points = points_from(places, "places");
+  ViaPlan via;
+  {
+    const py::gil_scoped_release release;
+    via = plan_via(*face.roadmap, points, config);
+  }
+  const py::object leg = via.plan.ok() ? py::none() : py::cast(via.leg);
+  return py::make_tuple(py::cast(std::move(via.plan)), leg);
+}
+
+Alternatives alternatives(const RoadmapFace& face, py::handle start, py::handle goal,
+                          py::handle count, const py::kwargs& keywords) {
+  const PlanConfig config = plan_fields().read_all(keywords);
+  const Point from = point_from(start, "start"), to = point_from(goal, "goal");
+  int routes = 0;
+  read(count, "count", routes);
+  if (routes == 0) throw InputError("count", "is 0", "ask for at least one route");
+  const py::gil_scoped_release release;
+  return plan_alternatives(*face.roadmap, from, to, static_cast<std::size_t>(routes), config);
+}
+
+py::object explain(const RoadmapFace& face, py::handle start, py::handle goal, py::handle radius,
+                   py::handle limits) {
+  const Point from = point_from(start, "start"), to = point_from(goal, "goal");
+  std::optional<double> given;
+  read(radius, "radius", given);
+  FlightLimits flight;
+  read(limits, "limits", flight);
+  std::optional<BlockedRoute> blocked;
+  {
+    const py::gil_scoped_release release;
+    blocked = RouteBlocks(*face.roadmap)
+                  .between(from, to, given.value_or(face.roadmap->min_clearance), flight);
+  }
+  if (!blocked) return py::none();
+  return py::cast(*std::move(blocked));
+}
+
+void add_results(py::module_& module) {
+  py::class_<PlanResult>(module, "PlanResult",
+                         "A path, or the one reason why there is none: true where there is one.")
+      .def_property_readonly(
+          "status", [](const PlanResult& plan) { return std::string(name_of(plan.status)); },
+          "'ok', or why there is no path: 'no_route', 'start_in_collision', ...")
+      .def_property_readonly(
+          "reason", [](const PlanResult& plan) { return reason_of(plan.status); },
+          "The status in words; '' where ok.")
+      .def_property_readonly("ok", &PlanResult::ok, "Whether there is a path.")
+      .def("__bool__", &PlanResult::ok)
+      .def_property_readonly(
+          "waypoints",
+          [](py::object self) { return view_of(self.cast<const PlanResult&>().waypoints, self); },
+          "Start first, goal last, (N, 3), metres, world; (0, 3) where there is no path. "
+          "Read-only.")
+      .def_readonly("length", &PlanResult::length, "Metres.")
+      .def_readonly("clearance", &PlanResult::clearance,
+                    "Smallest distance to an obstacle along the path, metres.")
+      .def_readonly("within", &PlanResult::within,
+                    "The path is at most so many times as long as the shortest.")
+      .def_property_readonly(
+          "answered_by",
+          [](const PlanResult& plan) { return std::string(name_of(plan.answered_by)); },
+          "'graph', 'diagram', 'esdf' or 'theta'.")
+      .def_property_readonly(
+          "unknown", [](const PlanResult& plan) { return std::string(name_of(plan.unknown)); },
+          "What unknown space was taken for: 'obstacle', 'ignore' or 'free'.")
+      .def_property_readonly("seconds", &seconds_of, "Of attach, search, shorten, and in total.")
+      .def_property_readonly(
+          "escape_start", [](const PlanResult& plan) { return plan.escape_start.length; },
+          "Length of the first segment where it leads out of a collision, metres; else 0.")
+      .def_property_readonly(
+          "escape_goal", [](const PlanResult& plan) { return plan.escape_goal.length; },
+          "Length of the last segment where it leads into one, metres; else 0.")
+      .def_property_readonly(
+          "moved_start", [](const PlanResult& plan) { return plan.moved_start.distance; },
+          "How far the start was moved (snap), metres.")
+      .def_property_readonly(
+          "moved_goal", [](const PlanResult& plan) { return plan.moved_goal.distance; },
+          "How far the goal was moved (snap), metres.")
+      .def(
+          "save",
+          [](const PlanResult& plan, py::handle path) {
+            write_plan(plan, path_from(path, "path"));
+          },
+          py::arg("path"), "save(self, path)\n--\n\nAs .csv or .json, as the command line does.")
+      .def("__repr__", &repr);
+
+  py::class_<Alternatives>(module, "Alternatives",
+                           "Routes on other sides of obstacles, shortest first; a sequence of "
+                           "PlanResult.")
+      .def_property_readonly(
+          "status", [](const Alternatives& all) { return std::string(name_of(all.status)); },
+          "'ok', or why there is no route.")
+      .def_property_readonly(
+          "reason", [](const Alternatives& all) { return reason_of(all.status); },
+          "The status in words; '' where ok.")
+      .def_readonly("complete", &Alternatives::complete, "Whether more would find no more.")
+      .def_readonly("seconds", &Alternatives::seconds, "In all.")
+      .def("__len__", [](const Alternatives& all) { return all.routes.size(); })
+      .def(
+          "__getitem__",
+          [](const Alternatives& all, py::ssize_t i) {
+            const auto count = static_cast<py::ssize_t>(all.routes.size());
+            if (i < 0) i += count;
+            if (i < 0 || i >= count) throw py::index_error();
+            return all.routes[static_cast<std::size_t>(i)];
+          },
+          py::arg("index"))
+      .def("__repr__", [](const Alternatives& all) {
+        std::string text =
+            "Alternatives(status='" + std::string(name_of(all.status)) + "', lengths=[";
+        for (std::size_t i = 0; i < all.routes.size(); ++i)
+          text += (i == 0 ? "" : ", ") + literal(all.routes[i].length);
+        return text + "], complete=" + literal(all.complete) + ")";
+      });
+
+  py::class_<BlockedRoute>(module, "BlockedRoute", "Why there is no route at a radius.")
+      .def_readonly("radius", &BlockedRoute::radius,
+                    "Largest radius at which there is a way, metres; 0: there is none at all.")
+      .def_property_readonly(
+          "place",
+          [](const BlockedRoute& blocked) -> py::object {
+            return blocked.place ? py::object(tuple_of(*blocked.place)) : py::none();
+          },
+          "Where that way is narrowest, (x, y, z), metres; or None.")
+      .def_property_readonly(
+          "by", [](const BlockedRoute& blocked) { return std::string(name_of(blocked.by)); },
+          "What is nearest there: 'obstacle', 'unknown' or 'limits'.")
+      .def("__repr__", [](const BlockedRoute& blocked) {
+        return "BlockedRoute(radius=" + literal(blocked.radius) + ", place=" +
+               (blocked.place ? std::string(py::str(tuple_of(*blocked.place))) : "None") +
+               ", by='" + std::string(name_of(blocked.by)) + "')";
+      });
+}
+
+}  // namespace
+
+void add_plans(py::module_& module) { add_results(module); }
+
+void add_queries(py::class_<RoadmapFace>& type) {
+  const std::string fields = plan_fields().signature(), docs = plan_fields().docs();
+  const std::string keywords = ", *, " + fields.substr(2);
+  type.def("plan", &plan_one, py::arg("start"), py::arg("goal"),
+           ("plan(self, start, goal" + keywords +
+            ")\n--\n\nThe path from start to goal, (x, y, z), metres, world: a PlanResult. Every "
+            "segment is verified.\n" +
+            docs)
+               .c_str());
+  type.def("plan_many", &plan_many, py::arg("starts"), py::arg("goals"), py::kw_only(),
+           py::arg("threads") = 0,
+           ("plan_many(self, starts, goals, *, threads=0" + fields +
+            ")\n--\n\nThe paths from each start to each goal, (N, 3), or one of either for all: a "
+            "list of PlanResult,\nthe same as `plan` gives. On so many threads (0: all). Ctrl-C "
+            "stops it.\n" +
+            docs)
+               .c_str());
+  type.def("plan_nearest", &plan_nearest, py::arg("start"), py::arg("goals"),
+           ("plan_nearest(self, start, goals" + keywords +
+            ")\n--\n\nThe nearest of goals (N, 3): its index (None where none can be reached) and "
+            "its PlanResult.\n" +
+            docs)
+               .c_str());
+  type.def("plan_via", &plan_over, py::arg("places"),
+           ("plan_via(self, places" + keywords +
+            ")\n--\n\nA path over places (N, 3): a PlanResult, and the leg that has none, or "
+            "None.\n" +
+            docs)
+               .c_str());
+  type.def(
+      "alternatives", &alternatives, py::arg("start"), py::arg("goal"), py::arg("count") = 3,
+      ("alternatives(self, start, goal, count=3" + keywords +
+       ")\n--\n\nUp to `count` routes on different sides of obstacles, as Alternatives.\n" + docs)
+          .c_str());
+  type.def("distances", &distances, py::arg("start"), py::arg("goals"),
+           py::arg("radius") = py::none(),
+           "distances(self, start, goals, radius=None)\n--\n\n"
+           "Lengths along the graph from start to goals (N, 3): (N,), metres; inf where it has no "
+           "way.");
+  type.def("explain", &explain, py::arg("start"), py::arg("goal"), py::arg("radius") = py::none(),
+           py::arg("limits") = py::none(),
+           "explain(self, start, goal, radius=None, limits=None)\n--\n\n"
+           "Why there is no route at a radius (metres), as BlockedRoute: at which there would be "
+           "one, and where it\nis too narrow. None where start or goal themselves are no place to "
+           "be. Takes longer than a plan.");
+}
+
+}  // namespace ridgeway::python

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include "faces.hpp"
+
+namespace ridgeway::python {
+
+/// The queries of a roadmap as methods of its class.
+void add_queries(py::class_<RoadmapFace>& type);
+/// Likewise its trajectories.
+void add_trajectories(py::class_<RoadmapFace>& type);
+
+}  // namespace ridgeway::python

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+//
+// Cameras, recordings and simulated worlds.
+#include "sensors.hpp"
+
+#include "config.hpp"
+#include "maps.hpp"
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/formats/world_file.hpp"
+#include "ridgeway/mapping/world_map.hpp"
+#include "ridgeway/recordings/depth_sequence.hpp"
+
+namespace ridgeway::python {
+namespace {
+
+py::array array_of(DepthImage image) {
+  const py::ssize_t height = image.height, width = image.width;
+  return owning_array(std::move(image.depth), {height, width});
+}
+
+PinholeCamera make_camera(py::handle width, py::handle height, py::handle fx, py::handle fy,
+                          py::handle cx, py::handle cy) {
+  PinholeCamera camera;
+  read(width, "width", camera.width);
+  read(height, "height", camera.height);
+  read(fx, "fx", camera.fx);
+  read(fy, "fy", camera.fy);
+  read(cx, "cx", camera.cx);
+  read(cy, "cy", camera.cy);
+  camera.validate();
+  return camera;
+}
+
+std::string repr(const PinholeCamera& c) {
+  return "PinholeCamera(width=" + literal(c.width) + ", height=" + literal(c.height) +
+         ", fx=" + literal(c.fx) + ", fy=" + literal(c.fy) + ", cx=" + literal(c.cx) +
+         ", cy=" + literal(c.cy) + ")";
+}
+
+py::tuple frame_of(const DepthSequence& sequence, py::ssize_t i) {
+  const auto count = static_cast<py::ssize_t>(sequence.frames.size());
+  if (i < 0) i += count;
+  if (i < 0 || i >= count) throw py::index_error("there are " + std::to_string(count) + " frames");
+  const DepthFrame& frame = sequence.frames[static_cast<std::size_t>(i)];
+  DepthImage image;
+  {
+    const py::gil_scoped_release release;
+    image = read_frame(sequence, frame);
+  }
+  return py::make_tuple(array_of(std::move(image)), python::array_of(frame.T_world_camera));
+}
+
+py::array render(const World& world, const PinholeCamera& camera, py::handle pose,
+                 py::handle max_range, py::handle range_sigma, py::handle seed) {
+  DepthSensor sensor;
+  sensor.camera = camera;
+  read(max_range, "max_range", sensor.max_range);
+  read(range_sigma, "range_sigma", sensor.range_sigma);
+  sensor.validate();
+  const Eigen::Isometry3d T_world_camera = pose_from(pose, "T_world_camera");
+  const auto number = static_cast<std::uint64_t>(whole_from(seed, "seed"));
+  DepthImage image;
+  {
+    const py::gil_scoped_release release;
+    image = render_depth(world, sensor, T_world_camera, number);
+  }
+  return array_of(std::move(image));
+}
+
+void add_world(py::module_& module) {
+  py::class_<World>(module, "World", "A simulated world: a union of solids, metres, z up.")
+      .def_readonly("name", &World::name)
+      .def(
+          "occupancy",
+          [](const World& world, py::handle voxel_size, py::handle bounds) {
+            const double size = number_from(voxel_size, "voxel_size");
+            const Box box = box_from(bounds, "bounds");
+            const py::gil_scoped_release release;
+            return face_of(occupancy_of(world, size, box), world.name);
+          },
+          py::arg("voxel_size"), py::arg("bounds"),
+          "occupancy(self, voxel_size, bounds)\n--\n\n"
+          "The OccupancyMap of who knows all of the world within a box, metres.")
+      .def("render_depth", &render, py::arg("camera"), py::arg("T_world_camera"),
+           py::arg("max_range") = 10.0, py::arg("range_sigma") = 0.0, py::arg("seed") = 0,
+           "render_depth(self, camera, T_world_camera, max_range=10.0, range_sigma=0.0, seed=0)"
+           "\n--\n\nWhat a depth camera sees from a pose (4, 4): (H, W) float32, metres, 0 where "
+           "nothing is near.")
+      .def("__repr__", [](const World& world) {
+        return "World(name='" + world.name + "', boxes=" + std::to_string(world.boxes.size()) +
+               ", meshes=" + std::to_string(world.meshes.size()) + ")";
+      });
+  module.def(
+      "load_world",
+      [](py::handle path) {
+        const std::filesystem::path file = path_from(path, "path");
+        const py::gil_scoped_release release;
+        return load_world(file);
+      },
+      py::arg("path"), "load_world(path)\n--\n\nThe World of a .yaml file.");
+}
+
+}  // namespace
+
+DepthImage image_from(py::handle value, const char* name) {
+  const std::string expected = "an (H, W) array of depths, metres";
+  const Doubles checked = doubles_from(value, name, expected);
+  if (checked.ndim() != 2) throw InputError(name, "is " + describe(value), "give " + expected);
+  constexpr py::ssize_t kLongest = 1 << 20;
+  if (checked.shape(0) > kLongest || checked.shape(1) > kLongest)
+    throw InputError(name, "is " + describe(value), "give a smaller image");
+  DepthImage image;
+  image.height = static_cast<int>(checked.shape(0));
+  image.width = static_cast<int>(checked.shape(1));
+  image.depth.reserve(static_cast<std::size_t>(checked.size()));
+  for (py::ssize_t i = 0; i < checked.size(); ++i)
+    image.depth.push_back(static_cast<float>(checked.data()[i]));
+  return image;
+}
+
+void add_sensors(py::module_& module) {
+  py::class_<PinholeCamera>(
+      module, "PinholeCamera",
+      "PinholeCamera(width=320, height=240, fx=160.0, fy=160.0, cx=159.5, cy=119.5)\n--\n\n"
+      "From pixels to rays, without distortion; all in pixels. Its frame: x right, y down, z "
+      "forward.")
+      .def(py::init(&make_camera), py::arg("width") = 320, py::arg("height") = 240,
+           py::arg("fx") = 160.0, py::arg("fy") = 160.0, py::arg("cx") = 159.5,
+           py::arg("cy") = 119.5,
+           "__init__(self, width=320, height=240, fx=160.0, fy=160.0, cx=159.5, cy=119.5)\n--\n\n")
+      .def_readonly("width", &PinholeCamera::width)
+      .def_readonly("height", &PinholeCamera::height)
+      .def_readonly("fx", &PinholeCamera::fx)
+      .def_readonly("fy", &PinholeCamera::fy)
+      .def_readonly("cx", &PinholeCamera::cx)
+      .def_readonly("cy", &PinholeCamera::cy)
+      .def("__repr__", &repr);
+
+  py::class_<DepthSequence>(
+      module, "DepthSequence",
+      "A recording of depth images with poses; sequence[i] is the i-th: (image, T_world_camera).")
+      .def_readonly("layout", &DepthSequence::layout, "'tum' or '7-scenes'.")
+      .def_readonly("camera", &DepthSequence::camera)
+      .def_readonly("without_pose", &DepthSequence::without_pose,
+                    "Images that no pose belongs to, passed over.")
+      .def("__len__", [](const DepthSequence& sequence) { return sequence.frames.size(); })
+      .def("__getitem__", &frame_of, py::arg("index"))
+      .def("__repr__", [](const DepthSequence& sequence) {
+        return "DepthSequence(" + std::to_string(sequence.frames.size()) + " frames, layout='" +
+               sequence.layout + "')";
+      });
+  module.def(
+      "open_sequence",
+      [](py::handle folder) {
+        const std::filesystem::path path = path_from(folder, "folder");
+        const py::gil_scoped_release release;
+        return open_sequence(path);
+      },
+      py::arg("folder"),
+      "open_sequence(folder)\n--\n\n"
+      "A recording in the layout of TUM RGB-D or 7-Scenes: a DepthSequence.");
+  add_world(module);
+}
+
+}  // namespace ridgeway::python

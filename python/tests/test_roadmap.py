@@ -1,0 +1,290 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 The Ridgeway authors
+import json
+import subprocess
+
+import numpy as np
+import pytest
+
+import ridgeway
+from conftest import GOAL, START
+
+
+def cli(program, *words, codes=(0,)):
+    done = subprocess.run([program, *map(str, words)], capture_output=True, text=True)
+    assert done.returncode in codes, done.stderr
+    return done.stdout
+
+
+def test_files_and_plans_are_those_of_the_command_line(program, real_file, real, tmp_path):
+    cli(program, "build", real_file, "-o", tmp_path / "a.ridge", "--min-clearance", "0.3", "--json")
+    real.save(tmp_path / "b.ridge")
+    assert (tmp_path / "a.ridge").read_bytes() == (tmp_path / "b.ridge").read_bytes()
+    ridgeway.load(tmp_path / "a.ridge").save(tmp_path / "c.ridge")
+    assert (tmp_path / "a.ridge").read_bytes() == (tmp_path / "c.ridge").read_bytes()
+
+    rng = np.random.default_rng(1)
+    places = real.diagram.points[rng.integers(0, len(real.diagram), 12)]
+    for start, goal in zip(places[::2], places[1::2]):
+        words = ("--from=" + ",".join(map(repr, start)), "--to=" + ",".join(map(repr, goal)))
+        told = json.loads(cli(program, "plan", tmp_path / "a.ridge", *words, "--json", codes=(0, 2)))
+        plan = real.plan(start, goal)
+        assert plan.status == told["status"]
+        if plan:
+            assert plan.length == told["length"] and plan.clearance == told["clearance"]
+            assert np.array_equal(plan.waypoints, np.array(told["waypoints"]))
+
+
+def test_the_same_bytes_with_other_options_and_threads(program, real_file, tmp_path):
+    cli(program, "build", real_file, "-o", tmp_path / "a.ridge", "--min-clearance", "0.35",
+        "--unknown", "ignore", "--voxel-size", "0.1", "--keep-in", "-5,-5,0,20,5,2")
+    limits = ridgeway.FlightLimits(keep_in=((-5, -5, 0), (20, 5, 2)))
+    for threads in (1, 2):
+        made = ridgeway.build(real_file, voxel_size=0.1, min_clearance=0.35, unknown="ignore",
+                              limits=limits, threads=threads)
+        made.save(tmp_path / "b.ridge")
+        assert (tmp_path / "a.ridge").read_bytes() == (tmp_path / "b.ridge").read_bytes()
+
+
+@pytest.mark.parametrize("unknown", ["obstacle", "ignore", "free"])
+def test_a_map_stays_as_it_was_when_it_is_built_from(real_file, unknown, tmp_path):
+    grid = ridgeway.load_map(real_file, voxel_size=0.2)
+    before = grid.to_numpy().values
+    for name in "ab":
+        ridgeway.build(grid, min_clearance=0.4, unknown=unknown).save(tmp_path / (name + ".ridge"))
+        assert np.array_equal(grid.to_numpy().values, before)
+    assert (tmp_path / "a.ridge").read_bytes() == (tmp_path / "b.ridge").read_bytes()
+
+
+def test_stages_one_by_one_are_those_of_build(rooms):
+    grid = ridgeway.OccupancyMap.from_numpy(rooms, 0.1)
+    roadmap = ridgeway.build(grid, min_clearance=0.25)
+    esdf = ridgeway.compute_esdf(grid)
+    assert np.array_equal(esdf.block_squared, roadmap.esdf.block_squared)
+    traversable = ridgeway.traversable_voxels(esdf, 0.25)
+    gvd = ridgeway.compute_gvd(esdf, traversable)
+    edges = ridgeway.extract_edges(esdf, gvd)
+    assert len(traversable) > len(gvd) > len(edges) >= len(ridgeway.thin(edges)) > 0
+    assert len(gvd) == roadmap.report["gvd_voxels"] and len(edges) == roadmap.report["edge_voxels"]
+    skeleton = ridgeway.compute_skeleton(esdf, 0.25)
+    assert skeleton == roadmap.diagram and not skeleton == edges
+    graph = ridgeway.build_graph(esdf, skeleton, min_clearance=0.25)
+    simple = ridgeway.simplify_graph(esdf, graph)
+    for name in ("vertices", "edges", "edge_lengths", "edge_clearances", "vertex_clearances"):
+        assert np.array_equal(getattr(simple, name), getattr(roadmap.graph, name)), name
+    other = ridgeway.compute_esdf(ridgeway.OccupancyMap.from_numpy(rooms[::2], 0.1))
+    with pytest.raises(ValueError, match="diagram: is of another map"):
+        ridgeway.build_graph(other, skeleton)
+
+
+def test_distances_are_those_of_brute_force(rooms):
+    esdf = ridgeway.compute_esdf(ridgeway.OccupancyMap.from_numpy(rooms, 0.1))
+    grid = esdf.distances()
+    assert grid.values.shape == rooms.shape and grid.values.dtype == np.float32
+    solid = np.argwhere(rooms == ridgeway.OCCUPIED)
+    rng = np.random.default_rng(2)
+    for voxel in np.argwhere(rooms == ridgeway.FREE)[rng.integers(0, (rooms == 1).sum(), 200)]:
+        gap = np.maximum(np.abs(solid - voxel) - 0.5, 0.0)
+        assert grid.values[tuple(voxel)] == pytest.approx(0.1 * np.sqrt((gap**2).sum(1).min()), rel=1e-6)
+    blocks = esdf.block_squared
+    assert not blocks.flags.writeable and not blocks.flags.owndata
+    assert np.shares_memory(esdf.block(0), blocks) and np.array_equal(esdf.block(-1), blocks[-1])
+    with pytest.raises(IndexError):
+        esdf.block(len(blocks))
+    assert esdf.block_sites.shape == blocks.shape + (3,)
+
+
+def test_free_space_is_asked_point_by_point(roadmap):
+    esdf = roadmap.esdf
+    points = np.random.default_rng(3).uniform((0, 0, 0), (6.4, 4.4, 2.4), (500, 3))
+    free = esdf.is_free(points, 0.25)
+    assert free.dtype == bool and 0 < free.sum() < 500
+    for point, answer in zip(points, free):
+        assert answer == (esdf.clearance([point]) >= 0.25 * (1 - 1e-9))
+    distance, gradient = esdf.distance_at(points)
+    assert np.all(np.abs(distance[free] - [esdf.clearance([p]) for p in points[free]]) < 0.2)
+    assert gradient.shape == (500, 3)
+    assert np.isnan(esdf.distance_at([[1e30, 0, 0], [-50, 0, 0]])[0]).all()
+    assert esdf.is_free([[1e30, 0, 0]], 0.1).tolist() == [False]
+    assert not esdf.path_is_free([(1.5, 1, 1), (5, 1, 1)], 0.25)
+    assert esdf.path_is_free(roadmap.plan(START, GOAL).waypoints, 0.25)
+    with pytest.raises(ValueError, match="radius"):
+        esdf.is_free(points, np.nan)
+
+
+def test_plans_are_arrays_and_reasons(roadmap):
+    plan = roadmap.plan(START, GOAL)
+    assert plan and plan.ok and plan.status == "ok" and plan.reason == ""
+    assert plan.waypoints.shape[1] == 3 and plan.waypoints.dtype == np.float64
+    assert tuple(plan.waypoints[0]) == START and tuple(plan.waypoints[-1]) == GOAL
+    steps = np.linalg.norm(np.diff(plan.waypoints, axis=0), axis=1)
+    assert plan.length == pytest.approx(steps.sum())
+    assert roadmap.esdf.clearance(plan.waypoints) == pytest.approx(plan.clearance)
+    with pytest.raises(ValueError):
+        plan.waypoints[0] = 0
+    refused = {
+        (9, 9, 9): "goal_outside_map",
+        (1, 2, 1e308): "goal_outside_map",
+        (0.05, 0.05, 0.05): "goal_in_collision",
+        (0.3, 0.3, 0.3): "goal_in_collision",
+    }
+    for goal, status in refused.items():
+        plan = roadmap.plan(START, goal)
+        assert not plan and plan.status == status and "goal" in plan.reason
+        assert plan.waypoints.shape == (0, 3)
+    wide = roadmap.plan(START, GOAL, radius=0.5)
+    assert wide.status == "no_route"
+    blocked = roadmap.explain(START, GOAL, radius=0.5)
+    assert 0.35 <= blocked.radius <= 0.4 and blocked.by == "obstacle"
+    assert blocked.place[0] == pytest.approx(3.2, abs=0.2)
+    assert roadmap.plan((0.25, 0.8, 1.0), GOAL).status == "start_in_collision"
+    assert roadmap.plan((0.25, 0.8, 1.0), GOAL, snap=0.5).moved_start > 0
+    assert roadmap.plan(START, GOAL, radius=0.1).status == "radius_too_small"
+
+
+@pytest.mark.parametrize("kind", [tuple, list, np.array, lambda p: np.array(p, np.float32),
+                                  lambda p: np.array([p, p])[::-1][0], lambda p: np.float64(p)[::-1][::-1]])
+def test_points_may_be_anything_of_three_numbers(roadmap, kind):
+    assert roadmap.plan(kind(START), kind(GOAL)).length == pytest.approx(
+        roadmap.plan(START, GOAL).length, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "ask, error, words",
+    [
+        (lambda r: r.plan((1, 2), GOAL), ValueError, r"start: .*three numbers"),
+        (lambda r: r.plan(START, np.zeros((3, 3))), ValueError, "goal: .*three numbers"),
+        (lambda r: r.plan(START, (1, 2, np.nan)), ValueError, "goal: .*finite"),
+        (lambda r: r.plan("here", GOAL), TypeError, "start: expected three numbers"),
+        (lambda r: r.plan(None, GOAL), TypeError, "start: expected"),
+        (lambda r: r.plan((1, 2, "3"), GOAL), TypeError, "start: expected a number"),
+        (lambda r: r.plan(START, GOAL, radius=-1), ValueError, "radius"),
+        (lambda r: r.plan(START, GOAL, radius="0.3"), TypeError, "radius: expected a number"),
+        (lambda r: r.plan(START, GOAL, shorten=1), TypeError, "shorten: expected True or False"),
+        (lambda r: r.plan(START, GOAL, planner="astar"), ValueError, "planner: is 'astar'.*'esdf'"),
+        (lambda r: r.plan(START, GOAL, raduis=1), TypeError, "did you mean 'radius'"),
+        (lambda r: r.plan(START, GOAL, time_limit=np.nan), ValueError, "time_limit"),
+        (lambda r: r.plan(START, GOAL, limits=(0, 1)), TypeError, "limits: expected FlightLimits"),
+        (lambda r: r.plan_many([START, START], [GOAL] * 3), ValueError, "starts and goals"),
+        (lambda r: r.plan_many(START, np.zeros((2, 2))), ValueError, r"goals: .*\(N, 3\)"),
+        (lambda r: r.plan_many(START, [(0, 0, np.inf)]), ValueError, r"goals\[0\]"),
+        (lambda r: r.distances(START, [GOAL], radius=0), ValueError, "radius"),
+        (lambda r: r.alternatives(START, GOAL, 0), ValueError, "count"),
+        (lambda r: r.trajectory([(0, 0)]), ValueError, "path"),
+        (lambda r: r.trajectory(r.plan(START, (9, 9, 9))), ValueError, "path: is no path"),
+        (lambda r: r.save("map.txt"), ValueError, "ends in .ridge"),
+        (lambda r: r.esdf.is_free(np.zeros((2, 4)), 0.1), ValueError, r"points: .*\(N, 3\)"),
+    ],
+)
+def test_bad_queries_name_argument_and_expectation(roadmap, ask, error, words):
+    with pytest.raises(error, match=words):
+        ask(roadmap)
+
+
+@pytest.mark.parametrize(
+    "words, error, match",
+    [
+        (dict(min_clearance=0), ValueError, "min_clearance"),
+        (dict(min_clearance=np.nan), ValueError, "min_clearance"),
+        (dict(unknown="wall"), ValueError, "unknown: is 'wall'"),
+        (dict(min_clearence=1), TypeError, "did you mean 'min_clearance'"),
+        (dict(threads=-1), ValueError, "threads"),
+        (dict(threads=1.5), TypeError, "threads: expected a whole number"),
+        (dict(tangent_pairs=-3), ValueError, "tangent_pairs"),
+        (dict(theta=9), ValueError, "theta"),
+    ],
+)
+def test_bad_configurations_name_their_field(rooms, words, error, match):
+    with pytest.raises(error, match=match):
+        ridgeway.build(ridgeway.OccupancyMap.from_numpy(rooms, 0.1), **words)
+
+
+def test_arrays_are_not_maps(rooms):
+    with pytest.raises(TypeError, match="OccupancyMap.from_numpy"):
+        ridgeway.build(rooms)
+
+
+def test_many_plans_are_the_plans_one_by_one(real):
+    rng = np.random.default_rng(4)
+    points = real.diagram.points[rng.integers(0, len(real.diagram), 60)]
+    starts, goals = points[:30], points[30:]
+    alone = [real.plan(a, b) for a, b in zip(starts, goals)]
+    for threads in (1, 2):
+        together = real.plan_many(starts, goals, threads=threads)
+        assert [p.status for p in together] == [p.status for p in alone]
+        for a, b in zip(alone, together):
+            assert np.array_equal(a.waypoints, b.waypoints)
+    fan = real.plan_many(starts[0], goals)
+    assert [p.length for p in fan] == [real.plan(starts[0], b).length for b in goals]
+    index, nearest = real.plan_nearest(starts[0], goals)
+    lengths = [p.length if p else np.inf for p in fan]
+    assert index == int(np.argmin(lengths)) and nearest.length == min(lengths)
+    assert real.distances(starts[0], goals).shape == (30,)
+    assert real.plan_many(starts[0], np.zeros((0, 3))) == []
+
+
+def test_routes_over_places_and_on_other_sides(rooms):
+    rooms[10:20, 16:26, 2:22] = ridgeway.OCCUPIED  # a pillar in the first room
+    roadmap = ridgeway.build(ridgeway.OccupancyMap.from_numpy(rooms, 0.1), min_clearance=0.25)
+    start = (0.6, 2.1, 1.0)
+    plan, leg = roadmap.plan_via([start, (2.5, 0.7, 1.0), GOAL])
+    assert plan and leg is None
+    plan, leg = roadmap.plan_via([start, GOAL, (9, 9, 9)])
+    assert not plan and leg == 1
+    routes = roadmap.alternatives(start, GOAL, 4)
+    assert len(routes) >= 2 and routes.status == "ok"
+    sides = {bool(route.waypoints[np.abs(route.waypoints[:, 0] - 1.5).argmin(), 1] > 2.1) for route in routes}
+    assert sides == {True, False}
+    assert [r.length for r in routes] == sorted(r.length for r in routes)
+    with pytest.raises(IndexError):
+        routes[9]
+
+
+def test_graphs_are_arrays_and_networkx(real, tmp_path):
+    graph = real.graph
+    edges, vertices = graph.edges, graph.vertices
+    assert edges.shape[1] == 2 and vertices.shape[1] == 3 and not edges.flags.owndata
+    lengths = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
+    assert np.allclose(lengths, graph.edge_lengths, atol=1e-9)
+    assert graph.edge_clearances.min() >= graph.min_clearance * (1 - 1e-9)
+    networkx = pytest.importorskip("networkx")
+    same = graph.to_networkx()
+    assert same.number_of_nodes() == len(vertices) and same.number_of_edges() == len(edges)
+    assert networkx.number_connected_components(same) == graph.components.max() + 1
+    assert same.nodes[3]["pos"] == tuple(vertices[3])
+    real.export_graph(tmp_path / "graph.json")
+    read = networkx.node_link_graph(json.loads((tmp_path / "graph.json").read_text()))
+    assert sorted(read.edges) == sorted(same.edges)
+
+
+def test_a_roadmap_checks_itself(roadmap):
+    report = roadmap.check(queries=20, seed=3)
+    assert report["clean"] and report["queries"] == 20
+    assert len(roadmap.components()) == roadmap.report["traversable_components"]
+
+
+def test_trajectories_hold_their_limits(roadmap, tmp_path):
+    plan = roadmap.plan(START, GOAL)
+    flight = roadmap.trajectory(plan, max_speed=1.5, max_acceleration=2.0)
+    assert flight and flight.max_speed <= 1.5 and flight.max_acceleration <= 2.0
+    states = flight.sample(0.02)
+    assert states.time[-1] == pytest.approx(flight.duration)
+    assert np.linalg.norm(states.velocity, axis=1).max() <= flight.max_speed * (1 + 1e-6)
+    assert roadmap.esdf.is_free(states.position, 0.2499).all()
+    assert flight.durations.sum() == pytest.approx(flight.duration)
+    assert flight.coefficients.shape == (len(flight.durations), 4, 10)
+    assert roadmap.trajectory(plan.waypoints).ok
+    flight.save(tmp_path / "flight.csv")
+    assert (tmp_path / "flight.csv").read_text().startswith("t,x,y,z")
+    refused = roadmap.trajectory([START, (5.6, 0.8, 1.0)])
+    assert not refused and refused.status == "path_not_free"
+
+
+def test_what_things_say_of_themselves(roadmap):
+    things = [roadmap, roadmap.esdf, roadmap.graph, roadmap.diagram, roadmap.plan(START, GOAL),
+              roadmap.alternatives(START, GOAL), roadmap.trajectory(roadmap.plan(START, GOAL)),
+              roadmap.explain(START, GOAL, 0.5), ridgeway.FlightLimits(), ridgeway.PinholeCamera(),
+              ridgeway.TsdfFusion(), ridgeway.LiveRoadmap()]
+    for thing in things:
+        assert repr(thing).startswith(type(thing).__name__ + "(")
+        assert type(thing).__module__ == "ridgeway"
