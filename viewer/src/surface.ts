@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+import * as THREE from "three";
+import { kHeights } from "./colours";
+import type { Surface } from "./layers";
+
+const kVertex = `
+uniform vec3 origin;
+uniform float cell_size, cut;
+in vec4 cell;
+in vec4 size;
+out vec3 place;
+flat out vec3 normal_out;
+void main() {
+  int side = int(cell.w + 0.5);
+  int axis = side / 2;
+  float upper = float(side - 2 * axis);
+  vec3 at = cell.xyz;
+  vec2 reach = position.xy * size.xy;
+  vec3 normal = vec3(0.0);
+  if (axis == 0) { at += vec3(upper, reach.x, reach.y); normal.x = 2.0 * upper - 1.0; }
+  else if (axis == 1) { at += vec3(reach.x, upper, reach.y); normal.y = 2.0 * upper - 1.0; }
+  else { at += vec3(reach.x, reach.y, upper); normal.z = 2.0 * upper - 1.0; }
+  place = origin + cell_size * at;
+  normal_out = normal;
+  bool above = axis == 2 ? place.z > cut + 1e-4 : origin.z + cell_size * cell.z >= cut;
+  place.z = min(place.z, cut);
+  gl_Position = above ? vec4(0.0, 0.0, 2.0, 1.0) : projectionMatrix * modelViewMatrix * vec4(place, 1.0);
+}`;
+
+// Faces seen from behind are the insides of walls that were cut, or of rooms seen from outside.
+const kFragment = `
+uniform vec3 ramp[5];
+uniform float low, high;
+uniform vec3 towards;
+uniform bool is_parallel;
+in vec3 place;
+flat in vec3 normal_out;
+out vec4 colour;
+void main() {
+  float x = clamp((place.z - low) / (high - low), 0.0, 1.0) * 4.0;
+  int i = min(int(x), 3);
+  vec3 base = mix(ramp[i], ramp[i + 1], x - float(i));
+  vec3 view = is_parallel ? towards : cameraPosition - place;
+  float facing = dot(normal_out, view);
+  float light = normal_out.z > 0.5 ? 1.0 : normal_out.z < -0.5 ? 0.6 : abs(normal_out.x) > 0.5 ? 0.85 : 0.72;
+  colour = vec4(facing > 0.0 ? base * light : base * 0.34, 1.0);
+}`;
+
+export interface Hit {
+  distance: number;
+  place: THREE.Vector3;
+  normal: THREE.Vector3;
+}
+
+/** Obstacles: a rectangle an instance, cut off above a height. */
+export class SurfaceMesh {
+  readonly mesh: THREE.Mesh;
+  readonly low: number;
+  readonly high: number;
+  private readonly material: THREE.ShaderMaterial;
+  private readonly origin: THREE.Vector3;
+
+  /** `base`: the world's place of (0, 0, 0). */
+  constructor(private readonly surface: Surface, base: THREE.Vector3, height: number) {
+    this.origin = new THREE.Vector3(...surface.origin).sub(base);
+    const geometry = new THREE.InstancedBufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0]), 3));
+    geometry.setIndex([0, 1, 2, 0, 2, 3]);
+    geometry.setAttribute("cell", new THREE.InstancedBufferAttribute(surface.cells, 4, false));
+    geometry.setAttribute("size", new THREE.InstancedBufferAttribute(surface.sizes, 4, false));
+    geometry.instanceCount = surface.count;
+    this.low = 0;
+    this.high = height;
+    this.material = new THREE.ShaderMaterial({
+      glslVersion: THREE.GLSL3,
+      vertexShader: kVertex,
+      fragmentShader: kFragment,
+      side: THREE.DoubleSide,
+      uniforms: {
+        origin: { value: this.origin },
+        cell_size: { value: surface.cell },
+        cut: { value: height },
+        ramp: { value: kHeights.map((c) => new THREE.Vector3(...c)) },
+        low: { value: this.low },
+        high: { value: Math.max(this.high, 1e-3) },
+        towards: { value: new THREE.Vector3(0, 0, 1) },
+        is_parallel: { value: false },
+      },
+    });
+    this.mesh = new THREE.Mesh(geometry, this.material);
+    this.mesh.frustumCulled = false;
+    this.mesh.onBeforeRender = (_renderer, _scene, camera) => {
+      this.material.uniforms.is_parallel!.value = camera instanceof THREE.OrthographicCamera;
+      this.material.uniforms.towards!.value.set(0, 0, 1).transformDirection(camera.matrixWorld);
+      this.material.uniformsNeedUpdate = true;
+    };
+  }
+
+  get cut(): number {
+    return this.material.uniforms.cut!.value;
+  }
+  set cut(height: number) {
+    this.material.uniforms.cut!.value = height;
+  }
+
+  /** Just below most ceilings, so that rooms can be looked into: half the faces that look down are higher. */
+  height_below_ceilings(): number {
+    const { cells, sizes, count, cell } = this.surface;
+    const areas = new Map<number, number>();
+    let total = 0;
+    for (let i = 0; i < count; ++i) {
+      if (cells[4 * i + 3] !== 4) continue;
+      const area = sizes[4 * i]! * sizes[4 * i + 1]!;
+      areas.set(cells[4 * i + 2]!, (areas.get(cells[4 * i + 2]!) ?? 0) + area);
+      total += area;
+    }
+    let above = 0;
+    for (const z of [...areas.keys()].sort((a, b) => b - a)) {
+      above += areas.get(z)!;
+      if (above >= 0.5 * total) return Math.max(0.3 * this.high, this.origin.z + (z - 1) * cell);
+    }
+    return this.high;
+  }
+
+  /** The nearest face that a ray meets from its front, below the cut. */
+  hit(ray: THREE.Ray): Hit | undefined {
+    const { cells, sizes, count, cell } = this.surface;
+    const from = ray.origin.clone().sub(this.origin).divideScalar(cell).toArray();
+    const way = ray.direction.clone().divideScalar(cell).toArray();
+    const cut = (this.cut - this.origin.z) / cell;
+    let nearest = Infinity;
+    let found = -1;
+    for (let i = 0; i < count; ++i) {
+      const side = cells[4 * i + 3]!;
+      const axis = side >> 1;
+      const upper = side & 1;
+      const speed = way[axis]!;
+      if (upper ? speed >= 0 : speed <= 0) continue; // from behind
+      const distance = (cells[4 * i + axis]! + upper - from[axis]!) / speed;
+      if (!(distance > 0 && distance < nearest)) continue;
+      const u = axis === 0 ? 1 : 0;
+      const v = axis === 2 ? 1 : 2;
+      const along = from[u]! + distance * way[u]! - cells[4 * i + u]!;
+      if (along < 0 || along > sizes[4 * i]!) continue;
+      const across = from[v]! + distance * way[v]! - cells[4 * i + v]!;
+      if (across < 0 || across > sizes[4 * i + 1]!) continue;
+      if (from[2]! + distance * way[2]! > cut + 1e-6) continue;
+      nearest = distance;
+      found = i;
+    }
+    if (found < 0) return undefined;
+    const side = cells[4 * found + 3]!;
+    const normal = new THREE.Vector3();
+    normal.setComponent(side >> 1, side & 1 ? 1 : -1);
+    return { distance: nearest, place: ray.at(nearest, new THREE.Vector3()), normal };
+  }
+}
