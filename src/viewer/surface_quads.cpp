@@ -137,7 +137,7 @@ std::vector<CubeIndex> cubes_of(const EsdfMap& esdf, int cell_voxels) {
 }
 
 bool fits(const CubeIndex& extent) {
-  return std::max({extent.x, extent.y, extent.z}) <= UINT16_MAX / kSide;
+  return std::max({extent.x, extent.y, extent.z}) < UINT16_MAX / kSide;
 }
 
 /// From the lowest to the highest cube.

@@ -7,23 +7,16 @@ import type { Surface } from "./layers";
 const kVertex = `
 uniform vec3 origin;
 uniform float cell_size, cut;
-in vec4 cell;
-in vec4 size;
+in vec4 corner;
 out vec3 place;
 flat out vec3 normal_out;
 void main() {
-  int side = int(cell.w + 0.5);
+  int side = int(corner.w + 0.5);
   int axis = side / 2;
-  float upper = float(side - 2 * axis);
-  vec3 at = cell.xyz;
-  vec2 reach = position.xy * size.xy;
-  vec3 normal = vec3(0.0);
-  if (axis == 0) { at += vec3(upper, reach.x, reach.y); normal.x = 2.0 * upper - 1.0; }
-  else if (axis == 1) { at += vec3(reach.x, upper, reach.y); normal.y = 2.0 * upper - 1.0; }
-  else { at += vec3(reach.x, reach.y, upper); normal.z = 2.0 * upper - 1.0; }
-  place = origin + cell_size * at;
-  normal_out = normal;
-  bool above = axis == 2 ? place.z > cut + 1e-4 : origin.z + cell_size * cell.z >= cut;
+  float away = float(2 * (side - 2 * axis) - 1);
+  normal_out = axis == 0 ? vec3(away, 0.0, 0.0) : axis == 1 ? vec3(0.0, away, 0.0) : vec3(0.0, 0.0, away);
+  place = origin + cell_size * corner.xyz;
+  bool above = axis == 2 && place.z > cut + 1e-4;
   place.z = min(place.z, cut);
   gl_Position = above ? vec4(0.0, 0.0, 2.0, 1.0) : projectionMatrix * modelViewMatrix * vec4(place, 1.0);
 }`;
@@ -53,7 +46,35 @@ export interface Hit {
   normal: THREE.Vector3;
 }
 
-/** Obstacles: a rectangle an instance, cut off above a height. */
+/** Four corners a rectangle: x, y, z in cells, and the side. (Software draws instances one by one.) */
+function expanded({ cells, sizes, count }: Surface): THREE.BufferGeometry {
+  const corners = new Uint16Array(16 * count);
+  const index = new Uint32Array(6 * count);
+  for (let i = 0; i < count; ++i) {
+    const side = cells[4 * i + 3]!;
+    const axis = side >> 1;
+    const u = axis === 0 ? 1 : 0;
+    const v = axis === 2 ? 1 : 2;
+    for (let k = 0; k < 4; ++k) {
+      const at = 16 * i + 4 * k;
+      corners[at] = cells[4 * i]!;
+      corners[at + 1] = cells[4 * i + 1]!;
+      corners[at + 2] = cells[4 * i + 2]!;
+      corners[at + 3] = side;
+      corners[at + axis]! += side & 1;
+      if (k === 1 || k === 2) corners[at + u]! += sizes[4 * i]!;
+      if (k >= 2) corners[at + v]! += sizes[4 * i + 1]!;
+    }
+    const c = 4 * i;
+    index.set([c, c + 1, c + 2, c, c + 2, c + 3], 6 * i);
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("corner", new THREE.BufferAttribute(corners, 4, false));
+  geometry.setIndex(new THREE.BufferAttribute(index, 1));
+  return geometry;
+}
+
+/** Obstacles as rectangles, cut off above a height. */
 export class SurfaceMesh {
   readonly mesh: THREE.Mesh;
   readonly low: number;
@@ -64,12 +85,7 @@ export class SurfaceMesh {
   /** `base`: the world's place of (0, 0, 0). */
   constructor(private readonly surface: Surface, base: THREE.Vector3, height: number) {
     this.origin = new THREE.Vector3(...surface.origin).sub(base);
-    const geometry = new THREE.InstancedBufferGeometry();
-    geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0]), 3));
-    geometry.setIndex([0, 1, 2, 0, 2, 3]);
-    geometry.setAttribute("cell", new THREE.InstancedBufferAttribute(surface.cells, 4, false));
-    geometry.setAttribute("size", new THREE.InstancedBufferAttribute(surface.sizes, 4, false));
-    geometry.instanceCount = surface.count;
+    const geometry = expanded(surface);
     this.low = 0;
     this.high = height;
     this.material = new THREE.ShaderMaterial({
