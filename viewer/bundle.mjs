@@ -34,7 +34,6 @@ if (planner) {
     entryPoints: [join(here, "src/worker.ts")],
     alias: { planner },
     outfile: join(folder, "worker.js"),
-    external: ["fs", "path", "crypto"],
   });
 } else {
   writeFileSync(join(folder, "worker.js"), "");

@@ -19,9 +19,10 @@ async function begin(): Promise<void> {
     const base = new THREE.Vector3(...info.bounds.min);
     const size = new THREE.Vector3(...info.bounds.max).sub(base);
     stage.set_size(size);
-    const surface = new SurfaceMesh(read_surface(await source.ask("/api/surface")), base, size.z);
+    const surface = new SurfaceMesh(read_surface(await source.ask("/api/surface/coarse")), base, size.z);
     surface.cut = surface.height_below_ceilings();
     stage.scene.add(surface.mesh);
+    stage.before_frame.push((is_coarse) => surface.draw_coarse(is_coarse));
     stage.look_from_side();
     const app = new App(source, stage, info, base, surface);
     // For tests, and for who looks with the console.
@@ -29,7 +30,9 @@ async function begin(): Promise<void> {
     loading.textContent = "";
     stage.draw();
     performance.mark("first-frame");
+    surface.refine(read_surface(await source.ask("/api/surface")));
     await app.load_layers();
+    stage.draw();
     document.body.dataset.ready = "yes";
   } catch (error) {
     loading.textContent = `The map cannot be shown: ${error instanceof Error ? error.message : error}`;

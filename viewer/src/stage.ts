@@ -16,8 +16,8 @@ export class Stage {
   readonly renderer: THREE.WebGLRenderer;
   readonly controls: OrbitControls;
   readonly size = new THREE.Vector3(1, 1, 1);
-  /** Called before a frame, with the size of the canvas in CSS pixels. */
-  readonly before_frame: ((width: number, height: number) => void)[] = [];
+  /** Called before a frame; it is coarse while the view moves and frames are slow. */
+  readonly before_frame: ((is_coarse: boolean) => void)[] = [];
   frames = 0;
 
   private readonly perspective = new THREE.PerspectiveCamera(50, 1, 0.05, 1000);
@@ -91,11 +91,17 @@ export class Stage {
     this.orthographic.left = -half;
     this.orthographic.right = half;
     this.orthographic.updateProjectionMatrix();
-    for (const act of this.before_frame) act(width, height);
+    for (const act of this.before_frame) act(this.coarse);
     this.renderer.render(this.scene, this.camera_now);
-    this.renderer.getContext().finish();
-    if (!this.coarse) this.frame_time = performance.now() - started;
+    if (!this.coarse) this.measure_frame(started);
     ++this.frames;
+  }
+
+  /** Drawing ends after the call: a pixel that is read back waits for it. Not while things move. */
+  private measure_frame(started: number): void {
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    this.frame_time = performance.now() - started;
   }
 
   /** Space that is worth looking at, from (0, 0, 0) on. */

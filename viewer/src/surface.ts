@@ -46,17 +46,47 @@ export interface Hit {
   normal: THREE.Vector3;
 }
 
+/** A surface as it is drawn. */
+class Drawable {
+  readonly geometry = new THREE.BufferGeometry();
+  readonly origin: THREE.Vector3;
+  /** How many rectangles begin below a height of cells; those are the first. */
+  private readonly below: Uint32Array;
+
+  constructor(readonly surface: Surface, base: THREE.Vector3) {
+    this.origin = new THREE.Vector3(...surface.origin).sub(base);
+    const { cells, count } = surface;
+    let highest = 0;
+    for (let i = 0; i < count; ++i) highest = Math.max(highest, cells[4 * i + 2]!);
+    this.below = new Uint32Array(highest + 2);
+    for (let i = 0; i < count; ++i) ++this.below[cells[4 * i + 2]! + 1]!;
+    for (let z = 1; z < this.below.length; ++z) this.below[z]! += this.below[z - 1]!;
+    const next = this.below.slice();
+    const order = new Uint32Array(count);
+    for (let i = 0; i < count; ++i) order[next[cells[4 * i + 2]!]!++] = i;
+    const { corners, index } = expanded(surface, order);
+    this.geometry.setAttribute("corner", new THREE.BufferAttribute(corners, 4, false));
+    this.geometry.setIndex(new THREE.BufferAttribute(index, 1));
+  }
+
+  cut_at(height: number): void {
+    const z = Math.ceil((height - this.origin.z) / this.surface.cell) + 1;
+    this.geometry.setDrawRange(0, 6 * this.below[Math.min(this.below.length - 1, Math.max(0, z))]!);
+  }
+}
+
 /** Four corners a rectangle: x, y, z in cells, and the side. (Software draws instances one by one.) */
-function expanded({ cells, sizes, count }: Surface): THREE.BufferGeometry {
+function expanded({ cells, sizes, count }: Surface, order: Uint32Array): { corners: Uint16Array; index: Uint32Array } {
   const corners = new Uint16Array(16 * count);
   const index = new Uint32Array(6 * count);
-  for (let i = 0; i < count; ++i) {
+  for (let place = 0; place < count; ++place) {
+    const i = order[place]!;
     const side = cells[4 * i + 3]!;
     const axis = side >> 1;
     const u = axis === 0 ? 1 : 0;
     const v = axis === 2 ? 1 : 2;
     for (let k = 0; k < 4; ++k) {
-      const at = 16 * i + 4 * k;
+      const at = 16 * place + 4 * k;
       corners[at] = cells[4 * i]!;
       corners[at + 1] = cells[4 * i + 1]!;
       corners[at + 2] = cells[4 * i + 2]!;
@@ -65,27 +95,31 @@ function expanded({ cells, sizes, count }: Surface): THREE.BufferGeometry {
       if (k === 1 || k === 2) corners[at + u]! += sizes[4 * i]!;
       if (k >= 2) corners[at + v]! += sizes[4 * i + 1]!;
     }
-    const c = 4 * i;
-    index.set([c, c + 1, c + 2, c, c + 2, c + 3], 6 * i);
+    const c = 4 * place;
+    const to = 6 * place;
+    index[to] = index[to + 3] = c;
+    index[to + 1] = c + 1;
+    index[to + 2] = index[to + 4] = c + 2;
+    index[to + 5] = c + 3;
   }
-  const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute("corner", new THREE.BufferAttribute(corners, 4, false));
-  geometry.setIndex(new THREE.BufferAttribute(index, 1));
-  return geometry;
+  return { corners, index };
 }
 
-/** Obstacles as rectangles, cut off above a height. */
+/**
+ * Obstacles as rectangles, cut off above a height: a coarse surface, which is there first and is
+ * drawn while the view moves, where frames are slow; and the fine one.
+ */
 export class SurfaceMesh {
-  readonly mesh: THREE.Mesh;
+  readonly mesh: THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>;
   readonly low: number;
   readonly high: number;
   private readonly material: THREE.ShaderMaterial;
-  private readonly origin: THREE.Vector3;
+  private readonly coarse: Drawable;
+  private fine: Drawable;
 
   /** `base`: the world's place of (0, 0, 0). */
-  constructor(private readonly surface: Surface, base: THREE.Vector3, height: number) {
-    this.origin = new THREE.Vector3(...surface.origin).sub(base);
-    const geometry = expanded(surface);
+  constructor(coarse: Surface, private readonly base: THREE.Vector3, height: number) {
+    this.coarse = this.fine = new Drawable(coarse, base);
     this.low = 0;
     this.high = height;
     this.material = new THREE.ShaderMaterial({
@@ -94,8 +128,8 @@ export class SurfaceMesh {
       fragmentShader: kFragment,
       side: THREE.DoubleSide,
       uniforms: {
-        origin: { value: this.origin },
-        cell_size: { value: surface.cell },
+        origin: { value: this.coarse.origin },
+        cell_size: { value: coarse.cell },
         cut: { value: height },
         ramp: { value: kHeights.map((c) => new THREE.Vector3(...c)) },
         low: { value: this.low },
@@ -104,9 +138,12 @@ export class SurfaceMesh {
         is_parallel: { value: false },
       },
     });
-    this.mesh = new THREE.Mesh(geometry, this.material);
+    this.mesh = new THREE.Mesh(this.coarse.geometry, this.material);
     this.mesh.frustumCulled = false;
     this.mesh.onBeforeRender = (_renderer, _scene, camera) => {
+      const drawn = this.mesh.geometry === this.fine.geometry ? this.fine : this.coarse;
+      this.material.uniforms.origin!.value = drawn.origin;
+      this.material.uniforms.cell_size!.value = drawn.surface.cell;
       this.material.uniforms.is_parallel!.value = camera instanceof THREE.OrthographicCamera;
       this.material.uniforms.towards!.value.set(0, 0, 1).transformDirection(camera.matrixWorld);
       this.material.uniformsNeedUpdate = true;
@@ -118,11 +155,23 @@ export class SurfaceMesh {
   }
   set cut(height: number) {
     this.material.uniforms.cut!.value = height;
+    for (const drawable of [this.coarse, this.fine]) drawable.cut_at(height);
+  }
+
+  refine(fine: Surface): void {
+    this.fine = new Drawable(fine, this.base);
+    this.cut = this.cut;
+    this.draw_coarse(false);
+  }
+
+  draw_coarse(is_coarse: boolean): void {
+    this.mesh.geometry = (is_coarse ? this.coarse : this.fine).geometry;
   }
 
   /** Just below most ceilings, so that rooms can be looked into: half the faces that look down are higher. */
   height_below_ceilings(): number {
-    const { cells, sizes, count, cell } = this.surface;
+    const { surface, origin } = this.coarse;
+    const { cells, sizes, count, cell } = surface;
     const areas = new Map<number, number>();
     let total = 0;
     for (let i = 0; i < count; ++i) {
@@ -134,17 +183,18 @@ export class SurfaceMesh {
     let above = 0;
     for (const z of [...areas.keys()].sort((a, b) => b - a)) {
       above += areas.get(z)!;
-      if (above >= 0.5 * total) return Math.max(0.3 * this.high, this.origin.z + (z - 1) * cell);
+      if (above >= 0.5 * total) return Math.max(0.3 * this.high, origin.z + (z - 1) * cell);
     }
     return this.high;
   }
 
   /** The nearest face that a ray meets from its front, below the cut. */
   hit(ray: THREE.Ray): Hit | undefined {
-    const { cells, sizes, count, cell } = this.surface;
-    const from = ray.origin.clone().sub(this.origin).divideScalar(cell).toArray();
+    const { surface, origin } = this.fine;
+    const { cells, sizes, count, cell } = surface;
+    const from = ray.origin.clone().sub(origin).divideScalar(cell).toArray();
     const way = ray.direction.clone().divideScalar(cell).toArray();
-    const cut = (this.cut - this.origin.z) / cell;
+    const cut = (this.cut - origin.z) / cell;
     let nearest = Infinity;
     let found = -1;
     for (let i = 0; i < count; ++i) {

@@ -25,10 +25,10 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kBytes = "application/octet-stream";
 constexpr const char* kJson = "application/json";
 /// What software draws in a frame that still feels alive, and a page loads in a few seconds.
-constexpr std::size_t kMostQuads = 800'000, kMostGvdPoints = 250'000;
+constexpr std::size_t kMostQuads = 800'000, kMostCoarseQuads = 80'000, kMostGvdPoints = 250'000;
 constexpr int kMostSliceSamples = 1024;
 /// A page waits no longer for a planner that searches voxels.
-constexpr double kPatience = 10.0;
+constexpr double kLongestPlan = 10.0;
 
 std::optional<std::string> find(const Question& question, const std::string& name) {
   const auto found = question.parameters.find(name);
@@ -53,7 +53,7 @@ Query query_of(const Question& question, const Roadmap& roadmap) {
 }
 
 PlanConfig config_of(const Question& question, double radius) {
-  PlanConfig config{.radius = radius, .time_limit = kPatience};
+  PlanConfig config{.radius = radius, .time_limit = kLongestPlan};
   if (const auto name = find(question, "planner")) {
     const auto planner = planner_named(*name);
     if (!planner || is_sampling(*planner))
@@ -232,6 +232,9 @@ Reply MapAnswers::answer(const Question& question) {
     if (path == "/api/info") return kept(info_, kJson, [&] { return info(); });
     if (path == "/api/surface")
       return kept(surface_, kBytes, [&] { return surface_layer(roadmap_.esdf, kMostQuads); });
+    if (path == "/api/surface/coarse")
+      return kept(coarse_surface_, kBytes,
+                  [&] { return surface_layer(roadmap_.esdf, kMostCoarseQuads); });
     if (path == "/api/diagram")
       return kept(diagram_, kBytes, [&] { return components_of_voxels(false); });
     if (path == "/api/graph")

@@ -59,7 +59,7 @@ class MapAnswers {
 
   const Roadmap& roadmap_;
   const std::string name_;
-  Kept info_, surface_, diagram_, gvd_, graph_, narrow_;
+  Kept info_, surface_, coarse_surface_, diagram_, gvd_, graph_, narrow_;
   std::once_flag components_once_;
   ComponentReport components_;  // `asked`: of the diagram's voxels, then of the vertices
   std::mutex facts_mutex_;

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "view/page.hpp"
 
+#include <algorithm>
+
 #include "ridgeway/common/error.hpp"
 
 // The files of the bundle, as they are, between two symbols each. An assembler takes them in at
@@ -82,19 +84,26 @@ std::optional<PageFile> find_page_file(std::string_view path) {
 
 bool has_page() { return !script_file().empty(); }
 
-std::string_view planner_worker() { return worker_file(); }
+void require_page_planner(const std::string& file) {
+  if (!has_page())
+    throw InputError(file, "cannot be made: this program was built without its page", kNoPage);
+  if (worker_file().empty())
+    throw InputError(file, "cannot be made: this program was built without a planner for pages",
+                     "install emscripten and build again with ./dev build");
+}
 
 std::string page_with_map(const std::string& name, std::string_view ridge_bytes) {
-  if (!has_page())
-    throw InputError("map.html", "cannot be made: this program was built without its page",
-                     kNoPage);
-  if (planner_worker().empty())
-    throw InputError("map.html", "cannot be made: this program was built without a planner for it",
-                     "install emscripten and build again with ./dev build");
   std::string page(html_file());
   replace(page, "<link rel=\"stylesheet\" href=\"page.css\">",
           "<style>" + std::string(css_file()) + "</style>");
-  std::string data = "<script type=\"text/plain\" id=\"worker\">" + base64(planner_worker()) +
+  // Nothing is asked of any server, and the browser sees to that.
+  replace(
+      page, "<meta charset=\"utf-8\">",
+      "<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" "
+      "content=\"default-src "
+      "'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; worker-src blob:; style-src "
+      "'unsafe-inline'; img-src data: blob:; connect-src data:\">");
+  std::string data = "<script type=\"text/plain\" id=\"worker\">" + base64(worker_file()) +
                      "</script>\n<script type=\"text/plain\" id=\"map\" data-name=\"" +
                      escaped(name) + "\">" + base64(ridge_bytes) + "</script>\n<script>";
   data.append(script_file()).append("</script>");

@@ -23,12 +23,12 @@ bool has_page();
 inline constexpr const char* kNoPage =
     "install nodejs and npm and build again with ./dev build, which makes the page";
 
-/// The planner that runs in the page, for pages that are one file; empty where the program was
-/// built without emscripten.
-std::string_view planner_worker();
+/// Throws InputError, naming the file, where the program was built without what a page in one file
+/// takes: the page, and the planner that runs in it.
+void require_page_planner(const std::string& file);
 
 /// The page as one file that needs nothing else: with its script, the planner, and the roadmap of
-/// `ridge_bytes` in it. Throws InputError where the program was built without one of them.
+/// `ridge_bytes` in it. require_page_planner must have held.
 std::string page_with_map(const std::string& name, std::string_view ridge_bytes);
 
 }  // namespace ridgeway::cli
