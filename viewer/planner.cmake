@@ -16,44 +16,52 @@ set(wasm_flags
     -include missing.hpp)
 
 set(wasm_objects)
-# wasm_object(<name> <source>...): sources with full paths as one.
-function(wasm_object name)
-  set(together "${wasm_folder}/${name}.cpp")
-  list(TRANSFORM ARGN PREPEND "#include \"" OUTPUT_VARIABLE lines)
-  list(TRANSFORM lines APPEND "\"\n")
-  list(JOIN lines "" text)
-  file(CONFIGURE OUTPUT "${together}" CONTENT "${text}" @ONLY)
-  set(object "${wasm_folder}/${name}.o")
-  add_custom_command(
-    OUTPUT "${object}"
-    COMMAND ${emxx} ${wasm_flags} -MD -MF "${object}.d" -c "${together}" -o "${object}"
-    DEPENDS "${together}" ${ARGN}
-    DEPFILE "${object}.d"
-    COMMENT "Planner of the page: ${name}")
-  set(wasm_objects ${wasm_objects} "${object}" PARENT_SCOPE)
+# wasm_objects_of(<name> <source>...): sources with full paths, compiled seven at a time as the library's
+# own are (RidgewayDefaults), so that no two names in the same seven are alike.
+function(wasm_objects_of name)
+  set(sources ${ARGN})
+  list(LENGTH sources count)
+  math(EXPR last "${count} - 1")
+  foreach(number RANGE 0 ${last} 7)
+    list(SUBLIST sources ${number} 7 batch)
+    set(together "${wasm_folder}/${name}_${number}.cpp")
+    list(TRANSFORM batch PREPEND "#include \"" OUTPUT_VARIABLE lines)
+    list(TRANSFORM lines APPEND "\"\n")
+    list(JOIN lines "" text)
+    file(CONFIGURE OUTPUT "${together}" CONTENT "${text}" @ONLY)
+    set(object "${wasm_folder}/${name}_${number}.o")
+    add_custom_command(
+      OUTPUT "${object}"
+      COMMAND ${emxx} ${wasm_flags} -MD -MF "${object}.d" -c "${together}" -o "${object}"
+      DEPENDS "${together}" ${batch}
+      DEPFILE "${object}.d"
+      COMMENT "Planner of the page: ${name} ${number}")
+    list(APPEND wasm_objects "${object}")
+  endforeach()
+  set(wasm_objects ${wasm_objects} PARENT_SCOPE)
 endfunction()
 
 foreach(module voxel esdf paths skeleton roadmap planning trajectory viewer)
   get_target_property(sources ridgeway_${module} SOURCES)
   list(REMOVE_ITEM sources optimise_spline.cpp)
   list(TRANSFORM sources PREPEND "${PROJECT_SOURCE_DIR}/src/${module}/")
-  wasm_object(${module} ${sources})
+  wasm_objects_of(${module} ${sources})
 endforeach()
 set(sources
     mapping/occupancy_map.cpp mapping/memory_limit.cpp mapping/normalised.cpp mapping/voxel_range.cpp
     files/atomic_file.cpp files/file_error.cpp files/read_file.cpp files/temporary.cpp
     formats/path_io.cpp formats/trajectory_io.cpp)
 list(TRANSFORM sources PREPEND "${PROJECT_SOURCE_DIR}/src/")
-wasm_object(files ${sources})
+wasm_objects_of(files ${sources})
 set(sources ridge_checks.cpp ridge_file.cpp ridge_header.cpp ridge_lists.cpp ridge_reader.cpp
             ridge_voxels_load.cpp site_checks.cpp)
 list(TRANSFORM sources PREPEND "${PROJECT_SOURCE_DIR}/src/ridge/")
-wasm_object(ridge ${sources})
+wasm_objects_of(ridge ${sources})
 set(sources arguments.cpp console.cpp interruption.cpp json.cpp limit_options.cpp roadmap_facts.cpp
             view/map_answers.cpp)
 list(TRANSFORM sources PREPEND "${PROJECT_SOURCE_DIR}/apps/ridgeway/")
-wasm_object(answers ${sources})
-wasm_object(planner "${CMAKE_CURRENT_SOURCE_DIR}/wasm/planner.cpp"
+wasm_objects_of(answers ${sources})
+wasm_objects_of(planner "${CMAKE_CURRENT_SOURCE_DIR}/wasm/planner.cpp"
             "${CMAKE_CURRENT_SOURCE_DIR}/wasm/optimise_spline.cpp")
 
 set(planner "${wasm_folder}/planner.mjs")
