@@ -166,7 +166,11 @@ export class App {
       item.append(button);
       list.append(item);
     }
-    if (shown.length === 0) list.textContent = "None: all places that a robot fits are connected.";
+    if (shown.length === 0) {
+      const none = document.createElement("li");
+      none.textContent = "None: all places that a robot fits are connected.";
+      list.append(none);
+    }
     if (wide_enough.length > shown.length) this.hint(`${shown.length} of ${wide_enough.length} narrow places are shown, the widest`);
     return this.narrow;
   }
