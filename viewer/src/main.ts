@@ -41,4 +41,6 @@ async function begin(): Promise<void> {
   }
 }
 
-void begin();
+// In a page of one file the script stands before what it works on.
+if (document.readyState === "loading") document.addEventListener("DOMContentLoaded", () => void begin());
+else void begin();
