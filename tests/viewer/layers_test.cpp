@@ -42,7 +42,8 @@ TEST(Layers, GraphHasTheVerticesInTheWorldAndTheEdges) {
   const Roadmap roadmap = rooms_roadmap();
   const SparseGraph& graph = roadmap.graph;
   const std::string bytes = graph_layer(roadmap, {});
-  const auto vertices = number_at<std::uint32_t>(bytes, 24), edges = number_at<std::uint32_t>(bytes, 28);
+  const auto vertices = number_at<std::uint32_t>(bytes, 24),
+             edges = number_at<std::uint32_t>(bytes, 28);
   ASSERT_EQ(vertices, graph.vertices.size());
   ASSERT_EQ(edges, graph.edges.size());
   ASSERT_EQ(bytes.size(), 32 + 20 * graph.vertices.size() + 12 * graph.edges.size());
@@ -70,8 +71,8 @@ TEST(Layers, DiagramJoinsNeighboursOnce) {
   std::size_t expected = 0;
   for (std::size_t a = 0; a < voxels.size(); ++a)
     for (std::size_t b = 0; b < a; ++b) {
-      const VoxelIndex o = roadmap.esdf.layout.index_of(voxels[a]) -
-                           roadmap.esdf.layout.index_of(voxels[b]);
+      const VoxelIndex o =
+          roadmap.esdf.layout.index_of(voxels[a]) - roadmap.esdf.layout.index_of(voxels[b]);
       expected += std::max({std::abs(o.x), std::abs(o.y), std::abs(o.z)}) == 1;
     }
   EXPECT_GT(expected, 0u);
@@ -84,7 +85,8 @@ TEST(Layers, SliceHoldsTheDistancesOfItsHeight) {
   const EsdfMap& esdf = roadmap.esdf;
   const std::string bytes = slice_layer(esdf, 31.05, 4096);
   const Point origin = origin_of(bytes);
-  const auto columns = number_at<std::uint32_t>(bytes, 32), rows = number_at<std::uint32_t>(bytes, 36);
+  const auto columns = number_at<std::uint32_t>(bytes, 32),
+             rows = number_at<std::uint32_t>(bytes, 36);
   ASSERT_EQ(number_at<double>(bytes, 24), 0.1);
   ASSERT_EQ(bytes.size(), 40 + 2 * std::size_t{columns} * rows);
   std::size_t known = 0;
@@ -92,7 +94,8 @@ TEST(Layers, SliceHoldsTheDistancesOfItsHeight) {
     for (std::uint32_t column = 0; column < columns; ++column) {
       const Point world = origin + 0.1 * Point(column + 0.5, row + 0.5, 0.0);
       const VoxelId id = esdf.layout.find(voxel_at(to_local(esdf, world), 0.1));
-      const auto value = number_at<std::uint16_t>(bytes, 40 + 2 * (std::size_t{row} * columns + column));
+      const auto value =
+          number_at<std::uint16_t>(bytes, 40 + 2 * (std::size_t{row} * columns + column));
       if (id == kNoVoxel || esdf.state[id] == VoxelState::kUnknown) {
         EXPECT_EQ(value, 65535);
         continue;

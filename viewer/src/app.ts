@@ -387,6 +387,7 @@ export class App {
     element("play").setAttribute("aria-pressed", "true");
     element("play").textContent = "Stop";
     const step = () => {
+      this.stage.moves();
       const now = Math.min(this.flight!.duration, from + (performance.now() - started) / 1000);
       this.set_time(now);
       if (now < this.flight!.duration) this.playing = requestAnimationFrame(step);
@@ -498,6 +499,7 @@ export class App {
     const at = this.stage.ray_at(event.offsetX, event.offsetY).intersectPlane(plane, new THREE.Vector3());
     if (!at) return;
     at.add(offset);
+    this.stage.moves();
     const most = this.stage.size;
     at.clamp(new THREE.Vector3(), most);
     this.set_end(which, this.routes.world(at).map((v) => Number(v.toFixed(3))) as Vector);

@@ -41,15 +41,7 @@ export class Stage {
     this.controls.enableDamping = false;
     this.controls.zoomToCursor = true;
     this.controls.screenSpacePanning = false;
-    this.controls.addEventListener("change", () => {
-      this.coarse = this.frame_time > kSlowFrame;
-      this.changed();
-      clearTimeout(this.still_timer);
-      this.still_timer = window.setTimeout(() => {
-        this.coarse = false;
-        this.changed();
-      }, kStill);
-    });
+    this.controls.addEventListener("change", () => this.moves());
     new ResizeObserver(() => this.changed()).observe(canvas);
     const dark = matchMedia("(prefers-color-scheme: dark)");
     const paint = () => {
@@ -66,6 +58,17 @@ export class Stage {
   }
   get is_orthographic(): boolean {
     return this.camera_now === this.orthographic;
+  }
+
+  /** Something moves: where frames are slow, coarse ones are drawn until it is still. */
+  moves(): void {
+    this.coarse = this.frame_time > kSlowFrame;
+    this.changed();
+    clearTimeout(this.still_timer);
+    this.still_timer = window.setTimeout(() => {
+      this.coarse = false;
+      this.changed();
+    }, kStill);
   }
 
   /** Asks for a frame. */
@@ -127,7 +130,7 @@ export class Stage {
     const middle = this.size.clone().multiplyScalar(0.5);
     const aspect = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
     const wide = Math.max(this.size.x / Math.max(aspect, 0.5), this.size.y, this.size.z);
-    const from = new THREE.Vector3(-0.25, -0.75, 0.85).normalize().multiplyScalar(1.12 * wide + 1);
+    const from = new THREE.Vector3(-0.25, -0.75, 0.85).normalize().multiplyScalar(0.96 * wide + 1);
     this.controls.target.copy(middle);
     this.perspective.position.copy(middle).add(from);
     this.controls.update();
