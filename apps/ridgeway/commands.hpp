@@ -18,5 +18,6 @@ void add_fuse_command(Command& program);
 void add_live_command(Command& program);
 void add_simulate_command(Command& program);
 void add_trajectory_command(Command& program);
+void add_view_command(Command& program);
 
 }  // namespace ridgeway::cli

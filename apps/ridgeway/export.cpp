@@ -8,6 +8,8 @@
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "files/atomic_file.hpp"
+#include "files/read_file.hpp"
 #include "interruption.hpp"
 #include "json.hpp"
 #include "ridgeway/common/error.hpp"
@@ -15,6 +17,7 @@
 #include "ridgeway/formats/path_io.hpp"
 #include "ridgeway/pictures/picture.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
+#include "view/page.hpp"
 
 namespace ridgeway::cli {
 namespace {
@@ -23,6 +26,8 @@ struct ExportOptions {
   std::string file, json_graph, picture, path, mesh, what = "graph";
   std::vector<std::string> outputs;
 };
+
+bool is_page(const std::filesystem::path& file) { return file.extension() == ".html"; }
 
 bool is_picture(const std::filesystem::path& file) {
   return file.extension() == ".png" || file.extension() == ".svg";
@@ -33,10 +38,11 @@ void require_format(const std::filesystem::path& file, const std::string& what) 
   const bool known = what == "diagram"
                          ? extension == ".ply"
                          : extension == ".json" || extension == ".graphml" || extension == ".ply";
-  if (!known && !is_picture(file))
+  if (!known && !is_picture(file) && !is_page(file))
     throw InputError(file.string(), "names no format that a " + what + " can be written in",
-                     what == "diagram" ? "use .ply, or .png or .svg for a picture"
-                                       : "use .json, .graphml, .ply, .png or .svg");
+                     what == "diagram" ? "use .ply, or .png or .svg for a picture, or .html"
+                                       : "use .json, .graphml, .ply, .png, .svg or .html");
+  if (is_page(file)) require_page_planner(file.string());
 }
 
 /// All that is to be written; problems are found before anything is.
@@ -64,6 +70,9 @@ void write(const Roadmap& roadmap, const std::vector<Point>& path, const ExportO
            const std::filesystem::path& file) {
   if (file == options.json_graph)
     write_graph_json(roadmap, file);
+  else if (is_page(file))
+    write_text_file(file, page_with_map(std::filesystem::path(options.file).filename().string(),
+                                        read_file(options.file)));
   else if (is_picture(file))
     draw_floor_plan(roadmap, path, file);
   else if (options.what == "diagram")
@@ -121,8 +130,8 @@ void add_export_command(Command& program) {
       program.add("export", "Write a roadmap, or the surface of a fused map, in other formats");
   command.path("roadmap", options->file, "Roadmap or, for --mesh, fused map, .ridge").required();
   command.paths("-o,--output", options->outputs,
-                "File to write, by its extension: .json, .graphml, .ply, .png, .svg; may be "
-                "repeated");
+                "File to write, by its extension: .json, .graphml, .ply, .png, .svg, or .html, the "
+                "page of view as one file that plans by itself; may be repeated");
   command.choice("--what", options->what, {"graph", "diagram"}, "What a .ply file is to hold");
   command.path("--json-graph", options->json_graph, "Graph as JSON, for networkx");
   command.path("--picture", options->picture, "Map, graph and path from above, .png or .svg");
@@ -132,6 +141,7 @@ void add_export_command(Command& program) {
       "Examples:\n"
       "  ridgeway export office.ridge --picture office.png --path path.json\n"
       "  ridgeway export office.ridge -o graph.graphml -o graph.ply\n"
+      "  ridgeway export office.ridge -o office.html\n"
       "  ridgeway export house.ridge --mesh house.ply");
   command.runs(options, run);
 }

@@ -37,6 +37,7 @@ void add_commands(CommandLine& line) {
   add_check_command(program);
   add_info_command(program);
   add_export_command(program);
+  add_view_command(program);
   add_world_command(program);
   add_simulate_command(program);
   add_fuse_command(program);

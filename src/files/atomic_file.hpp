@@ -22,7 +22,9 @@ class AtomicFile {
   explicit AtomicFile(const std::filesystem::path& target);
 
   void write(std::span<const std::byte> bytes);
-  void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
+  void write(std::string_view text) {
+    write(std::as_bytes(std::span<const char>(text.data(), text.size())));
+  }
   void commit();
 
  private:

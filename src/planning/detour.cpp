@@ -106,7 +106,7 @@ std::vector<Point> redirect(const EsdfMap& esdf, const FreeSpace& space, std::ve
     for (std::size_t i = 0; i + stretch < path.size() && !deadline.has_passed(); ++i) {
       const auto first = path.begin() + static_cast<std::ptrdiff_t>(i);
       const auto last = first + static_cast<std::ptrdiff_t>(stretch);
-      const double length = length_of({first, last + 1});
+      const double length = length_of(std::span<const Point>(&*first, stretch + 1));
       if (length - (*last - *first).norm() < (kPlanning.near - 1.0) * total) continue;
       const Detour detour =
           find_detour(esdf, space, *first, *last, radius, length * (1.0 - kPlanning.tight_gain),

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "commands.hpp"
+#include "console.hpp"
+#include "interruption.hpp"
+#include "json.hpp"
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/ridge/ridge_file.hpp"
+#include "view/browser.hpp"
+#include "view/map_answers.hpp"
+#include "view/page.hpp"
+#include "view/server.hpp"
+
+namespace ridgeway::cli {
+namespace {
+
+struct ViewOptions {
+  std::string file;
+  int port = 0;
+  bool open = false;
+};
+
+int run(const ViewOptions& options, const Globals& globals) {
+  const Roadmap roadmap = load_roadmap(options.file);
+  if (!has_page())
+    throw InputError("view", "has no page: this program was built without one", kNoPage);
+  stop_if_interrupted();
+  MapAnswers answers(roadmap, std::filesystem::path(options.file).filename().string());
+  const auto tell = [&](int port) {
+    const std::string address = "http://127.0.0.1:" + std::to_string(port) + "/";
+    if (globals.json)
+      print_json({{"address", address}});
+    else
+      print_row("open", address + " (Ctrl-C ends it)");
+    std::fflush(stdout);
+    if (options.open && !open_in_browser(address))
+      warn(globals, "no browser could be started: open " + address + " in one");
+  };
+  serve(answers, options.port, tell, is_interrupted);
+  return kExitDone;
+}
+
+}  // namespace
+
+void add_view_command(Command& program) {
+  const auto options = std::make_shared<ViewOptions>();
+  Command command = program.add(
+      "view", "Show a roadmap in a browser: look at it, and plan by clicking at start and goal");
+  command.path("roadmap", options->file, "Roadmap, .ridge").required();
+  command.whole("--port", options->port, {0, 65535}, "Port to serve at, 0 for any that is free");
+  command.flag("--open", options->open, "Open it in the browser of the desktop");
+  command.footer(
+      "Serves this machine alone, until it is interrupted. `ridgeway export MAP.ridge -o "
+      "map.html`\n"
+      "writes the same page as one file.\n"
+      "Example:\n"
+      "  ridgeway view office.ridge --open");
+  command.runs(options, run);
+}
+
+}  // namespace ridgeway::cli

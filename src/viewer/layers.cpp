@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "layers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <type_traits>
+
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/voxel/neighbourhood.hpp"
+#include "surface_quads.hpp"
+
+namespace ridgeway {
+namespace {
+
+template <typename Number>
+void append(std::string& bytes, Number value) {
+  static_assert(std::is_arithmetic_v<Number>);
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+void append_origin(std::string& bytes, const Point& world) {
+  for (const double x : world) append(bytes, x);
+}
+
+/// Metres from the map's own zero.
+void append_position(std::string& bytes, const Point& local) {
+  for (const double x : local) append(bytes, static_cast<float>(x));
+}
+
+float clearance_of_voxel(const EsdfMap& esdf, VoxelId id) {
+  return static_cast<float>(esdf.distance(id));
+}
+
+std::uint32_t count_of(std::size_t count) { return static_cast<std::uint32_t>(count); }
+
+Point map_origin(const EsdfMap& esdf) { return to_world(esdf, Point::Zero()); }
+
+}  // namespace
+
+std::string surface_layer(const EsdfMap& esdf, std::size_t most_quads) {
+  const SurfaceQuads surface = merge_surface_within(esdf, most_quads);
+  std::string bytes;
+  bytes.reserve(40 + 12 * surface.quads.size());
+  const VoxelIndex& low = surface.low;
+  append_origin(bytes, to_world(esdf, Point(low.x, low.y, low.z) * esdf.voxel_size));
+  append(bytes, surface.cell_voxels * esdf.voxel_size);
+  append(bytes, count_of(surface.quads.size()));
+  append(bytes, static_cast<std::uint32_t>(surface.cell_voxels));
+  for (const SurfaceQuad& q : surface.quads)
+    for (const std::uint16_t part : {q.x, q.y, q.z, q.side}) append(bytes, part);
+  for (const SurfaceQuad& q : surface.quads)
+    for (const std::uint8_t part : {q.width, q.height, std::uint8_t{0}, std::uint8_t{0}})
+      append(bytes, part);
+  return bytes;
+}
+
+std::string slice_layer(const EsdfMap& esdf, double height, int most_samples) {
+  constexpr std::uint16_t kNotKnown = 65535;
+  constexpr double kFarthest = 65534.0;  // millimetres
+  const Point local = to_local(esdf, Point(0.0, 0.0, height));
+  if (!std::isfinite(local.z()) || std::abs(local.z()) >= kMaxVoxelIndex * esdf.voxel_size)
+    throw InputError("z", "is no height that a voxel can have", "give metres, in the map's frame");
+  const int layer = floor_to_int(local.z() / esdf.voxel_size);
+  BlockIndex low{0, 0, 0}, high{-1, -1, 0};
+  bool any = false;
+  for (const BlockIndex& b : esdf.layout.blocks()) {
+    if (b.z != layer >> kBlockBits) continue;
+    low = any ? BlockIndex{std::min(low.x, b.x), std::min(low.y, b.y), 0} : b;
+    high = any ? BlockIndex{std::max(high.x, b.x), std::max(high.y, b.y), 0} : b;
+    any = true;
+  }
+  const std::int64_t width = (std::int64_t{high.x} - low.x + 1) * kBlockSide,
+                     depth = (std::int64_t{high.y} - low.y + 1) * kBlockSide;
+  const auto stride = static_cast<int>(
+      std::max<std::int64_t>(1, (std::max(width, depth) + most_samples - 1) / most_samples));
+  const auto columns = static_cast<int>(width / stride), rows = static_cast<int>(depth / stride);
+
+  std::string bytes;
+  append_origin(bytes, to_world(esdf, Point(low.x * kBlockSide, low.y * kBlockSide, layer + 0.5) *
+                                          esdf.voxel_size));
+  append(bytes, stride * esdf.voxel_size);
+  append(bytes, static_cast<std::uint32_t>(columns));
+  append(bytes, static_cast<std::uint32_t>(rows));
+  VoxelFinder finder(esdf.layout);
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      const VoxelId id = finder.find({low.x * kBlockSide + column * stride + stride / 2,
+                                      low.y * kBlockSide + row * stride + stride / 2, layer});
+      if (id == kNoVoxel || esdf.state[id] == VoxelState::kUnknown)
+        append(bytes, kNotKnown);
+      else
+        append(bytes, static_cast<std::uint16_t>(
+                          std::min(kFarthest, std::round(1000.0 * esdf.distance(id)))));
+    }
+  return bytes;
+}
+
+std::string diagram_layer(const Roadmap& roadmap, const std::vector<std::size_t>& components) {
+  const EsdfMap& esdf = roadmap.esdf;
+  const std::vector<VoxelId> voxels = roadmap.diagram.voxels.members(esdf.layout);
+  const auto by_order = [&](VoxelId a, VoxelId b) {
+    return esdf.layout.order_of(a) < esdf.layout.order_of(b);
+  };
+  std::string segments;
+  for (std::size_t i = 0; i < voxels.size(); ++i)
+    for (int direction = kCentre + 1; direction < 27; ++direction) {
+      const VoxelId other = esdf.layout.neighbour(voxels[i], direction);
+      if (other == kNoVoxel || !roadmap.diagram.voxels.test(other)) continue;
+      append(segments, count_of(i));
+      append(segments, count_of(static_cast<std::size_t>(
+                           std::lower_bound(voxels.begin(), voxels.end(), other, by_order) -
+                           voxels.begin())));
+    }
+  std::string bytes;
+  append_origin(bytes, map_origin(esdf));
+  append(bytes, count_of(voxels.size()));
+  append(bytes, count_of(segments.size() / 8));
+  for (const VoxelId id : voxels)
+    append_position(bytes, centre_of(esdf.layout.index_of(id), esdf.voxel_size));
+  for (const VoxelId id : voxels) append(bytes, clearance_of_voxel(esdf, id));
+  for (std::size_t i = 0; i < voxels.size(); ++i)
+    append(bytes, count_of(components.empty() ? 0 : components[i]));
+  return bytes + segments;
+}
+
+std::string gvd_layer(const Roadmap& roadmap, const GvdConfig& config, std::size_t most_points) {
+  const EsdfMap& esdf = roadmap.esdf;
+  const VoxelMask traversable = traversable_voxels(esdf, roadmap.min_clearance);
+  const std::vector<VoxelId> voxels = compute_gvd(esdf, traversable, config).members(esdf.layout);
+  const std::size_t stride =
+      std::max<std::size_t>(1, (voxels.size() + most_points - 1) / most_points);
+  std::vector<VoxelId> shown;
+  for (std::size_t i = 0; i < voxels.size(); i += stride) shown.push_back(voxels[i]);
+  std::string bytes;
+  append_origin(bytes, map_origin(esdf));
+  append(bytes, count_of(shown.size()));
+  append(bytes, count_of(voxels.size()));
+  for (const VoxelId id : shown)
+    append_position(bytes, centre_of(esdf.layout.index_of(id), esdf.voxel_size));
+  for (const VoxelId id : shown) append(bytes, clearance_of_voxel(esdf, id));
+  return bytes;
+}
+
+std::string graph_layer(const Roadmap& roadmap, const std::vector<std::size_t>& components) {
+  const SparseGraph& graph = roadmap.graph;
+  std::string bytes;
+  append_origin(bytes, map_origin(roadmap.esdf));
+  append(bytes, count_of(graph.vertices.size()));
+  append(bytes, count_of(graph.edges.size()));
+  for (const Vertex& v : graph.vertices) append_position(bytes, v.position);
+  for (const Vertex& v : graph.vertices) append(bytes, static_cast<float>(v.clearance));
+  for (std::size_t i = 0; i < graph.vertices.size(); ++i)
+    append(bytes, count_of(components.empty() ? 0 : components[i]));
+  for (const Edge& e : graph.edges) {
+    append(bytes, count_of(number(e.from)));
+    append(bytes, count_of(number(e.to)));
+  }
+  for (const Edge& e : graph.edges) append(bytes, static_cast<float>(e.clearance));
+  return bytes;
+}
+
+}  // namespace ridgeway

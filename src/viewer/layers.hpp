@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "ridgeway/roadmap/roadmap.hpp"
+#include "ridgeway/skeleton/gvd.hpp"
+
+namespace ridgeway {
+
+// What a page draws of a roadmap: bytes, little-endian, as docs/viewer.md describes them. Every
+// layer begins with its origin in the world (three f64); its positions are metres from there, or
+// cells, so that four bytes are enough wherever the map lies.
+
+/// Obstacles as rectangles, with the smallest cells that need `most_quads` or fewer.
+std::string surface_layer(const EsdfMap& esdf, std::size_t most_quads);
+
+/// Distances to obstacles in the horizontal layer of voxels that holds a height (world, metres).
+/// Larger maps come with every second, third, ... voxel, `most_samples` along a side at most.
+/// Throws InputError where the height is not finite or beyond what a voxel can have.
+std::string slice_layer(const EsdfMap& esdf, double height, int most_samples);
+
+/// Voxels of the diagram and the moves between neighbouring ones. `components`: of the voxels in
+/// their order (VoxelMask::members), largest first.
+std::string diagram_layer(const Roadmap& roadmap, const std::vector<std::size_t>& components);
+
+/// Voxels of the generalized Voronoi diagram; where there are more than `most_points` every
+/// second, third, ... of them.
+std::string gvd_layer(const Roadmap& roadmap, const GvdConfig& config, std::size_t most_points);
+
+/// Vertices and edges. `components`: of the vertices, largest first.
+std::string graph_layer(const Roadmap& roadmap, const std::vector<std::size_t>& components);
+
+}  // namespace ridgeway

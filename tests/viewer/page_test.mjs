@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+
+// The page of `ridgeway view` as a person uses it, in Chromium.
+import assert from "node:assert/strict";
+import test, { after, before } from "node:test";
+import { axe_source, click_at, difference, launch, open, pixels, planned, text_of } from "./browser.mjs";
+import { rooms, run_json, view } from "./program.mjs";
+
+let served, browser, page, map;
+before(async () => {
+  map = rooms();
+  served = await view(map);
+  browser = await launch();
+  page = await open(browser, served.address);
+}, { timeout: 120_000 });
+after(async () => {
+  await browser?.close();
+  await served?.stop();
+});
+
+const set = (id, value) =>
+  page.evaluate(([id, value]) => {
+    const input = document.getElementById(id);
+    if (input.type === "checkbox") input.click();
+    else {
+      input.value = value;
+      input.dispatchEvent(new Event("input", { bubbles: true }));
+      input.dispatchEvent(new Event("change", { bubbles: true }));
+    }
+  }, [id, value]);
+
+test("loads without errors, and asks nobody else", () => {
+  assert.deepEqual(page.complaints, []);
+  assert.ok(page.asked.length > 3);
+  for (const address of page.asked) assert.ok(address.startsWith(served.address) || address.startsWith("data:") || address.startsWith("blob:"), address);
+});
+
+test("draws the map", async () => {
+  const { colours, drawn } = await pixels(page);
+  assert.ok(drawn > 0.1, `only ${drawn} of the canvas is drawn`);
+  assert.ok(colours > 20, `only ${colours} colours`);
+});
+
+test("every layer changes the picture, and can be taken away again", async () => {
+  for (const name of ["surface", "slice", "gvd", "diagram", "graph"]) {
+    const before = await pixels(page);
+    await page.locator(`#layer-${name}`).click();
+    await page.waitForTimeout(1500);
+    const switched = await pixels(page);
+    assert.ok(difference(before, switched) > 50, `${name}: ${difference(before, switched)} pixels differ`);
+    await page.locator(`#layer-${name}`).click();
+    await page.waitForTimeout(1500);
+    assert.equal(difference(before, await pixels(page)), 0, name);
+  }
+});
+
+test("sliders move the cut and the slice", async () => {
+  const before = await pixels(page);
+  await set("cut", "0.5");
+  const cut = await pixels(page);
+  assert.ok(difference(before, cut) > 100);
+  assert.match(await text_of(page, "#cut-text"), /^0\.4 m$/);
+  await set("slice", "1.1");
+  await page.waitForTimeout(800);
+  const low = await pixels(page);
+  assert.ok(difference(cut, low) > 100);
+  await set("slice", "1.9");
+  await page.waitForTimeout(800);
+  assert.ok(difference(low, await pixels(page)) > 100);
+  await page.locator("#layer-slice").click();
+  await set("cut", "2.2");
+});
+
+test("clicks on start and goal plan what the command line plans", async () => {
+  await page.locator("#top").click();
+  await page.locator("[data-tool=start]").click();
+  await click_at(page, [-2, 0.4, 0]);
+  await planned(page, () => click_at(page, [2, -0.7, 0]));
+  const from = await page.inputValue("#from");
+  const to = await page.inputValue("#to");
+  const [x, y] = from.split(",").map(Number);
+  assert.ok(Math.hypot(x + 2, y - 0.4) < 0.1, from);
+  const plan = run_json("plan", map, `--from=${from.replaceAll(" ", "")}`, `--to=${to.replaceAll(" ", "")}`);
+  assert.equal(plan.status, "ok");
+  assert.equal(await text_of(page, "#length"), `${Number(plan.length.toFixed(3))} m`);
+  assert.match(await text_of(page, "#result"), /clearance/);
+  assert.match(await page.locator("#command").textContent(), /ridgeway plan rooms\.ridge --from=/);
+});
+
+test("typed places plan too, and there is a trajectory to fly along", async () => {
+  await page.fill("#from", "-2, 1, 1");
+  await planned(page, () => page.locator("#from").press("Tab"));
+  await page.fill("#to", "2 -1 1");
+  await planned(page, () => page.locator("#to").press("Tab"));
+  const plan = run_json("plan", map, "--from=-2,1,1", "--to=2,-1,1");
+  assert.equal(await text_of(page, "#length"), `${Number(plan.length.toFixed(3))} m`);
+  await page.locator("#clock").waitFor({ state: "visible" });
+  const before = await pixels(page);
+  await set("time", "1.5");
+  assert.ok(difference(before, await pixels(page)) > 20, "the drone does not move");
+  assert.match(await text_of(page, "#clock"), /^1\.5 of \d/);
+  assert.match(await text_of(page, "#state"), /m\/s at/);
+});
+
+test("alternatives are those of the command line", async () => {
+  await planned(page, () => set("alternatives", "3"));
+  const routes = run_json("plan", map, "--from=-2,1,1", "--to=2,-1,1", "--alternatives", "3").routes;
+  assert.equal(await page.evaluate(() => window.ridgeway.app.shown_routes.length), routes.length);
+  await planned(page, () => set("alternatives", "1"));
+});
+
+test("no route: the reason in words, and the view goes there", async () => {
+  await planned(page, () => set("radius", "0.8"));
+  assert.match(await text_of(page, "#result"), /too narrow by 0\.\d+ m at .*not connected at a radius of 0.8 m/);
+  assert.equal(await page.locator("#length").count(), 0);
+  const before = await pixels(page);
+  await page.locator("#show-place").click();
+  await page.waitForTimeout(1500);
+  assert.ok(difference(before, await pixels(page)) > 100);
+  await planned(page, () => set("radius", "0.3"));
+});
+
+test("dragging the goal plans as it moves, within a frame where frames are fast", async () => {
+  await page.locator("#top").click();
+  await page.waitForTimeout(300);
+  const at = await page.evaluate(() => { const { app, stage } = window.ridgeway; return stage.on_canvas(app.routes.goal.position); });
+  const before = await text_of(page, "#length");
+  await page.mouse.move(at.x, at.y);
+  await page.mouse.down();
+  const lengths = new Set();
+  for (let i = 1; i <= 6; ++i) {
+    await page.mouse.move(at.x, at.y - 8 * i);
+    await page.waitForTimeout(250);
+    lengths.add(await text_of(page, "#length"));
+  }
+  assert.ok(lengths.size >= 4, `the length was ${[...lengths]} while the goal moved`);
+  await planned(page, () => page.mouse.up());
+  assert.notEqual(await text_of(page, "#length"), before);
+});
+
+test("measures what is clicked", async () => {
+  await page.locator("#top").click();
+  await page.keyboard.press("m");
+  await click_at(page, [-2.5, -1.5, 0]);
+  await click_at(page, [-0.5, -1.5, 0]);
+  const hint = await text_of(page, "#hint");
+  assert.ok(Math.abs(Number(/^([\d.]+) m/.exec(hint)[1]) - 2) < 0.05, hint);
+  await page.keyboard.press("Escape");
+});
+
+test("keys turn the view", async () => {
+  await page.keyboard.press("o");
+  await page.locator("#canvas").focus();
+  await page.waitForTimeout(400);
+  let before = await pixels(page);
+  for (const key of ["ArrowLeft", "ArrowUp", "+", "t"]) {
+    await page.keyboard.press(key);
+    await page.waitForTimeout(600);
+    const now = await pixels(page);
+    assert.ok(difference(before, now) > 100, key);
+    before = now;
+  }
+});
+
+test("narrow places are listed, or that there are none", async () => {
+  await page.locator("#layer-narrow").click();
+  await page.waitForTimeout(500);
+  assert.match(await text_of(page, "#narrow-list"), /None: all places|radius/);
+});
+
+test("axe finds nothing serious, light and dark, wide and narrow", async () => {
+  for (const colorScheme of ["light", "dark"])
+    for (const [width, height] of [[1280, 720], [820, 1180], [700, 900]]) {
+      await page.emulateMedia({ colorScheme });
+      await page.setViewportSize({ width, height });
+      await page.evaluate(axe_source);
+      const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+      const serious = violations.filter((v) => v.impact === "serious" || v.impact === "critical");
+      assert.deepEqual(serious.map((v) => `${v.id}: ${v.nodes.map((n) => n.target).join(" ")}`), [], `${colorScheme} ${width}`);
+      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "it is wider than the window");
+    }
+});
+
+test("nothing was complained about to the end", () => assert.deepEqual(page.complaints, []));

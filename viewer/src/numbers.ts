@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+import type { Vector } from "./layers";
+
+/** Metres as the command line prints them: three decimals at most, no zeros behind. */
+export function metres(value: number, decimals = 3): string {
+  return String(Number(value.toFixed(decimals)));
+}
+
+export function place_text(place: Vector): string {
+  return place.map((x) => metres(x)).join(",");
+}
+
+/** "x, y, z", commas or blanks between; nothing for what is no place. */
+export function place_of(text: string): Vector | undefined {
+  const parts = text.trim().split(/[\s,;]+/).filter(Boolean).map(Number);
+  return parts.length === 3 && parts.every(Number.isFinite) ? (parts as Vector) : undefined;
+}
+
+export function seconds(value: number): string {
+  if (value < 1e-3) return `${(1e6 * value).toPrecision(3)} µs`;
+  if (value < 1) return `${(1e3 * value).toPrecision(3)} ms`;
+  return `${value.toPrecision(3)} s`;
+}

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+import * as THREE from "three";
+import { kFlight, kGoal, kRoutes, kStart } from "./colours";
+import { ball, drone, PathDrawing } from "./drawings";
+import type { Flight, Route, Sample, Vector } from "./layers";
+import type { Stage } from "./stage";
+
+/** Start, goal, the routes between them and the flight along the shortest, as they are drawn. */
+export class RouteDrawing {
+  readonly start = ball(kStart, 0.3);
+  readonly goal = ball(kGoal, 0.3);
+  readonly paths = new THREE.Group();
+  readonly flight_group = new THREE.Group();
+  private readonly robot = drone(kFlight);
+  private line?: PathDrawing;
+  private samples: Sample[] = [];
+
+  constructor(private readonly stage: Stage, private readonly base: THREE.Vector3) {
+    this.start.visible = this.goal.visible = this.flight_group.visible = false;
+    this.flight_group.add(this.robot);
+    stage.scene.add(this.start, this.goal, this.paths, this.flight_group);
+  }
+
+  local(place: Vector): THREE.Vector3 {
+    return new THREE.Vector3(place[0] - this.base.x, place[1] - this.base.y, place[2] - this.base.z);
+  }
+  world(place: THREE.Vector3): Vector {
+    return [place.x + this.base.x, place.y + this.base.y, place.z + this.base.z];
+  }
+
+  set_radius(radius: number): void {
+    for (const part of [this.start, this.goal, this.robot]) part.scale.setScalar(radius);
+    this.stage.changed();
+  }
+
+  set_end(which: "start" | "goal", place: Vector | undefined): void {
+    const marker = this[which];
+    marker.visible = !!place;
+    if (place) marker.position.copy(this.local(place));
+    this.stage.changed();
+  }
+
+  show_routes(routes: Route[]): void {
+    for (const old of [...this.paths.children]) {
+      this.paths.remove(old);
+      (old.userData.drawing as PathDrawing).dispose();
+    }
+    routes.forEach((route, i) => {
+      const drawing = new PathDrawing(route.waypoints.map((p) => this.local(p)), kRoutes[i % kRoutes.length]!, i === 0 ? 5 : 3.5);
+      drawing.group.userData.drawing = drawing;
+      this.paths.add(drawing.group);
+    });
+    this.stage.changed();
+  }
+
+  show_flight(flight: Flight | undefined): void {
+    if (this.line) {
+      this.flight_group.remove(this.line.group);
+      this.line.dispose();
+      this.line = undefined;
+    }
+    this.samples = flight?.samples ?? [];
+    this.flight_group.visible = this.samples.length > 1;
+    if (this.samples.length > 1) {
+      this.line = new PathDrawing(this.samples.map((s) => this.local(s.position)), kFlight, 3);
+      this.flight_group.add(this.line.group);
+      this.set_time(0);
+    }
+    this.stage.changed();
+  }
+
+  /** Puts the drone where it is at a time, and returns that state. */
+  set_time(time: number): Sample | undefined {
+    const { samples } = this;
+    if (samples.length < 2) return undefined;
+    let low = 0;
+    let high = samples.length - 1;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (samples[middle]!.t <= time) low = middle;
+      else high = middle;
+    }
+    const [a, b] = [samples[low]!, samples[high]!];
+    const share = Math.min(1, Math.max(0, (time - a.t) / Math.max(1e-9, b.t - a.t)));
+    const mix = (u: Vector, v: Vector) => u.map((x, k) => x + (v[k]! - x) * share) as Vector;
+    const state = { t: time, position: mix(a.position, b.position), velocity: mix(a.velocity, b.velocity), yaw: a.yaw + (b.yaw - a.yaw) * share };
+    this.robot.position.copy(this.local(state.position));
+    this.robot.rotation.z = state.yaw;
+    this.stage.changed();
+    return state;
+  }
+
+  /** The marker at a place of the canvas, with some room for fingers. */
+  marker_at(x: number, y: number): "start" | "goal" | undefined {
+    const ray = this.stage.ray_at(x, y);
+    for (const which of ["goal", "start"] as const) {
+      const marker = this[which];
+      if (!marker.visible) continue;
+      const at = this.stage.on_canvas(marker.position);
+      const is_near = at && Math.hypot(at.x - x, at.y - y) < 14;
+      if (is_near || ray.distanceToPoint(marker.position) < marker.scale.x) return which;
+    }
+    return undefined;
+  }
+}

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+
+/** Where answers of docs/viewer.md come from: the server, or the planner in this page. */
+export interface MapSource {
+  ask(path: string, parameters?: Record<string, string>): Promise<ArrayBuffer>;
+}
+
+export class AnswerError extends Error {}
+
+function message_of(bytes: ArrayBuffer): string {
+  try {
+    return JSON.parse(new TextDecoder().decode(bytes)).error;
+  } catch {
+    return "the answer cannot be read";
+  }
+}
+
+/** The server that the page came from. */
+export class ServerSource implements MapSource {
+  async ask(path: string, parameters: Record<string, string> = {}): Promise<ArrayBuffer> {
+    const query = new URLSearchParams(parameters).toString();
+    let response: Response;
+    try {
+      response = await fetch(query ? `${path}?${query}` : path);
+    } catch {
+      throw new AnswerError("the server does not answer: is `ridgeway view` still running?");
+    }
+    const bytes = await response.arrayBuffer();
+    if (!response.ok) throw new AnswerError(message_of(bytes));
+    return bytes;
+  }
+}
+
+/** The planner itself, in a worker: the map and the planner stand in the page. */
+export class PlannerSource implements MapSource {
+  private readonly worker: Worker;
+  private readonly waiting = new Map<number, { resolve: (bytes: ArrayBuffer) => void; reject: (error: Error) => void }>();
+  private next = 1;
+
+  constructor(worker_base64: string, map_base64: string, name: string) {
+    const script = new Blob([bytes_of(worker_base64)], { type: "text/javascript" });
+    this.worker = new Worker(URL.createObjectURL(script));
+    this.worker.onmessage = (event) => {
+      const { id, status, bytes } = event.data;
+      const waiting = this.waiting.get(id);
+      this.waiting.delete(id);
+      if (status === 200) waiting?.resolve(bytes);
+      else waiting?.reject(new AnswerError(message_of(bytes)));
+    };
+    this.worker.onerror = (event) => {
+      for (const { reject } of this.waiting.values())
+        reject(new AnswerError(`the planner has ended: ${event.message}`));
+      this.waiting.clear();
+    };
+    const map = bytes_of(map_base64);
+    this.worker.postMessage({ map, name }, [map.buffer]);
+  }
+
+  ask(path: string, parameters: Record<string, string> = {}): Promise<ArrayBuffer> {
+    return new Promise((resolve, reject) => {
+      this.waiting.set(this.next, { resolve, reject });
+      this.worker.postMessage({ id: this.next++, path, parameters });
+    });
+  }
+}
+
+function bytes_of(base64: string): Uint8Array<ArrayBuffer> {
+  const text = atob(base64);
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+  return bytes;
+}
+
+/** The planner in the page where there is one, else the server. */
+export function find_source(): MapSource {
+  const worker = document.getElementById("worker");
+  const map = document.getElementById("map");
+  if (!worker || !map) return new ServerSource();
+  const source = new PlannerSource(worker.textContent!.trim(), map.textContent!.trim(), map.dataset.name ?? "map");
+  worker.remove();
+  map.remove();
+  return source;
+}
+
+export async function ask_json<T>(source: MapSource, path: string, parameters?: Record<string, string>): Promise<T> {
+  return JSON.parse(new TextDecoder().decode(await source.ask(path, parameters)));
+}

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+import * as THREE from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+
+/** Turns are slow in software: then less is drawn of each frame while the view moves. */
+const kSlowFrame = 50; // milliseconds
+const kStill = 250;
+
+/**
+ * The picture: camera, lights and a frame when something has changed, none otherwise. Positions are
+ * metres from the map's lowest corner, z up.
+ */
+export class Stage {
+  readonly scene = new THREE.Scene();
+  readonly renderer: THREE.WebGLRenderer;
+  readonly controls: OrbitControls;
+  readonly size = new THREE.Vector3(1, 1, 1);
+  /** Called before a frame; it is coarse while the view moves and frames are slow. */
+  readonly before_frame: ((is_coarse: boolean) => void)[] = [];
+  frames = 0;
+
+  private readonly perspective = new THREE.PerspectiveCamera(50, 1, 0.05, 1000);
+  private readonly orthographic = new THREE.OrthographicCamera(-1, 1, 1, -1, -1000, 1000);
+  private camera_now: THREE.PerspectiveCamera | THREE.OrthographicCamera = this.perspective;
+  private asked = false;
+  private coarse = false;
+  private frame_time = 0;
+  private still_timer = 0;
+  private flight = 0;
+
+  constructor(private readonly canvas: HTMLCanvasElement) {
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: false, preserveDrawingBuffer: true, powerPreference: "high-performance" });
+    this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace; // colours are drawn as given
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x777777, 2.5));
+    const sun = new THREE.DirectionalLight(0xffffff, 1.5);
+    sun.position.set(1, -2, 3);
+    this.scene.add(sun);
+    for (const camera of [this.perspective, this.orthographic]) camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.perspective, canvas);
+    this.controls.enableDamping = false;
+    this.controls.zoomToCursor = true;
+    this.controls.screenSpacePanning = false;
+    this.controls.addEventListener("change", () => this.moves());
+    new ResizeObserver(() => this.changed()).observe(canvas);
+    const dark = matchMedia("(prefers-color-scheme: dark)");
+    const paint = () => {
+      const ground = getComputedStyle(document.documentElement).getPropertyValue("--ground").trim();
+      this.renderer.setClearColor(new THREE.Color().setStyle(ground, THREE.LinearSRGBColorSpace));
+      this.changed();
+    };
+    dark.addEventListener("change", paint);
+    paint();
+  }
+
+  get camera(): THREE.Camera {
+    return this.camera_now;
+  }
+  get is_orthographic(): boolean {
+    return this.camera_now === this.orthographic;
+  }
+
+  /** Something moves: where frames are slow, coarse ones are drawn until it is still. */
+  moves(): void {
+    this.coarse = this.frame_time > kSlowFrame;
+    this.changed();
+    clearTimeout(this.still_timer);
+    this.still_timer = window.setTimeout(() => {
+      this.coarse = false;
+      this.changed();
+    }, kStill);
+  }
+
+  /** Asks for a frame. */
+  changed(): void {
+    if (this.asked) return;
+    this.asked = true;
+    requestAnimationFrame(() => {
+      this.asked = false;
+      this.draw();
+    });
+  }
+
+  draw(): void {
+    const started = performance.now();
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    if (width === 0 || height === 0) return;
+    const ratio = this.coarse ? 0.5 : Math.min(devicePixelRatio, 2);
+    if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(width, height, false);
+    this.perspective.aspect = width / height;
+    this.perspective.updateProjectionMatrix();
+    const half = (this.orthographic.top * width) / height;
+    this.orthographic.left = -half;
+    this.orthographic.right = half;
+    this.orthographic.updateProjectionMatrix();
+    for (const act of this.before_frame) act(this.coarse);
+    this.renderer.render(this.scene, this.camera_now);
+    if (!this.coarse) this.measure_frame(started);
+    ++this.frames;
+  }
+
+  /** Drawing ends after the call: a pixel that is read back waits for it. Not while things move. */
+  private measure_frame(started: number): void {
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    this.frame_time = performance.now() - started;
+  }
+
+  /** Space that is worth looking at, from (0, 0, 0) on. */
+  set_size(size: THREE.Vector3): void {
+    this.size.copy(size);
+    const reach = size.length();
+    this.perspective.far = 6 * reach;
+    this.perspective.near = Math.max(0.02, reach / 5000);
+    this.orthographic.near = -3 * reach;
+    this.orthographic.far = 3 * reach;
+  }
+
+  private use(camera: THREE.PerspectiveCamera | THREE.OrthographicCamera): void {
+    this.camera_now = camera;
+    this.controls.object = camera;
+    this.controls.enableRotate = camera === this.perspective;
+    this.controls.mouseButtons.LEFT = camera === this.perspective ? THREE.MOUSE.ROTATE : THREE.MOUSE.PAN;
+  }
+
+  look_from_side(): void {
+    cancelAnimationFrame(this.flight);
+    this.use(this.perspective);
+    const middle = this.size.clone().multiplyScalar(0.5);
+    const aspect = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
+    const wide = Math.max(this.size.x / Math.max(aspect, 0.5), this.size.y, this.size.z);
+    const from = new THREE.Vector3(-0.25, -0.75, 0.85).normalize().multiplyScalar(0.96 * wide + 1);
+    this.controls.target.copy(middle);
+    this.perspective.position.copy(middle).add(from);
+    this.controls.update();
+    this.changed();
+  }
+
+  look_from_above(): void {
+    cancelAnimationFrame(this.flight);
+    this.use(this.orthographic);
+    const middle = this.size.clone().multiplyScalar(0.5);
+    const aspect = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
+    this.orthographic.top = 0.54 * Math.max(this.size.y, this.size.x / aspect);
+    this.orthographic.bottom = -this.orthographic.top;
+    this.orthographic.zoom = 1;
+    this.orthographic.position.set(middle.x, middle.y - 1e-3, middle.z + this.size.length());
+    this.controls.target.copy(middle);
+    this.controls.update();
+    this.changed();
+  }
+
+  /** Moves the view to a place, so that so many metres around it can be seen. */
+  fly_to(place: THREE.Vector3, around: number): void {
+    cancelAnimationFrame(this.flight);
+    if (this.is_orthographic) this.look_from_side();
+    const target = this.controls.target.clone();
+    const from = this.perspective.position.clone();
+    const back = from.clone().sub(target).normalize();
+    back.z = Math.max(back.z, 0.8);
+    const to = place.clone().add(back.normalize().multiplyScalar(2.2 * around));
+    const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    const started = performance.now();
+    const step = () => {
+      const x = still ? 1 : Math.min(1, (performance.now() - started) / 600);
+      const share = x * x * (3 - 2 * x);
+      this.controls.target.lerpVectors(target, place, share);
+      this.perspective.position.lerpVectors(from, to, share);
+      this.controls.update();
+      this.changed();
+      if (x < 1) this.flight = requestAnimationFrame(step);
+    };
+    step();
+  }
+
+  /** Turns the view, radians, and moves it nearer (below 1) or farther. */
+  turn(right: number, up: number, farther: number): void {
+    if (this.camera_now === this.orthographic) {
+      this.orthographic.zoom /= farther;
+      const step = this.orthographic.top / this.orthographic.zoom;
+      const move = new THREE.Vector3(right * step, up * step, 0);
+      this.controls.target.add(move);
+      this.orthographic.position.add(move);
+    } else {
+      const offset = new THREE.Spherical().setFromVector3(swapped(this.perspective.position.clone().sub(this.controls.target)));
+      offset.theta += right;
+      offset.phi = Math.min(Math.PI - 0.05, Math.max(0.05, offset.phi - up));
+      offset.radius *= farther;
+      this.perspective.position.copy(this.controls.target).add(unswapped(new THREE.Vector3().setFromSpherical(offset)));
+    }
+    this.controls.update();
+    this.changed();
+  }
+
+  ray_at(x: number, y: number): THREE.Ray {
+    const caster = new THREE.Raycaster();
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    this.camera_now.updateMatrixWorld();
+    caster.setFromCamera(new THREE.Vector2((2 * x) / width - 1, 1 - (2 * y) / height), this.camera_now as THREE.PerspectiveCamera);
+    return caster.ray;
+  }
+
+  /** Where a place is on the canvas, CSS pixels; nothing behind the camera. */
+  on_canvas(place: THREE.Vector3): { x: number; y: number } | undefined {
+    this.camera_now.updateMatrixWorld();
+    const p = place.clone().project(this.camera_now);
+    if (p.z < -1 || p.z > 1) return undefined;
+    return { x: ((p.x + 1) / 2) * this.canvas.clientWidth, y: ((1 - p.y) / 2) * this.canvas.clientHeight };
+  }
+}
+
+// three.js takes y for up in spherical coordinates.
+function swapped(v: THREE.Vector3): THREE.Vector3 {
+  return new THREE.Vector3(v.y, v.z, v.x);
+}
+function unswapped(v: THREE.Vector3): THREE.Vector3 {
+  return new THREE.Vector3(v.z, v.x, v.y);
+}
