@@ -4,14 +4,19 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <functional>
+#include <iomanip>
 #include <sstream>
 #include <string_view>
 #include <utility>
 
 #include "benchmark_map.hpp"
+#include "common/number_text.hpp"
 #include "files/read_file.hpp"
 #include "mapping/memory_limit.hpp"
+#include "mapping/mesh_map.hpp"
+#include "mesh_file.hpp"
 #include "octomap.hpp"
 #include "pcd.hpp"
 #include "ply_cloud.hpp"
@@ -132,6 +137,80 @@ OccupancyMap load_cloud(const PointCloud& cloud, const LoadConfig& config, const
   return finished(std::move(map), config, name, notes);
 }
 
+std::string size_text(const Box& box) {
+  const Eigen::Vector3d size = box.max - box.min;
+  std::ostringstream text;
+  text << std::setprecision(4) << size.x() << " x " << size.y() << " x " << size.z() << " m";
+  return text.str();
+}
+
+std::string point_text(const Point& p) {
+  std::ostringstream text;
+  text << std::setprecision(6) << p.x() << ',' << p.y() << ',' << p.z();
+  return text.str();
+}
+
+void tell_of_frame(const MeshFrame& own, const LoadConfig& config, LoadNotes* notes) {
+  const bool unit_known = own.unit || config.units, up_known = own.up || config.up;
+  if (unit_known && up_known) return;
+  const std::string what = unit_known ? "the file names no upward axis: z is taken (--up)"
+                           : up_known ? "the file names no unit: metres are taken (--units)"
+                                      : "the file names no unit and no upward axis: metres and z "
+                                        "are taken (--units, --up)";
+  tell(notes, what);
+}
+
+void tell_of_space(const MeshMapReport& report, const LoadConfig& config, LoadNotes* notes) {
+  if (!config.bounds)
+    tell(notes, "the map ends where the mesh does, which spans " + size_text(report.box) + ", " +
+                    describe(report.box) + " (--bounds)");
+  using Free = MeshMapReport::Free;
+  if (report.free == Free::kWithin)
+    tell(notes,
+         "the mesh encloses more space than there is around it within the bounds: what it "
+         "encloses is taken as free (--inside)");
+  else if (report.free == Free::kAround && report.enclosed > 0)
+    tell(notes, std::to_string(report.enclosed) +
+                    " spaces that the mesh encloses are taken as solid, the largest of " +
+                    number_text(std::round(1e3 * report.largest_enclosed) / 1e3) +
+                    " m3; --inside " + point_text(report.in_largest) + " makes that one free");
+  if (report.leak)
+    tell(notes, "the space is not closed: it is open to the bounds at " +
+                    point_text(report.leak->exit) + "; the widest way there is narrowest, about " +
+                    number_text(std::round(1e3 * report.leak->width) / 1e3) + " m, at " +
+                    point_text(report.leak->narrowest));
+}
+
+/// Fine enough for the smallest radius that a roadmap is for unless another is given, four voxels.
+constexpr double kMeshVoxelSize = 0.1;
+
+OccupancyMap load_mesh_map(const std::filesystem::path& file, std::string_view bytes,
+                           const std::string& format, const LoadConfig& config, LoadNotes* notes) {
+  const std::string name = file.string();
+  TriangleSoup mesh = read_mesh(file, bytes, format, {config.units, config.up});
+  tell_of_frame(mesh_frame(format, bytes), config, notes);
+  for (Point& v : mesh.vertices) v = config.transform * v;
+  if (!config.voxel_size) tell(notes, "voxels of 0.1 m are taken (--voxel-size)");
+  MeshMapReport report;
+  OccupancyMap map = map_from_mesh(mesh,
+                                   {.voxel_size = config.voxel_size.value_or(kMeshVoxelSize),
+                                    .bounds = config.bounds,
+                                    .inside = config.inside,
+                                    .margin = config.isolated_below},
+                                   name, &report);
+  tell_of_space(report, config, notes);
+  return finished(std::move(map), config, name, notes);
+}
+
+void require_mesh_options_unused(const LoadConfig& config, const std::string& name) {
+  const char* const given = config.units             ? "units"
+                            : config.up              ? "up"
+                            : !config.inside.empty() ? "inside"
+                                                     : nullptr;
+  if (given != nullptr)
+    throw InputError(given, "is of meshes, which " + name + " is not", "leave it out");
+}
+
 OccupancyMap load_benchmark_map(std::string_view bytes, const LoadConfig& config,
                                 const std::string& name, LoadNotes* notes) {
   if (!config.voxel_size) tell(notes, "the file records no voxel size: a cell is taken as 1 m");
@@ -191,6 +270,13 @@ void LoadConfig::validate() const {
   for (std::size_t i = 0; i < exclude.size(); ++i)
     validate_box(exclude[i], "exclude box " + std::to_string(i + 1));
   validate_transform(transform);
+  constexpr double kMostUnits = 1e6;
+  if (units && !(*units >= 1.0 / kMostUnits && *units <= kMostUnits))
+    throw InputError("units", "are " + number_text(*units) + " m",
+                     "give metres from 1e-6 to 1e6, for example 0.001 for millimetres");
+  for (const Point& place : inside)
+    if (!place.allFinite())
+      throw InputError("inside", "is no place", "give three finite numbers, metres");
   if (isolated_below < 0) {
     throw InputError("isolated_below", "is " + std::to_string(isolated_below),
                      "give a number of voxels, 0 to keep all");
@@ -202,6 +288,9 @@ OccupancyMap load_map(const std::filesystem::path& file, const LoadConfig& confi
   config.validate();
   if (is_tsdf_file(file)) return load_fused_map(file, config, notes);
   const std::string bytes = read_file(file), name = file.string();
+  if (const std::string format = mesh_format(bytes, file); !format.empty())
+    return load_mesh_map(file, bytes, format, config, notes);
+  require_mesh_options_unused(config, name);
   if (is_octomap(bytes)) {
     const VoxelSource source = {
         read_octomap_header(bytes, name).voxel_size,
@@ -213,8 +302,10 @@ OccupancyMap load_map(const std::filesystem::path& file, const LoadConfig& confi
   if (is_benchmark_map(bytes)) return load_benchmark_map(bytes, config, name, notes);
   if (looks_like_xyz(bytes) || is_named_as_text(file))
     return load_cloud(read_xyz(bytes, name), config, name, notes);
-  throw InputError(name, "is in no map format that is known here",
-                   "give an OctoMap .bt or .ot, a point cloud .pcd, .ply or .xyz, or a .3dmap");
+  throw InputError(
+      name, "is in no map format that is known here",
+      "give an OctoMap .bt or .ot, a mesh .dae, .glb, .obj, .stl or .ply, a point cloud "
+      ".pcd, .ply or .xyz, a world .yaml, or a .3dmap");
 }
 
 }  // namespace ridgeway
