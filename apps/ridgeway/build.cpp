@@ -217,6 +217,10 @@ int run(const BuildOptions& options, const Globals& globals) {
   outcome.load_seconds = load_watch.seconds();
   bar.clear();
   for (const std::string& text : notes.notes) note(globals, text);
+  if (!options.planar.empty() && map.planar)
+    throw InputError("--planar",
+                     "is of maps in three dimensions, and " + options.map + " is planar",
+                     "leave it out");
   if (!options.planar.empty()) map = flatten(map, options.planar[0], options.planar[1]);
   if (building.min_clearance < 2.0 * map.voxel_size)
     warn(globals,
@@ -252,7 +256,7 @@ void add_build_command(Command& program) {
   command
       .path("map", options->map,
             "Map: OctoMap .bt, .ot; mesh .dae, .glb, .obj, .stl, .ply; point cloud .pcd, .ply, "
-            ".xyz; world .yaml; .3dmap; fused .ridge")
+            ".xyz; voxblox .vxblx; ROS map or world .yaml; .3dmap; fused .ridge")
       .required();
   command.path("-o,--output", options->output, "Roadmap to write, .ridge").required();
   command.number("--voxel-size", options->voxel_size, kLengths,

@@ -14,8 +14,9 @@
 #include "benchmark_map.hpp"
 #include "common/number_text.hpp"
 #include "files/read_file.hpp"
+#include "load_steps.hpp"
+#include "map_server.hpp"
 #include "mapping/memory_limit.hpp"
-#include "mapping/mesh_map.hpp"
 #include "mesh_file.hpp"
 #include "octomap.hpp"
 #include "pcd.hpp"
@@ -25,20 +26,12 @@
 #include "ridgeway/mapping/map_edits.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
+#include "voxblox.hpp"
+#include "voxblox_graph.hpp"
 #include "xyz.hpp"
 
 namespace ridgeway {
 namespace {
-
-/// A file that holds voxels, ready to be read into place.
-struct VoxelSource {
-  double voxel_size;
-  std::function<OccupancyMap(const VoxelPlacement&)> read;
-};
-
-void tell(LoadNotes* notes, std::string_view note) {
-  if (notes != nullptr) notes->notes.emplace_back(note);
-}
 
 OccupancyMap without_specks(OccupancyMap map, const LoadConfig& config, LoadNotes* notes) {
   if (config.isolated_below <= 1) return map;
@@ -50,7 +43,20 @@ OccupancyMap without_specks(OccupancyMap map, const LoadConfig& config, LoadNote
   return map;
 }
 
-/// The edits that every kind of file ends with.
+/// The part of the source's lattice that bounds, seen back through a transform, can reach.
+VoxelRange reach_before(const Eigen::Isometry3d& T_map_file, const Box& bounds, double voxel_size) {
+  if (!bounds.min.allFinite() || !bounds.max.allFinite()) return kAllVoxels;
+  const Eigen::AlignedBox3d box =
+      Eigen::AlignedBox3d(bounds.min, bounds.max).transformed(T_map_file.inverse());
+  return voxels_overlapping({box.min(), box.max()}, voxel_size);
+}
+
+}  // namespace
+
+void tell(LoadNotes* notes, std::string_view note) {
+  if (notes != nullptr) notes->notes.emplace_back(note);
+}
+
 OccupancyMap finished(OccupancyMap map, const LoadConfig& config, const std::string& name,
                       LoadNotes* notes) {
   map = without_specks(std::move(map), config, notes);
@@ -62,15 +68,6 @@ OccupancyMap finished(OccupancyMap map, const LoadConfig& config, const std::str
                    "check bounds, exclude and voxel_size");
 }
 
-/// The part of the source's lattice that bounds, seen back through a transform, can reach.
-VoxelRange reach_before(const Eigen::Isometry3d& T_map_file, const Box& bounds, double voxel_size) {
-  if (!bounds.min.allFinite() || !bounds.max.allFinite()) return kAllVoxels;
-  const Eigen::AlignedBox3d box =
-      Eigen::AlignedBox3d(bounds.min, bounds.max).transformed(T_map_file.inverse());
-  return voxels_overlapping({box.min(), box.max()}, voxel_size);
-}
-
-/// Only what can come to lie within the bounds is read: large files with small bounds fit.
 OccupancyMap load_voxels(const VoxelSource& source, const LoadConfig& config,
                          const std::string& name, LoadNotes* notes) {
   const double voxel_size = config.voxel_size.value_or(source.voxel_size);
@@ -104,6 +101,8 @@ OccupancyMap load_voxels(const VoxelSource& source, const LoadConfig& config,
   return finished(std::move(map), config, name, notes);
 }
 
+namespace {
+
 OccupancyMap load_cloud(const PointCloud& cloud, const LoadConfig& config, const std::string& name,
                         LoadNotes* notes) {
   require_no_faces(cloud, name);
@@ -134,71 +133,6 @@ OccupancyMap load_cloud(const PointCloud& cloud, const LoadConfig& config, const
                                       .margin = config.isolated_below,
                                       .T_map_cloud = config.transform},
                                      name);
-  return finished(std::move(map), config, name, notes);
-}
-
-std::string size_text(const Box& box) {
-  const Eigen::Vector3d size = box.max - box.min;
-  std::ostringstream text;
-  text << std::setprecision(4) << size.x() << " x " << size.y() << " x " << size.z() << " m";
-  return text.str();
-}
-
-std::string point_text(const Point& p) {
-  std::ostringstream text;
-  text << std::setprecision(6) << p.x() << ',' << p.y() << ',' << p.z();
-  return text.str();
-}
-
-void tell_of_frame(const MeshFrame& own, const LoadConfig& config, LoadNotes* notes) {
-  const bool unit_known = own.unit || config.units, up_known = own.up || config.up;
-  if (unit_known && up_known) return;
-  const std::string what = unit_known ? "the file names no upward axis: z is taken (--up)"
-                           : up_known ? "the file names no unit: metres are taken (--units)"
-                                      : "the file names no unit and no upward axis: metres and z "
-                                        "are taken (--units, --up)";
-  tell(notes, what);
-}
-
-void tell_of_space(const MeshMapReport& report, const LoadConfig& config, LoadNotes* notes) {
-  if (!config.bounds)
-    tell(notes, "the map ends where the mesh does, which spans " + size_text(report.box) + ", " +
-                    describe(report.box) + " (--bounds)");
-  using Free = MeshMapReport::Free;
-  if (report.free == Free::kWithin)
-    tell(notes,
-         "the mesh encloses more space than there is around it within the bounds: what it "
-         "encloses is taken as free (--inside)");
-  else if (report.free == Free::kAround && report.enclosed > 0)
-    tell(notes, std::to_string(report.enclosed) +
-                    " spaces that the mesh encloses are taken as solid, the largest of " +
-                    number_text(std::round(1e3 * report.largest_enclosed) / 1e3) +
-                    " m3; --inside " + point_text(report.in_largest) + " makes that one free");
-  if (report.leak)
-    tell(notes, "the space is not closed: it is open to the bounds at " +
-                    point_text(report.leak->exit) + "; the widest way there is narrowest, about " +
-                    number_text(std::round(1e3 * report.leak->width) / 1e3) + " m, at " +
-                    point_text(report.leak->narrowest));
-}
-
-/// Fine enough for the smallest radius that a roadmap is for unless another is given, four voxels.
-constexpr double kMeshVoxelSize = 0.1;
-
-OccupancyMap load_mesh_map(const std::filesystem::path& file, std::string_view bytes,
-                           const std::string& format, const LoadConfig& config, LoadNotes* notes) {
-  const std::string name = file.string();
-  TriangleSoup mesh = read_mesh(file, bytes, format, {config.units, config.up});
-  tell_of_frame(mesh_frame(format, bytes), config, notes);
-  for (Point& v : mesh.vertices) v = config.transform * v;
-  if (!config.voxel_size) tell(notes, "voxels of 0.1 m are taken (--voxel-size)");
-  MeshMapReport report;
-  OccupancyMap map = map_from_mesh(mesh,
-                                   {.voxel_size = config.voxel_size.value_or(kMeshVoxelSize),
-                                    .bounds = config.bounds,
-                                    .inside = config.inside,
-                                    .margin = config.isolated_below},
-                                   name, &report);
-  tell_of_space(report, config, notes);
   return finished(std::move(map), config, name, notes);
 }
 
@@ -240,6 +174,18 @@ OccupancyMap load_fused_map(const std::filesystem::path& file, const LoadConfig&
   return load_voxels(source, config, name, notes);
 }
 
+OccupancyMap load_voxblox(std::string_view bytes, const LoadConfig& config, const std::string& name,
+                          LoadNotes* notes) {
+  const std::vector<VoxbloxLayer> layers = read_voxblox(bytes, name);
+  const VoxbloxLayer& layer = map_layer(layers, name);
+  if (layers.size() > 1)
+    tell(notes, "of " + std::to_string(layers.size()) + " layers the " + layer.type + " is taken");
+  const VoxelSource source = {layer.voxel_size, [&](const VoxelPlacement& placement) {
+                                return map_of_layer(layer, name, placement);
+                              }};
+  return load_voxels(source, config, name, notes);
+}
+
 /// Text that begins with a number, or with column names, after comments.
 bool looks_like_xyz(std::string_view bytes) {
   const std::string_view head = bytes.substr(0, 4096);
@@ -254,6 +200,10 @@ bool looks_like_xyz(std::string_view bytes) {
     at = std::min(head.find('\n', at), head.size());
   }
   return false;
+}
+
+bool is_yaml_name(const std::filesystem::path& file) {
+  return file.extension() == ".yaml" || file.extension() == ".yml";
 }
 
 bool is_named_as_text(const std::filesystem::path& file) {
@@ -291,12 +241,18 @@ OccupancyMap load_map(const std::filesystem::path& file, const LoadConfig& confi
   if (const std::string format = mesh_format(bytes, file); !format.empty())
     return load_mesh_map(file, bytes, format, config, notes);
   require_mesh_options_unused(config, name);
+  if (is_map_server(bytes)) return load_planar_map(file, bytes, config, notes);
+  if (is_yaml_name(file)) return load_world_map(file, config, notes);
   if (is_octomap(bytes)) {
     const VoxelSource source = {
         read_octomap_header(bytes, name).voxel_size,
         [&](const VoxelPlacement& placement) { return read_octomap(bytes, name, placement); }};
     return load_voxels(source, config, name, notes);
   }
+  if (is_voxblox(bytes)) return load_voxblox(bytes, config, name, notes);
+  if (is_voxblox_graph(bytes))
+    throw InputError(name, "is a sparse graph, which says nothing of the space around it",
+                     "build from the TSDF or ESDF that it was made of");
   if (is_pcd(bytes)) return load_cloud(read_pcd(bytes, name), config, name, notes);
   if (is_ply(bytes)) return load_cloud(read_ply(bytes, name), config, name, notes);
   if (is_benchmark_map(bytes)) return load_benchmark_map(bytes, config, name, notes);

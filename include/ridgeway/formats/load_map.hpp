@@ -19,8 +19,8 @@ enum class UpAxis : std::uint8_t { kX, kY, kZ };
 /// How to make a map of a file. Lengths in metres, boxes in the world (z up).
 struct LoadConfig {
   /// Voxel size of the result. Required for point clouds; for .3dmap the size of a cell (1 unless
-  /// given); for meshes and worlds 0.1 unless given; for OctoMaps the file's own unless given, never
-  /// finer.
+  /// given); for meshes and worlds 0.1 unless given; for OctoMaps the file's own unless given,
+  /// never finer.
   std::optional<double> voxel_size = std::nullopt;
   /// The flight volume: what is not wholly inside is unknown. Required for point clouds, which do
   /// not record free space, and for worlds with planes; for other worlds and meshes the box around
@@ -48,11 +48,11 @@ struct LoadNotes {
 };
 
 /// Reads OctoMap .bt and .ot, point clouds .pcd, .ply and .xyz, meshes .dae, .glb, .obj, .stl and
-/// .ply (with faces), simulated worlds .yaml, MovingAI .3dmap, and fused maps (`.ridge` files of
-/// save_tsdf), by what the file's bytes say and, but for .obj, not by its name. In this order:
-/// read, transform, resample, isolated filter, crop, no-fly boxes. Obstacles of meshes and worlds
-/// are all voxels that they touch. Throws InputError naming the file (or the bad option) and the
-/// remedy; a map that does not fit into memory is refused before it is taken.
+/// .ply (with faces), voxblox layers, simulated worlds .yaml, MovingAI .3dmap, and fused maps
+/// (`.ridge` files of save_tsdf), by what the file's bytes say and, but for .obj, not by its name.
+/// In this order: read, transform, resample, isolated filter, crop, no-fly boxes. Obstacles of
+/// meshes and worlds are all voxels that they touch. Throws InputError naming the file (or the bad
+/// option) and the remedy; a map that does not fit into memory is refused before it is taken.
 OccupancyMap load_map(const std::filesystem::path& file, const LoadConfig& config = {},
                       LoadNotes* notes = nullptr);
 
