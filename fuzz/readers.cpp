@@ -12,11 +12,15 @@
 
 #include "formats/benchmark_map.hpp"
 #include "formats/benchmark_scenarios.hpp"
+#include "formats/grey_image.hpp"
+#include "formats/map_server.hpp"
 #include "formats/mesh_file.hpp"
 #include "formats/mesh_packing.hpp"
 #include "formats/octomap.hpp"
 #include "formats/pcd.hpp"
 #include "formats/ply_cloud.hpp"
+#include "formats/voxblox.hpp"
+#include "formats/voxblox_graph.hpp"
 #include "formats/xyz.hpp"
 #include "recordings/depth_png.hpp"
 #include "recordings/pose_text.hpp"
@@ -133,6 +137,26 @@ void read_registration(std::string_view bytes) {
   open_scans(in_folder("registration"));
 }
 
+void read_log(std::string_view bytes) {
+  fs::create_directories(in_folder("open3d/depth"));
+  written(bytes, "open3d/trajectory.log");
+  open_sequence(in_folder("open3d"));
+}
+
+void read_layers(std::string_view bytes) {
+  if (!is_voxblox(bytes)) return;
+  const auto layers = read_voxblox(bytes, kName);
+  voxblox_bytes(layers);
+  map_of_layer(map_layer(layers, kName), kName, near_origin());
+}
+
+void read_graph(std::string_view bytes) {
+  is_voxblox_graph(bytes);
+  const VoxbloxGraph graph = read_voxblox_graph(bytes, kName);
+  voxblox_graph_bytes(graph);
+  find_faults(graph);
+}
+
 void read_ridge(std::string_view bytes) {
   const fs::path file = in_folder("a.ridge");
   pack_ridge(bytes, file);
@@ -150,7 +174,10 @@ constexpr std::array kReaders = {
     Reader{"3dmap", [](std::string_view b) { read_benchmark_map(b, kName, 1.0, near_origin()); }},
     Reader{"3dscen", [](std::string_view b) { read_benchmark_scenarios(b, kName); }},
     Reader{"depth_png", read_png},
+    Reader{"grey_image", [](std::string_view b) { read_grey_image(b, kName); }},
+    Reader{"map_server", [](std::string_view b) { read_map_server(b, kName); }},
     Reader{"mesh_reply", [](std::string_view b) { unpack(std::as_bytes(std::span(b))); }},
+    Reader{"open3d", read_log},
     Reader{"octomap", [](std::string_view b) { read_octomap(b, kName, near_origin()); }},
     Reader{"path_csv", [](std::string_view b) { read_path(written(b, "a.csv")); }},
     Reader{"path_json", [](std::string_view b) { read_path(written(b, "a.json")); }},
@@ -163,6 +190,8 @@ constexpr std::array kReaders = {
     Reader{"scans", read_scans},
     Reader{"tsdf", read_tsdf},
     Reader{"tum", read_scenes},
+    Reader{"voxblox", read_layers},
+    Reader{"voxblox_graph", read_graph},
     Reader{"world", [](std::string_view b) { load_world(written(b, "a.yaml")); }},
     Reader{"xyz", [](std::string_view b) { make_map(read_xyz(b, kName)); }}};
 

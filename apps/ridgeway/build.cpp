@@ -34,6 +34,9 @@ struct BuildOptions {
   std::optional<Box> bounds;
   std::vector<Box> exclude;
   std::optional<Transform> transform;
+  std::string units, up;
+  std::optional<double> metres_a_unit;
+  std::vector<Point> inside;
   std::vector<double> planar;
   int isolated = 0;
   int repeat = 1;
@@ -41,12 +44,24 @@ struct BuildOptions {
   BuildConfig build;
 };
 
+struct Unit {
+  const char* name;
+  double metres;
+};
+constexpr Unit kUnits[] = {{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
+
 LoadConfig load_config(const BuildOptions& options) {
   LoadConfig config;
   config.voxel_size = options.voxel_size;
   config.bounds = options.bounds;
   config.exclude = options.exclude;
   if (options.transform) config.transform = options.transform->value;
+  config.units = options.metres_a_unit;
+  for (const Unit& unit : kUnits)
+    if (options.units == unit.name) config.units = unit.metres;
+  if (!options.up.empty())
+    config.up = options.up == "x" ? UpAxis::kX : options.up == "y" ? UpAxis::kY : UpAxis::kZ;
+  config.inside = options.inside;
   config.isolated_below = options.isolated;
   config.validate();
   return config;
@@ -71,6 +86,9 @@ std::string config_text(const BuildOptions& options, const BuildConfig& build, d
   for (const Box& box : options.exclude) json["exclude"].push_back(box_text(box));
   if (!options.planar.empty()) json["planar"] = options.planar;
   if (options.limits.any()) json["limits"] = limits_record(build.limits);
+  if (const auto units = load_config(options).units) json["units"] = *units;
+  if (!options.up.empty()) json["up"] = options.up;
+  for (const Point& place : options.inside) json["inside"].push_back(cli::json_of(place));
   if (options.transform) json["transform"] = options.transform->text;
   if (options.isolated > 0) json["isolated"] = options.isolated;
   return json.dump();
@@ -189,6 +207,10 @@ int run(const BuildOptions& options, const Globals& globals) {
   outcome.load_seconds = load_watch.seconds();
   bar.clear();
   for (const std::string& text : notes.notes) note(globals, text);
+  if (!options.planar.empty() && map.planar)
+    throw InputError("--planar",
+                     "is of maps in three dimensions, and " + options.map + " is planar",
+                     "leave it out");
   if (!options.planar.empty()) map = flatten(map, options.planar[0], options.planar[1]);
   if (building.min_clearance < 2.0 * map.voxel_size)
     warn(globals,
@@ -223,11 +245,13 @@ void add_build_command(Command& program) {
   Command command = program.add("build", "Build a roadmap from a map");
   command
       .path("map", options->map,
-            "Map: OctoMap .bt, .ot; point cloud .pcd, .ply, .xyz; .3dmap; fused .ridge")
+            "Map: OctoMap .bt, .ot; mesh .dae, .glb, .obj, .stl, .ply; point cloud .pcd, .ply, "
+            ".xyz; voxblox .vxblx; ROS map or world .yaml; .3dmap; fused .ridge")
       .required();
   command.path("-o,--output", options->output, "Roadmap to write, .ridge").required();
   command.number("--voxel-size", options->voxel_size, kLengths,
-                 "Metres; required for point clouds, otherwise not finer than the map's own");
+                 "Metres; required for point clouds; 0.1 for meshes and worlds unless given; "
+                 "otherwise not finer than the map's own");
   command.number("--min-clearance", build.min_clearance, kLengths,
                  "Smallest robot radius that the roadmap is for, metres");
   command.number("--max-distance", build.max_distance, kReaches,
@@ -253,7 +277,18 @@ void add_build_command(Command& program) {
   command.choice("--graph", options->graph, {"simple", "fitted"},
                  "Without what noise and voxels put into it, or as fitted to the diagram");
   command.box("--bounds", options->bounds,
-              "Flight volume x0,y0,z0,x1,y1,z1, metres; required for point clouds");
+              "Flight volume x0,y0,z0,x1,y1,z1, metres; required for point clouds; the box around "
+              "a mesh unless given");
+  command.choice_or_number("--units", options->units, {"m", "cm", "mm", "in", "ft"},
+                           options->metres_a_unit, kLengths,
+                           "Unit of a mesh, or how many metres it is; unless given the file's own, "
+                           "or metres");
+  command.choice("--up", options->up, {"x", "y", "z"},
+                 "Axis of a mesh that points up; unless given the file's own, or z");
+  command.points("--inside", options->inside,
+                 "Place X,Y,Z in the open space of a mesh, metres: what is reached from there is "
+                 "free; may be repeated; unless given what is reached from the bounds is, or the "
+                 "inside of a mesh that encloses more than that");
   command.boxes("--exclude", options->exclude,
                 "No-fly box x0,y0,z0,x1,y1,z1, metres; may be repeated");
   add_limit_options(command, options->limits);

@@ -33,15 +33,22 @@ bool is_picture(const std::filesystem::path& file) {
   return file.extension() == ".png" || file.extension() == ".svg";
 }
 
+/// voxblox layers, of a roadmap or of a fused map.
+bool is_voxblox_name(const std::filesystem::path& file) {
+  return file.extension() == ".vxblx" || file.extension() == ".voxblox";
+}
+
 void require_format(const std::filesystem::path& file, const std::string& what) {
   const auto extension = file.extension();
-  const bool known = what == "diagram"
-                         ? extension == ".ply"
-                         : extension == ".json" || extension == ".graphml" || extension == ".ply";
+  const bool known = is_voxblox_name(file) ||
+                     (what == "diagram" ? extension == ".ply"
+                                        : extension == ".json" || extension == ".graphml" ||
+                                              extension == ".ply" || extension == ".pb");
   if (!known && !is_picture(file) && !is_page(file))
     throw InputError(file.string(), "names no format that a " + what + " can be written in",
-                     what == "diagram" ? "use .ply, or .png or .svg for a picture, or .html"
-                                       : "use .json, .graphml, .ply, .png, .svg or .html");
+                     what == "diagram"
+                         ? "use .ply or .vxblx, or .png or .svg for a picture, or .html"
+                         : "use .json, .graphml, .ply, .pb, .vxblx, .png, .svg or .html");
   if (is_page(file)) require_page_planner(file.string());
 }
 
@@ -75,6 +82,8 @@ void write(const Roadmap& roadmap, const std::vector<Point>& path, const ExportO
                                         read_file(options.file)));
   else if (is_picture(file))
     draw_floor_plan(roadmap, path, file);
+  else if (is_voxblox_name(file))
+    write_voxblox(roadmap, file);
   else if (options.what == "diagram")
     write_diagram_ply(roadmap, file);
   else
@@ -109,8 +118,25 @@ int run_mesh(const ExportOptions& options, const Globals& globals) {
   return report({file}, globals);
 }
 
+/// A fused map in the format of others.
+int run_fused(const ExportOptions& options, const Globals& globals) {
+  const std::vector<std::filesystem::path> files(options.outputs.begin(), options.outputs.end());
+  for (const auto& file : files)
+    if (!is_voxblox_name(file))
+      throw InputError(file.string(), "names no format that a fused map can be written in",
+                       "use .vxblx, or --mesh FILE.ply for its surface");
+  if (!options.json_graph.empty() || !options.picture.empty())
+    throw InputError(options.file, "is a fused map, which has no graph and no picture",
+                     "build a roadmap of it, and export that");
+  require_writable(files, {options.file});
+  const TsdfMap map = load_tsdf(options.file);
+  for (const auto& file : files) write_voxblox(map, file);
+  return report(files, globals);
+}
+
 int run(const ExportOptions& options, const Globals& globals) {
   if (!options.mesh.empty()) return run_mesh(options, globals);
+  if (!options.outputs.empty() && is_tsdf_file(options.file)) return run_fused(options, globals);
   const std::vector<std::filesystem::path> files = list_outputs(options);
   const std::vector<Point> path =
       options.path.empty() ? std::vector<Point>{} : read_path(options.path);
@@ -130,7 +156,8 @@ void add_export_command(Command& program) {
       program.add("export", "Write a roadmap, or the surface of a fused map, in other formats");
   command.path("roadmap", options->file, "Roadmap or, for --mesh, fused map, .ridge").required();
   command.paths("-o,--output", options->outputs,
-                "File to write, by its extension: .json, .graphml, .ply, .png, .svg, or .html, the "
+                "File to write, by its extension: .json, .graphml, .ply, .pb (voxblox sparse graph), "
+                ".vxblx (voxblox ESDF and skeleton; TSDF of a fused map), .png, .svg, or .html, the "
                 "page of view as one file that plans by itself; may be repeated");
   command.choice("--what", options->what, {"graph", "diagram"}, "What a .ply file is to hold");
   command.path("--json-graph", options->json_graph, "Graph as JSON, for networkx");

@@ -18,9 +18,10 @@ RecordingKind kind_of_recording(const std::string& folder) {
   if (!std::filesystem::is_directory(folder, error))
     throw InputError(folder, "is no folder" + (error ? ": " + error.message() : std::string()),
                      "give the folder of a recording");
-  throw InputError(folder, "holds no recording",
-                   "give a folder with depth.txt (TUM RGB-D), frame-*.depth.png (7-Scenes, "
-                   "3DMatch), or scans and their poses in poses.txt");
+  throw InputError(
+      folder, "holds no recording",
+      "give a folder with depth.txt (TUM RGB-D), frame-*.depth.png (7-Scenes, "
+      "3DMatch), depth/ and trajectory.log (Open3D), or scans and their poses in poses.txt");
 }
 
 void require_outside(const std::filesystem::path& output, const std::filesystem::path& folder) {

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "source_facts.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <optional>
 #include <string_view>
@@ -10,9 +11,13 @@
 #include "console.hpp"
 #include "files/read_file.hpp"
 #include "formats/benchmark_map.hpp"
+#include "formats/map_server.hpp"
+#include "formats/mesh_file.hpp"
 #include "formats/octomap.hpp"
 #include "formats/pcd.hpp"
 #include "formats/ply_cloud.hpp"
+#include "formats/voxblox.hpp"
+#include "formats/voxblox_graph.hpp"
 #include "formats/xyz.hpp"
 #include "json.hpp"
 #include "ridgeway/common/error.hpp"
@@ -59,6 +64,51 @@ const char* octomap_format(std::string_view bytes, const std::string& name) {
   return read_octomap_header(bytes, name).binary ? "octomap_bt" : "octomap_ot";
 }
 
+const char* name_of(UpAxis up) { return up == UpAxis::kX ? "x" : up == UpAxis::kY ? "y" : "z"; }
+
+void add_mesh(Json& json, const std::filesystem::path& file, std::string_view bytes,
+              const std::string& format) {
+  const MeshFrame frame = mesh_frame(format, bytes);
+  const TriangleSoup mesh = read_mesh(file, bytes, format, {});
+  json["format"] = format;
+  json["vertices"] = mesh.vertices.size();
+  json["triangles"] = mesh.triangles.size();
+  json["metres_a_unit"] = frame.unit ? Json(*frame.unit) : Json();
+  json["up"] = frame.up ? Json(name_of(*frame.up)) : Json();
+  json["bounds"] = cli::json_of(box_around(mesh, file.string()));
+}
+
+void add_graph(Json& json, std::string_view bytes, const std::string& name) {
+  const VoxbloxGraph graph = read_voxblox_graph(bytes, name);
+  const VoxbloxGraphFaults faults = find_faults(graph);
+  json["format"] = "voxblox_graph";
+  json["vertices"] = graph.vertices.size();
+  json["edges"] = graph.edges.size();
+  json["components"] = faults.components;
+  json["faults"] = {
+      {"self_loops", faults.self_loops},         {"doubled_edges", faults.doubled_edges},
+      {"dangling_edges", faults.dangling_edges}, {"unlisted_edges", faults.unlisted_edges},
+      {"misplaced_ends", faults.misplaced_ends}, {"lone_vertices", faults.lone_vertices},
+      {"doubled_ids", faults.doubled_ids},       {"not_finite", faults.not_finite}};
+}
+
+void add_layers(Json& json, std::string_view bytes, const std::string& name) {
+  for (const VoxbloxLayer& layer : read_voxblox(bytes, name))
+    json["layers"].push_back({{"type", layer.type},
+                              {"voxel_size", layer.voxel_size},
+                              {"voxels_per_side", layer.side},
+                              {"blocks", layer.blocks.size()}});
+}
+
+const char* voxel_format(const std::filesystem::path& file, std::string_view bytes,
+                         const std::string& name) {
+  if (is_tsdf_file(file)) return "tsdf";
+  if (is_octomap(bytes)) return octomap_format(bytes, name);
+  if (is_voxblox(bytes)) return "voxblox";
+  if (is_map_server(bytes)) return "ros_map";
+  return file.extension() == ".yaml" || file.extension() == ".yml" ? "world" : "3dmap";
+}
+
 /// Whether load_map takes the file for a cloud: it then asks for bounds or a voxel size. Throws
 /// what it throws for a file that cannot be read at all.
 std::optional<OccupancyMap> try_voxels(const std::filesystem::path& file, const Globals& globals) {
@@ -89,17 +139,22 @@ bool is_roadmap_file(const std::filesystem::path& file) {
 }
 
 Json describe_source(const std::filesystem::path& file, const Globals& globals) {
-  const std::optional<OccupancyMap> map = try_voxels(file, globals);
   const std::string bytes = read_file(file), name = file.string();
   Json json = {{"file", name}, {"file_bytes", bytes.size()}};
+  if (const std::string format = mesh_format(bytes, file); !format.empty()) {
+    add_mesh(json, file, bytes, format);
+    return json;
+  }
+  if (is_voxblox_graph(bytes)) {
+    add_graph(json, bytes, name);
+    return json;
+  }
+  const std::optional<OccupancyMap> map = try_voxels(file, globals);
   if (!map)
     add_cloud(json, read_cloud(bytes, name));
   else
-    add_voxels(json,
-               is_tsdf_file(file)  ? "tsdf"
-               : is_octomap(bytes) ? octomap_format(bytes, name)
-                                   : "3dmap",
-               *map);
+    add_voxels(json, voxel_format(file, bytes, name), *map);
+  if (is_voxblox(bytes)) add_layers(json, bytes, name);
   return json;
 }
 
@@ -119,6 +174,30 @@ void print_source(const Json& facts) {
   if (facts.contains("voxel_size"))
     print_row("voxel size", text_of(facts["voxel_size"].get<double>(), 6) + " m");
   if (facts.contains("bounds")) print_row("bounds", bounds_text(facts["bounds"]));
+  if (facts.contains("triangles")) {
+    print_row("mesh",
+              count(facts["triangles"]) + " triangles, " + count(facts["vertices"]) + " vertices");
+    print_row("unit", facts["metres_a_unit"].is_null()
+                          ? "not said"
+                          : text_of(facts["metres_a_unit"].get<double>(), 6) + " m");
+    print_row("up", facts["up"].is_null() ? "not said" : facts["up"].get<std::string>());
+    return;
+  }
+  if (facts.contains("faults")) {
+    print_row("graph", count(facts["vertices"]) + " vertices, " + count(facts["edges"]) +
+                           " edges, " + count(facts["components"]) + " components");
+    for (const auto& [fault, number] : facts["faults"].items())
+      if (number.get<std::uint64_t>() > 0) {
+        std::string words = fault;
+        std::replace(words.begin(), words.end(), '_', ' ');
+        print_row("wrong", count(number) + " " + words);
+      }
+    return;
+  }
+  if (facts.contains("layers"))
+    for (const Json& layer : facts["layers"])
+      print_row("layer", layer["type"].get<std::string>() + ", " + count(layer["blocks"]) +
+                             " blocks of " + count(layer["voxels_per_side"]) + " voxels a side");
   if (facts.contains("voxels")) {
     print_row("voxels", count(facts["voxels"]["free"]) + " free, " +
                             count(facts["voxels"]["occupied"]) + " occupied");

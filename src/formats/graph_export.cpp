@@ -164,8 +164,9 @@ void write_graph(const Roadmap& roadmap, const std::filesystem::path& path) {
   if (extension == ".json") return write_graph_json(roadmap, path);
   if (extension == ".graphml") return write_graph_graphml(roadmap, path);
   if (extension == ".ply") return write_graph_ply(roadmap, path);
+  if (extension == ".pb") return write_graph_voxblox(roadmap, path);
   throw InputError(path.string(), "names no format that a graph can be written in",
-                   "use .json, .graphml or .ply");
+                   "use .json, .graphml, .ply or .pb");
 }
 
 }  // namespace ridgeway

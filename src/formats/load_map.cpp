@@ -4,14 +4,20 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <functional>
+#include <iomanip>
 #include <sstream>
 #include <string_view>
 #include <utility>
 
 #include "benchmark_map.hpp"
+#include "common/number_text.hpp"
 #include "files/read_file.hpp"
+#include "load_steps.hpp"
+#include "map_server.hpp"
 #include "mapping/memory_limit.hpp"
+#include "mesh_file.hpp"
 #include "octomap.hpp"
 #include "pcd.hpp"
 #include "ply_cloud.hpp"
@@ -20,20 +26,12 @@
 #include "ridgeway/mapping/map_edits.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
+#include "voxblox.hpp"
+#include "voxblox_graph.hpp"
 #include "xyz.hpp"
 
 namespace ridgeway {
 namespace {
-
-/// A file that holds voxels, ready to be read into place.
-struct VoxelSource {
-  double voxel_size;
-  std::function<OccupancyMap(const VoxelPlacement&)> read;
-};
-
-void tell(LoadNotes* notes, std::string_view note) {
-  if (notes != nullptr) notes->notes.emplace_back(note);
-}
 
 OccupancyMap without_specks(OccupancyMap map, const LoadConfig& config, LoadNotes* notes) {
   if (config.isolated_below <= 1) return map;
@@ -45,7 +43,20 @@ OccupancyMap without_specks(OccupancyMap map, const LoadConfig& config, LoadNote
   return map;
 }
 
-/// The edits that every kind of file ends with.
+/// The part of the source's lattice that bounds, seen back through a transform, can reach.
+VoxelRange reach_before(const Eigen::Isometry3d& T_map_file, const Box& bounds, double voxel_size) {
+  if (!bounds.min.allFinite() || !bounds.max.allFinite()) return kAllVoxels;
+  const Eigen::AlignedBox3d box =
+      Eigen::AlignedBox3d(bounds.min, bounds.max).transformed(T_map_file.inverse());
+  return voxels_overlapping({box.min(), box.max()}, voxel_size);
+}
+
+}  // namespace
+
+void tell(LoadNotes* notes, std::string_view note) {
+  if (notes != nullptr) notes->notes.emplace_back(note);
+}
+
 OccupancyMap finished(OccupancyMap map, const LoadConfig& config, const std::string& name,
                       LoadNotes* notes) {
   map = without_specks(std::move(map), config, notes);
@@ -57,15 +68,6 @@ OccupancyMap finished(OccupancyMap map, const LoadConfig& config, const std::str
                    "check bounds, exclude and voxel_size");
 }
 
-/// The part of the source's lattice that bounds, seen back through a transform, can reach.
-VoxelRange reach_before(const Eigen::Isometry3d& T_map_file, const Box& bounds, double voxel_size) {
-  if (!bounds.min.allFinite() || !bounds.max.allFinite()) return kAllVoxels;
-  const Eigen::AlignedBox3d box =
-      Eigen::AlignedBox3d(bounds.min, bounds.max).transformed(T_map_file.inverse());
-  return voxels_overlapping({box.min(), box.max()}, voxel_size);
-}
-
-/// Only what can come to lie within the bounds is read: large files with small bounds fit.
 OccupancyMap load_voxels(const VoxelSource& source, const LoadConfig& config,
                          const std::string& name, LoadNotes* notes) {
   const double voxel_size = config.voxel_size.value_or(source.voxel_size);
@@ -98,6 +100,8 @@ OccupancyMap load_voxels(const VoxelSource& source, const LoadConfig& config,
   }
   return finished(std::move(map), config, name, notes);
 }
+
+namespace {
 
 OccupancyMap load_cloud(const PointCloud& cloud, const LoadConfig& config, const std::string& name,
                         LoadNotes* notes) {
@@ -132,6 +136,15 @@ OccupancyMap load_cloud(const PointCloud& cloud, const LoadConfig& config, const
   return finished(std::move(map), config, name, notes);
 }
 
+void require_mesh_options_unused(const LoadConfig& config, const std::string& name) {
+  const char* const given = config.units             ? "units"
+                            : config.up              ? "up"
+                            : !config.inside.empty() ? "inside"
+                                                     : nullptr;
+  if (given != nullptr)
+    throw InputError(given, "is of meshes, which " + name + " is not", "leave it out");
+}
+
 OccupancyMap load_benchmark_map(std::string_view bytes, const LoadConfig& config,
                                 const std::string& name, LoadNotes* notes) {
   if (!config.voxel_size) tell(notes, "the file records no voxel size: a cell is taken as 1 m");
@@ -161,6 +174,18 @@ OccupancyMap load_fused_map(const std::filesystem::path& file, const LoadConfig&
   return load_voxels(source, config, name, notes);
 }
 
+OccupancyMap load_voxblox(std::string_view bytes, const LoadConfig& config, const std::string& name,
+                          LoadNotes* notes) {
+  const std::vector<VoxbloxLayer> layers = read_voxblox(bytes, name);
+  const VoxbloxLayer& layer = map_layer(layers, name);
+  if (layers.size() > 1)
+    tell(notes, "of " + std::to_string(layers.size()) + " layers the " + layer.type + " is taken");
+  const VoxelSource source = {layer.voxel_size, [&](const VoxelPlacement& placement) {
+                                return map_of_layer(layer, name, placement);
+                              }};
+  return load_voxels(source, config, name, notes);
+}
+
 /// Text that begins with a number, or with column names, after comments.
 bool looks_like_xyz(std::string_view bytes) {
   const std::string_view head = bytes.substr(0, 4096);
@@ -177,6 +202,10 @@ bool looks_like_xyz(std::string_view bytes) {
   return false;
 }
 
+bool is_yaml_name(const std::filesystem::path& file) {
+  return file.extension() == ".yaml" || file.extension() == ".yml";
+}
+
 bool is_named_as_text(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -191,6 +220,13 @@ void LoadConfig::validate() const {
   for (std::size_t i = 0; i < exclude.size(); ++i)
     validate_box(exclude[i], "exclude box " + std::to_string(i + 1));
   validate_transform(transform);
+  constexpr double kMostUnits = 1e6;
+  if (units && !(*units >= 1.0 / kMostUnits && *units <= kMostUnits))
+    throw InputError("units", "are " + number_text(*units) + " m",
+                     "give metres from 1e-6 to 1e6, for example 0.001 for millimetres");
+  for (const Point& place : inside)
+    if (!place.allFinite())
+      throw InputError("inside", "is no place", "give three finite numbers, metres");
   if (isolated_below < 0) {
     throw InputError("isolated_below", "is " + std::to_string(isolated_below),
                      "give a number of voxels, 0 to keep all");
@@ -202,19 +238,30 @@ OccupancyMap load_map(const std::filesystem::path& file, const LoadConfig& confi
   config.validate();
   if (is_tsdf_file(file)) return load_fused_map(file, config, notes);
   const std::string bytes = read_file(file), name = file.string();
+  if (const std::string format = mesh_format(bytes, file); !format.empty())
+    return load_mesh_map(file, bytes, format, config, notes);
+  require_mesh_options_unused(config, name);
+  if (is_map_server(bytes)) return load_planar_map(file, bytes, config, notes);
+  if (is_yaml_name(file)) return load_world_map(file, config, notes);
   if (is_octomap(bytes)) {
     const VoxelSource source = {
         read_octomap_header(bytes, name).voxel_size,
         [&](const VoxelPlacement& placement) { return read_octomap(bytes, name, placement); }};
     return load_voxels(source, config, name, notes);
   }
+  if (is_voxblox(bytes)) return load_voxblox(bytes, config, name, notes);
+  if (is_voxblox_graph(bytes))
+    throw InputError(name, "is a sparse graph, which says nothing of the space around it",
+                     "build from the TSDF or ESDF that it was made of");
   if (is_pcd(bytes)) return load_cloud(read_pcd(bytes, name), config, name, notes);
   if (is_ply(bytes)) return load_cloud(read_ply(bytes, name), config, name, notes);
   if (is_benchmark_map(bytes)) return load_benchmark_map(bytes, config, name, notes);
   if (looks_like_xyz(bytes) || is_named_as_text(file))
     return load_cloud(read_xyz(bytes, name), config, name, notes);
-  throw InputError(name, "is in no map format that is known here",
-                   "give an OctoMap .bt or .ot, a point cloud .pcd, .ply or .xyz, or a .3dmap");
+  throw InputError(
+      name, "is in no map format that is known here",
+      "give an OctoMap .bt or .ot, a mesh .dae, .glb, .obj, .stl or .ply, a point cloud "
+      ".pcd, .ply or .xyz, a world .yaml, or a .3dmap");
 }
 
 }  // namespace ridgeway

@@ -9,10 +9,14 @@
 #include <cctype>
 #include <cstdlib>
 #include <optional>
+#include <span>
 #include <string>
 #include <system_error>
+#include <utility>
 
+#include "files/little_endian.hpp"
 #include "files/read_file.hpp"
+#include "files/text.hpp"
 #include "mapping/memory_limit.hpp"
 #include "mesh_packing.hpp"
 #include "ply_cloud.hpp"
@@ -24,18 +28,58 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<const char*, 4> kFormats = {"ply", "obj", "stl", "dae"};
+constexpr std::array<const char*, 6> kFormats = {"ply", "obj", "stl", "dae", "glb", "gltf"};
 
-/// The format that a file's name says, in small letters without the dot.
-std::string format_of(const fs::path& file) {
+/// What a file's name ends in, in small letters without the dot.
+std::string extension_of(const fs::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (!extension.empty()) extension.erase(0, 1);
+  return extension;
+}
+
+/// The format that a file's name says.
+std::string format_of(const fs::path& file) {
+  const std::string extension = extension_of(file);
   if (std::find(kFormats.begin(), kFormats.end(), extension) == kFormats.end())
     throw InputError(file.string(), "names no format of meshes that can be read",
-                     "use .ply, .obj, .stl or .dae");
+                     "use .ply, .obj, .stl, .dae or .glb");
   return extension;
+}
+
+/// 80 bytes of anything, a number of triangles, and 50 bytes for each.
+bool is_binary_stl(std::string_view bytes) {
+  constexpr std::size_t kHeader = 84, kTriangle = 50;
+  if (bytes.size() < kHeader) return false;
+  const auto count = number_at<std::uint32_t>(std::as_bytes(std::span(bytes)), 80);
+  return bytes.size() == kHeader + kTriangle * std::size_t{count};
+}
+
+/// The value of an attribute in the first element of a name, or its text; nothing where it is not
+/// there. Enough for the two facts that the head of a COLLADA file is asked for.
+std::optional<std::string_view> xml_value(std::string_view xml, std::string_view element,
+                                          std::string_view attribute) {
+  const std::size_t at = xml.find(std::string("<").append(element));
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::size_t end = xml.find('>', at);
+  if (end == std::string_view::npos) return std::nullopt;
+  if (attribute.empty()) return xml.substr(end + 1, xml.find('<', end) - end - 1);
+  const std::string_view tag = xml.substr(at, end - at);
+  std::size_t value = tag.find(std::string(" ").append(attribute).append("="));
+  if (value == std::string_view::npos) return std::nullopt;
+  value += attribute.size() + 3;
+  return value <= tag.size()
+             ? std::optional(tag.substr(value, tag.find_first_of("\"'", value) - value))
+             : std::nullopt;
+}
+
+/// Takes vectors of a frame with that axis up to one with z up, by a quarter turn.
+Eigen::Matrix3d z_up_from(UpAxis up) {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  if (up == UpAxis::kY) turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  if (up == UpAxis::kX) turn << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  return turn;
 }
 
 /// Beside the program that runs (as in the build folder), where it lies from the folder of programs
@@ -71,8 +115,8 @@ struct ReaderLimits {
                    "repair it, or write it again");
 }
 
-MeshReply read_triangles(const fs::path& file, const Progress& progress) {
-  const std::string format = format_of(file), bytes = read_file(file);
+MeshReply read_triangles(const fs::path& file, std::string_view bytes, const std::string& format,
+                         const Progress& progress) {
   if (format == "ply") read_ply(bytes, file.string());  // says best what is wrong
   const ReaderLimits limits(bytes.size());
   const ProgramOutput output =
@@ -93,8 +137,52 @@ MeshReply read_triangles(const fs::path& file, const Progress& progress) {
 
 }  // namespace
 
+std::string mesh_format(std::string_view bytes, const fs::path& file) {
+  const std::string_view head = bytes.substr(0, 4096);
+  const std::string extension = extension_of(file);
+  if (bytes.starts_with("glTF")) return "glb";
+  if (head.find("<COLLADA") != std::string_view::npos) return "dae";
+  if (is_ply(bytes)) return has_ply_faces(bytes, file.string()) ? "ply" : "";
+  const bool is_text_stl =
+      head.starts_with("solid") && head.find("facet") != std::string_view::npos;
+  if (is_text_stl || is_binary_stl(bytes)) return "stl";
+  const bool is_named = extension == "obj" || extension == "gltf" || extension == "stl" ||
+                        extension == "dae" || extension == "glb";
+  return is_named ? extension : "";
+}
+
+MeshFrame mesh_frame(const std::string& format, std::string_view bytes) {
+  if (format == "glb" || format == "gltf") return {1.0, UpAxis::kY};
+  MeshFrame frame;
+  if (format != "dae") return frame;
+  const std::string_view head = bytes.substr(0, 65536);
+  frame.unit = 1.0;  // unless it says another: COLLADA 1.4.1
+  if (const auto meters = xml_value(head, "unit", "meter"))
+    frame.unit = to_number<double>(*meters).value_or(1.0);
+  const std::string_view up = xml_value(head, "up_axis", "").value_or("Y_UP");
+  frame.up = up.find("Z_UP") != std::string_view::npos   ? UpAxis::kZ
+             : up.find("X_UP") != std::string_view::npos ? UpAxis::kX
+                                                         : UpAxis::kY;
+  return frame;
+}
+
+TriangleSoup read_mesh(const fs::path& file, std::string_view bytes, const std::string& format,
+                       const MeshFrame& given, const Progress& progress) {
+  MeshReply reply = read_triangles(file, bytes, format, progress);
+  const MeshFrame own = mesh_frame(format, bytes);
+  // What the reader made of the file is in the frame that the file names, if it names one.
+  double scale = given.unit.value_or(own.unit.value_or(1.0));
+  if (own.unit) scale /= *own.unit > 0.0 ? *own.unit : 1.0;
+  Eigen::Matrix3d turn = z_up_from(given.up.value_or(own.up.value_or(UpAxis::kZ)));
+  if (own.up) turn = turn * z_up_from(*own.up).transpose();
+  if (scale != 1.0 || !turn.isIdentity(0.0))
+    for (Point& v : reply.vertices) v = scale * (turn * v);
+  return {std::move(reply.vertices), std::move(reply.triangles)};
+}
+
 std::shared_ptr<const SolidMesh> load_mesh(const fs::path& file, const Progress& progress) {
-  const MeshReply all = read_triangles(file, progress);
+  const std::string format = format_of(file), bytes = read_file(file);
+  const MeshReply all = read_triangles(file, bytes, format, progress);
   try {
     return std::make_shared<const SolidMesh>(all.vertices, all.triangles);
   } catch (const InputError& error) {

@@ -103,7 +103,7 @@ MeshReply read_mesh(const std::string& format, const std::string& bytes) {
   MeshReply all;
   if (!collect(*scene, all)) return {"it has more than 100 million triangles", {}, {}};
   if (all.vertices.empty() || all.triangles.empty()) return {"it has no triangles", {}, {}};
-  if (format == "dae")  // which Assimp hands out in metres with y up
+  if (format == "dae" || format == "glb" || format == "gltf")  // handed out in metres with y up
     for (Point& v : all.vertices) v = {v.x(), -v.z(), v.y()};
   return all;
 }

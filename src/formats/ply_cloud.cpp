@@ -245,6 +245,14 @@ bool is_ply(std::string_view bytes) {
   return bytes.starts_with("ply\n") || bytes.starts_with("ply\r\n");
 }
 
+bool has_ply_faces(std::string_view bytes, const std::string& name) {
+  ByteReader reader(bytes, name);
+  const PlyHeader header = read_ply_header(reader);
+  return std::any_of(header.elements.begin(), header.elements.end(), [](const Element& element) {
+    return has_faces(element) && element.count > 0;
+  });
+}
+
 PointCloud read_ply(std::string_view bytes, const std::string& name) {
   ByteReader reader(bytes, name);
   const PlyHeader header = read_ply_header(reader);

@@ -12,6 +12,9 @@ namespace ridgeway {
 /// Does a file begin like a .ply file?
 bool is_ply(std::string_view bytes);
 
+/// Whether its header says that it has faces. Throws InputError for a header that is damaged.
+bool has_ply_faces(std::string_view bytes, const std::string& name);
+
 /// The vertices of a .ply file, ascii or binary in either byte order: properties x, y and z of the
 /// element `vertex`, among any other properties and elements, lists too. Faces are counted, not
 /// read. Throws InputError naming file and byte.

@@ -8,6 +8,8 @@ namespace ridgeway {
 inline constexpr double kTumUnits = 5000.0;  // of an image, a metre
 inline constexpr const char* kTumImages = "depth.txt";
 inline constexpr const char* kTumPoses = "groundtruth.txt";
+inline constexpr const char* kOpen3dPoses = "trajectory.log";
+inline constexpr const char* kOpen3dImages = "depth";
 inline constexpr const char* kIntrinsicsFile = "camera-intrinsics.txt";
 
 }  // namespace ridgeway

@@ -186,6 +186,69 @@ DepthSequence open_seven_scenes(const fs::path& folder) {
   return sequence;
 }
 
+// --- Open3D, Redwood
+
+/// depth/*.png beside trajectory.log.
+bool holds_log(const fs::path& folder) {
+  std::error_code error;
+  return is_there(folder / kOpen3dPoses) && fs::is_directory(folder / kOpen3dImages, error);
+}
+
+/// Five lines a pose: three whole numbers, then a 4 x 4 matrix, camera to world. Nothing for those
+/// that are not finite.
+std::vector<std::optional<Eigen::Isometry3d>> read_log(const fs::path& file) {
+  const char* remedy = "give for each frame a line of three numbers and a 4 x 4 matrix";
+  std::vector<std::optional<Eigen::Isometry3d>> poses;
+  Eigen::Matrix4d matrix;
+  int row_of_pose = 0;
+  std::size_t last_line = 0;
+  for_each_row(file, [&](const TextRow& row) {
+    last_line = row.line;
+    if (row.words.size() != (row_of_pose == 0 ? 3 : 4))
+      row.refuse("has " + std::to_string(row.words.size()) + " numbers", remedy);
+    for (std::size_t i = 0; i < row.words.size(); ++i) {
+      const double number = row.number(i, remedy);
+      if (row_of_pose > 0) matrix(row_of_pose - 1, static_cast<Eigen::Index>(i)) = number;
+    }
+    row_of_pose = (row_of_pose + 1) % 5;
+    if (row_of_pose != 0) return;
+    const auto pose = matrix.allFinite() ? pose_of_matrix(matrix) : std::nullopt;
+    if (!pose && matrix.allFinite()) row.refuse("ends a matrix that is no pose", remedy);
+    poses.push_back(pose);
+  });
+  if (row_of_pose != 0)
+    throw InputError(file.string(), "ends within a pose, at line " + std::to_string(last_line),
+                     remedy);
+  return poses;
+}
+
+DepthSequence open_log(const fs::path& folder) {
+  DepthSequence sequence;
+  sequence.layout = "open3d";
+  sequence.units_per_metre = kSevenScenesUnits;
+  const auto poses = read_log(folder / kOpen3dPoses);
+  std::vector<fs::path> images;
+  std::error_code error;
+  fs::directory_iterator entry(folder / kOpen3dImages, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error))
+    if (entry->path().extension() == ".png") images.push_back(entry->path());
+  if (error)
+    throw InputError((folder / kOpen3dImages).string(), "cannot be read: " + error.message(),
+                     "check its permissions");
+  std::sort(images.begin(), images.end());
+  if (images.size() != poses.size())
+    throw InputError((folder / kOpen3dPoses).string(),
+                     "has " + std::to_string(poses.size()) + " poses for " +
+                         std::to_string(images.size()) + " images in " + kOpen3dImages,
+                     "give one for each image, in the order of their names");
+  for (std::size_t i = 0; i < images.size(); ++i)
+    if (poses[i])
+      sequence.frames.push_back({images[i], *poses[i]});
+    else
+      ++sequence.without_pose;
+  return sequence;
+}
+
 /// 3DMatch packs the images into a folder of their own.
 fs::path image_folder(const fs::path& folder) {
   std::error_code error;
@@ -232,16 +295,16 @@ PinholeCamera camera_of(const DepthImage& image, const fs::path& folder,
                      "has no " + std::string(kIntrinsicsFile) + ", and its images are " +
                          std::to_string(image.width) + " x " + std::to_string(image.height),
                      "give the intrinsics: the layout's are for 640 x 480");
-  return sequence.layout == "tum" ? camera(525.0, 525.0, 319.5, 239.5)
-                                  : camera(585.0, 585.0, 320.0, 240.0);
+  return sequence.layout != "7-scenes" ? camera(525.0, 525.0, 319.5, 239.5)
+                                       : camera(585.0, 585.0, 320.0, 240.0);
 }
 
 }  // namespace
 
 bool holds_depth_images(const fs::path& folder) {
   std::error_code error;
-  return fs::is_directory(folder, error) &&
-         (is_there(folder / kTumImages) || !seven_scenes_images(image_folder(folder)).empty());
+  return fs::is_directory(folder, error) && (is_there(folder / kTumImages) || holds_log(folder) ||
+                                             !seven_scenes_images(image_folder(folder)).empty());
 }
 
 DepthSequence open_sequence(const fs::path& folder, const SequenceConfig& config) {
@@ -249,13 +312,16 @@ DepthSequence open_sequence(const fs::path& folder, const SequenceConfig& config
   if (!fs::is_directory(folder, error))
     throw InputError(folder.string(), "is no folder", "give the folder of a recording");
   const bool is_tum = is_there(folder / kTumImages);
-  const fs::path inner = is_tum ? folder : image_folder(folder);
-  DepthSequence sequence = is_tum ? open_tum(folder, config) : open_seven_scenes(inner);
+  const bool is_log = !is_tum && holds_log(folder);
+  const fs::path inner = is_tum || is_log ? folder : image_folder(folder);
+  DepthSequence sequence = is_tum   ? open_tum(folder, config)
+                           : is_log ? open_log(folder)
+                                    : open_seven_scenes(inner);
   if (sequence.frames.empty())
     throw InputError(folder.string(),
                      sequence.without_pose > 0 ? "has no image with a pose" : "holds no recording",
-                     "give depth.txt, groundtruth.txt and the images (TUM), or frame-*.depth.png "
-                     "and frame-*.pose.txt (7-Scenes)");
+                     "give depth.txt, groundtruth.txt and the images (TUM), frame-*.depth.png and "
+                     "frame-*.pose.txt (7-Scenes), or depth/*.png and trajectory.log (Open3D)");
   sequence.camera = camera_of(first_readable(sequence, folder), inner, sequence, config);
   sequence.camera.validate();
   return sequence;

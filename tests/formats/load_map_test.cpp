@@ -107,10 +107,54 @@ TEST(LoadMap, AMeshIsNotTakenForTheCloudOfItsVertices) {
   for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
     write_whole(folder / "room.ply",
                 testing::write_ply({{0, 0, 0}, {1, 0, 0}, {1, 1, 1}}, format, true));
-    const std::string message = refusal([&] { load_map(folder / "room.ply"); });
-    EXPECT_TRUE(contains(message, "room.ply: is a mesh of 1 faces")) << message;
-    EXPECT_TRUE(contains(message, "ridgeway fuse")) << message;
+    LoadConfig config;
+    config.voxel_size = 0.05;
+    const OccupancyMap map = load_map(folder / "room.ply", config);
+    const VoxelIndex middle = voxel_at(Point(0.66, 0.33, 0.33), 0.05) - map.origin;
+    EXPECT_EQ(map.at(middle), VoxelState::kOccupied);
+    // In other units, another axis up.
+    config.units = 2.0;
+    config.up = UpAxis::kY;
+    const OccupancyMap large = load_map(folder / "room.ply", config);
+    EXPECT_EQ(large.at(voxel_at(Point(1.32, -0.66, 0.66), 0.05) - large.origin),
+              VoxelState::kOccupied);
   }
+}
+
+TEST(LoadMap, OptionsOfMeshesAreOfMeshesAlone) {
+  const TemporaryFolder folder;
+  write_whole(folder / "cells.3dmap", "voxel 3 3 3\n");
+  LoadConfig config;
+  config.units = 0.001;
+  EXPECT_TRUE(contains(refusal([&] { load_map(folder / "cells.3dmap", config); }), "units"));
+  config.units = std::nan("");
+  EXPECT_TRUE(contains(refusal([&] { config.validate(); }), "units"));
+}
+
+TEST(LoadMap, MeshesThatAreDamagedAreRefusedByName) {
+  const TemporaryFolder folder;
+  const auto says = [&](const char* name, const std::string& bytes) {
+    write_whole(folder / name, bytes);
+    return refusal([&] { load_map(folder / name); });
+  };
+  EXPECT_TRUE(contains(says("far.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1 1e30\nf 1 2 3\n"), "far.obj"));
+  EXPECT_TRUE(contains(says("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 1\nf 1 2 3\n"), "nan.obj"));
+  EXPECT_TRUE(contains(says("empty.stl", "solid a\nfacet\nendsolid\n"), "empty.stl"));
+  EXPECT_TRUE(contains(says("cut.glb", "glTF\2"), "cut.glb"));
+  const std::string cycle =
+      "<?xml version='1.0'?><COLLADA version='1.4.1'><library_nodes><node id='a'><instance_node "
+      "url='#b'/></node><node id='b'><instance_node url='#a'/></node></library_nodes>"
+      "<library_visual_scenes><visual_scene id='s'><node id='r'><instance_node url='#a'/></node>"
+      "</visual_scene></library_visual_scenes><scene><instance_visual_scene url='#s'/></scene>"
+      "</COLLADA>";
+  EXPECT_TRUE(contains(says("cycle.dae", cycle), "cycle.dae"));
+}
+
+TEST(LoadMap, AWorldIsAMap) {
+  const OccupancyMap map = load_map(std::filesystem::path(RIDGEWAY_WORLDS_DIR) / "house.yaml");
+  EXPECT_EQ(map.voxel_size, 0.1);
+  EXPECT_GT(count_voxels(map).free, 500'000u);
+  EXPECT_EQ(map.at(voxel_at(Point(3.75, 5.0, 2.5), 0.1) - map.origin), VoxelState::kOccupied);
 }
 
 TEST(LoadMap, CornersOfBoxesAreNotTakenForPoints) {

@@ -227,5 +227,34 @@ TEST(DepthSequence, FusesToTheExactDistanceOfTheHouse) {
   EXPECT_LT(errors.p99, 2.0);
 }
 
+TEST(DepthSequence, ATrajectoryLogGivesThePosesOfTheImagesInOrder) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "depth");
+  for (const char* name : {"000001.png", "000002.png", "000003.png"})
+    write_depth_png(random_image(640, 480, 1), folder / "depth" / name, 1000.0);
+  const std::string turn = "0 -1 0 1.5\n1 0 0 2.5\n0 0 1 3.5\n0 0 0 1\n";
+  const std::string lost = "nan nan nan nan\nnan nan nan nan\nnan nan nan nan\n0 0 0 1\n";
+  write_whole(folder / "trajectory.log", "0 0 1\n" + turn + "1 1 2\n" + lost + "2 2 3\n" + turn);
+  EXPECT_TRUE(holds_depth_images(folder.path()));
+  const DepthSequence sequence = open_sequence(folder.path());
+  EXPECT_EQ(sequence.layout, "open3d");
+  EXPECT_EQ(sequence.units_per_metre, 1000.0);
+  EXPECT_EQ(sequence.camera.fx, 525.0);
+  ASSERT_EQ(sequence.frames.size(), 2u);
+  EXPECT_EQ(sequence.without_pose, 1u);
+  EXPECT_EQ(sequence.frames[1].image.filename(), "000003.png");
+  EXPECT_EQ(sequence.frames[1].T_world_camera.translation(), Point(1.5, 2.5, 3.5));
+
+  write_whole(folder / "trajectory.log", "0 0 1\n" + turn);
+  EXPECT_NE(refusal([&] { open_sequence(folder.path()); }).find("1 poses for 3 images"),
+            std::string::npos);
+  write_whole(folder / "trajectory.log", "0 0 1\n1 2 3\n");
+  EXPECT_NE(refusal([&] { open_sequence(folder.path()); }).find("trajectory.log"),
+            std::string::npos);
+  write_whole(folder / "trajectory.log", "0 0 1\n" + turn.substr(0, 12));
+  EXPECT_NE(refusal([&] { open_sequence(folder.path()); }).find("ends within a pose"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace ridgeway

@@ -28,7 +28,18 @@ void write_graph_ply(const Roadmap& roadmap, const std::filesystem::path& path);
 /// Binary PLY: the diagram's voxel centres as points with clearance and colour by clearance.
 void write_diagram_ply(const Roadmap& roadmap, const std::filesystem::path& path);
 
-/// Writes the graph in the format that the file's extension names: .json, .graphml or .ply.
+/// The sparse graph file of voxblox's skeletons (docs/formats.md); vertices are numbered from 0,
+/// subgraphs are the connected parts, the distances of edges are the clearances at their ends.
+void write_graph_voxblox(const Roadmap& roadmap, const std::filesystem::path& path);
+
+/// voxblox layers: the field as an ESDF, then the diagram as a skeleton; distances are clearances,
+/// those of occupied voxels minus half a voxel.
+void write_voxblox(const Roadmap& roadmap, const std::filesystem::path& path);
+
+/// A voxblox layer: the fused field as a TSDF.
+void write_voxblox(const TsdfMap& map, const std::filesystem::path& path);
+
+/// Writes the graph in the format that the file's extension names: .json, .graphml, .ply or .pb.
 /// Throws InputError for another one.
 void write_graph(const Roadmap& roadmap, const std::filesystem::path& path);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -12,19 +13,29 @@
 
 namespace ridgeway {
 
+/// Which axis of a file points up.
+enum class UpAxis : std::uint8_t { kX, kY, kZ };
+
 /// How to make a map of a file. Lengths in metres, boxes in the world (z up).
 struct LoadConfig {
   /// Voxel size of the result. Required for point clouds; for .3dmap the size of a cell (1 unless
-  /// given); for OctoMaps the file's own unless given, never finer.
+  /// given); for meshes and worlds 0.1 unless given; for OctoMaps the file's own unless given,
+  /// never finer.
   std::optional<double> voxel_size = std::nullopt;
   /// The flight volume: what is not wholly inside is unknown. Required for point clouds, which do
-  /// not record free space.
+  /// not record free space, and for worlds with planes; for other worlds and meshes the box around
+  /// them unless given.
   std::optional<Box> bounds = std::nullopt;
   std::vector<Box> exclude = {};  ///< no-fly boxes, made occupied
   /// From the file's frame to the world's, where nothing may lie beyond 1e9 voxels from zero.
   /// Quarter turns and translations by whole voxels are exact; others make the obstacles of a voxel
   /// file grow (transform_map), not those of a cloud.
   Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
+  std::optional<double> units = std::nullopt;  ///< of meshes: metres a unit; instead of the file's
+  std::optional<UpAxis> up = std::nullopt;     ///< of meshes: instead of the file's
+  /// Of meshes: places in open space, in the world; what is reached from them is free. Without any
+  /// what is reached from the bounds is, or within, where the mesh encloses more than that.
+  std::vector<Point> inside = {};
   int isolated_below = 0;  ///< clusters of fewer occupied voxels become free (remove_isolated)
 
   /// Throws InputError naming the bad field.
@@ -36,11 +47,12 @@ struct LoadNotes {
   std::vector<std::string> notes;
 };
 
-/// Reads OctoMap .bt and .ot, point clouds .pcd, .ply and .xyz, MovingAI .3dmap, and fused maps
-/// (`.ridge` files of save_tsdf), by what the file's bytes say and not by its name. In this order:
-/// read, transform, resample, isolated filter, crop, no-fly boxes. Throws InputError naming the
-/// file (or the bad option) and the remedy; a map that does not fit into memory is refused before
-/// it is taken.
+/// Reads OctoMap .bt and .ot, point clouds .pcd, .ply and .xyz, meshes .dae, .glb, .obj, .stl and
+/// .ply (with faces), voxblox layers, simulated worlds .yaml, MovingAI .3dmap, and fused maps
+/// (`.ridge` files of save_tsdf), by what the file's bytes say and, but for .obj, not by its name.
+/// In this order: read, transform, resample, isolated filter, crop, no-fly boxes. Obstacles of
+/// meshes and worlds are all voxels that they touch. Throws InputError naming the file (or the bad
+/// option) and the remedy; a map that does not fit into memory is refused before it is taken.
 OccupancyMap load_map(const std::filesystem::path& file, const LoadConfig& config = {},
                       LoadNotes* notes = nullptr);
 

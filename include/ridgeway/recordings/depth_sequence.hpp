@@ -22,7 +22,7 @@ struct DepthFrame {
 
 /// A recording: depth images with poses, in the order of time. The images are read when needed.
 struct DepthSequence {
-  std::string layout;  ///< "tum" or "7-scenes"
+  std::string layout;  ///< "tum", "7-scenes" or "open3d"
   PinholeCamera camera;
   double units_per_metre = 5000.0;  ///< of the images
   std::vector<DepthFrame> frames;
@@ -31,7 +31,8 @@ struct DepthSequence {
 
 struct SequenceConfig {
   /// fx, fy, cx, cy in pixels; else those of camera-intrinsics.txt in the folder, else, for images
-  /// of 640 x 480, the defaults of the layout (525, 525, 319.5, 239.5 and 585, 585, 320, 240).
+  /// of 640 x 480, the defaults of the layout (525, 525, 319.5, 239.5; of 7-Scenes 585, 585, 320,
+  /// 240).
   std::optional<Eigen::Vector4d> intrinsics;
   double longest_gap = 0.02;  ///< seconds between an image and its pose (TUM)
 };
@@ -40,10 +41,11 @@ struct SequenceConfig {
 bool holds_depth_images(const std::filesystem::path& folder);
 
 /// Opens a folder in the layout of TUM RGB-D (depth.txt, groundtruth.txt, images of 1/5000 m; times
-/// are matched nearest first, each once) or of 7-Scenes and 3DMatch (frame-*.depth.png in
-/// millimetres with frame-*.pose.txt, 4 x 4, camera to world). Throws InputError, with the file and
-/// the line, for what is missing or wrong; poses that are not finite ("lost") are passed over and
-/// counted. The camera has the size of the first image that can be read.
+/// are matched nearest first, each once), of 7-Scenes and 3DMatch (frame-*.depth.png in millimetres
+/// with frame-*.pose.txt, 4 x 4, camera to world), or of Open3D and Redwood (depth/*.png in
+/// millimetres with trajectory.log, in the order of their names). Throws InputError, with the file
+/// and the line, for what is missing or wrong; poses that are not finite ("lost") are passed over
+/// and counted. The camera has the size of the first image that can be read.
 DepthSequence open_sequence(const std::filesystem::path& folder, const SequenceConfig& config = {});
 
 /// The image of a frame. Throws InputError where it cannot be read. Its size is as it is: fusion

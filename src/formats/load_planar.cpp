@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "files/read_file.hpp"
+#include "grey_image.hpp"
+#include "load_steps.hpp"
+#include "map_server.hpp"
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/mapping/map_edits.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
+
+namespace ridgeway {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Heights play no part in a planar map.
+Box of_all_heights(Box box) {
+  box.min.z() = -kInfinity;
+  box.max.z() = kInfinity;
+  return box;
+}
+
+/// The image as columns of voxels, the lower left pixel's at zero.
+OccupancyMap columns_of(const GreyImage& image, const MapServerFile& file, int layers,
+                        const VoxelPlacement& placement, const std::string& name) {
+  OccupancyBuilder builder(
+      file.resolution,
+      {.clip = placement.clip, .bytes_per_voxel = placement.bytes_per_voxel, .name = name});
+  std::size_t pixel = 0;
+  for (int y = image.height - 1; y >= 0; --y)
+    for (int x = 0; x < image.width; ++x, ++pixel) {
+      const std::uint8_t opaque = image.opaque.empty() ? 255 : image.opaque[pixel];
+      const VoxelState state = state_of_pixel(file, image.grey[pixel], opaque);
+      builder.fill(placement.motion(VoxelRange{{x, y, 0}, {x, y, layers - 1}}), state);
+    }
+  return std::move(builder).finish();
+}
+
+}  // namespace
+
+OccupancyMap load_planar_map(const std::filesystem::path& file, std::string_view text,
+                             const LoadConfig& given, LoadNotes* notes) {
+  const std::string name = file.string();
+  const MapServerFile facts = read_map_server(text, name);
+  if (!given.transform.isApprox(Eigen::Isometry3d::Identity(), 0.0))
+    throw InputError("transform", "cannot move a map in the plane, whose file says where it lies",
+                     "change the origin in " + name);
+  const auto path = file.parent_path() / facts.image;
+  const GreyImage image = read_grey_image(read_file(path), path.string());
+
+  LoadConfig config = given;
+  if (config.bounds) config.bounds = of_all_heights(*config.bounds);
+  for (Box& box : config.exclude) box = of_all_heights(box);
+  config.transform = Eigen::Translation3d(facts.x, facts.y, 0.0) *
+                     Eigen::AngleAxisd(facts.yaw, Eigen::Vector3d::UnitZ());
+  const double voxel_size = config.voxel_size.value_or(facts.resolution);
+  // So many that the lowest layer of larger voxels lies within what is known.
+  const double layers = std::ceil(voxel_size / facts.resolution) + 1.0;
+  const VoxelSource source = {facts.resolution, [&](const VoxelPlacement& placement) {
+                                return columns_of(image, facts, static_cast<int>(layers), placement,
+                                                  name);
+                              }};
+  const OccupancyMap map = load_voxels(source, config, name, notes);
+  return flatten(map, 0.0, map.voxel_size);
+}
+
+}  // namespace ridgeway

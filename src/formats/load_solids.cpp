@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+#include <string>
+
+#include "common/number_text.hpp"
+#include "load_steps.hpp"
+#include "mapping/mesh_map.hpp"
+#include "mapping/solid_voxels.hpp"
+#include "mesh_file.hpp"
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/formats/point_cloud.hpp"
+#include "ridgeway/formats/world_file.hpp"
+
+namespace ridgeway {
+namespace {
+
+std::string size_text(const Box& box) {
+  const Eigen::Vector3d size = box.max - box.min;
+  std::ostringstream text;
+  text << std::setprecision(4) << size.x() << " x " << size.y() << " x " << size.z() << " m";
+  return text.str();
+}
+
+std::string point_text(const Point& p) {
+  std::ostringstream text;
+  text << std::setprecision(6) << p.x() << ',' << p.y() << ',' << p.z();
+  return text.str();
+}
+
+void tell_of_frame(const MeshFrame& own, const LoadConfig& config, LoadNotes* notes) {
+  const bool unit_known = own.unit || config.units, up_known = own.up || config.up;
+  if (unit_known && up_known) return;
+  const std::string what = unit_known ? "the file names no upward axis: z is taken (--up)"
+                           : up_known ? "the file names no unit: metres are taken (--units)"
+                                      : "the file names no unit and no upward axis: metres and z "
+                                        "are taken (--units, --up)";
+  tell(notes, what);
+}
+
+void tell_of_space(const MeshMapReport& report, const LoadConfig& config, LoadNotes* notes) {
+  if (!config.bounds)
+    tell(notes, "the map ends where the mesh does, which spans " + size_text(report.box) + ", " +
+                    describe(report.box) + " (--bounds)");
+  using Free = MeshMapReport::Free;
+  if (report.free == Free::kWithin)
+    tell(notes,
+         "the mesh encloses more space than there is around it within the bounds: what it "
+         "encloses is taken as free (--inside)");
+  else if (report.free == Free::kAround && report.enclosed > 0)
+    tell(notes, std::to_string(report.enclosed) +
+                    " spaces that the mesh encloses are taken as solid, the largest of " +
+                    number_text(std::round(1e3 * report.largest_enclosed) / 1e3) +
+                    " m3; --inside " + point_text(report.in_largest) + " makes that one free");
+  if (report.leak)
+    tell(notes, "the space is not closed: it is open to the bounds at " +
+                    point_text(report.leak->exit) + "; the widest way there is narrowest, about " +
+                    number_text(std::round(1e3 * report.leak->width) / 1e3) + " m, at " +
+                    point_text(report.leak->narrowest));
+}
+
+/// Fine enough for the smallest radius that a roadmap is for unless another is given, four voxels.
+constexpr double kUsualVoxelSize = 0.1;
+
+void tell_of_voxels(const LoadConfig& config, LoadNotes* notes) {
+  if (!config.voxel_size) tell(notes, "voxels of 0.1 m are taken (--voxel-size)");
+}
+
+}  // namespace
+
+OccupancyMap load_mesh_map(const std::filesystem::path& file, std::string_view bytes,
+                           const std::string& format, const LoadConfig& config, LoadNotes* notes) {
+  const std::string name = file.string();
+  TriangleSoup mesh = read_mesh(file, bytes, format, {config.units, config.up});
+  tell_of_frame(mesh_frame(format, bytes), config, notes);
+  for (Point& v : mesh.vertices) v = config.transform * v;
+  tell_of_voxels(config, notes);
+  MeshMapReport report;
+  OccupancyMap map = map_from_mesh(mesh,
+                                   {.voxel_size = config.voxel_size.value_or(kUsualVoxelSize),
+                                    .bounds = config.bounds,
+                                    .inside = config.inside,
+                                    .margin = config.isolated_below},
+                                   name, &report);
+  tell_of_space(report, config, notes);
+  return finished(std::move(map), config, name, notes);
+}
+
+OccupancyMap load_world_map(const std::filesystem::path& file, const LoadConfig& config,
+                            LoadNotes* notes) {
+  const std::string name = file.string();
+  const World world = load_world(file);
+  const auto extent = extent_of(world);
+  if (!config.transform.isApprox(Eigen::Isometry3d::Identity(), 0.0))
+    throw InputError("transform", "cannot move a world, which is in its own frame",
+                     "leave it out, or write the world elsewhere");
+  if (!config.bounds && !extent)
+    throw InputError(name, "has no end in some direction", "give bounds");
+  const Box bounds = config.bounds.value_or(extent ? *extent : Box{});
+  if (!bounds.min.allFinite() || !bounds.max.allFinite())
+    throw InputError("bounds", "are not finite", "give finite bounds around the space to fly in");
+  tell_of_voxels(config, notes);
+  if (!config.bounds) tell(notes, "the map ends where the world does, " + describe(bounds));
+  OccupancyMap map = touched_by(world, config.voxel_size.value_or(kUsualVoxelSize), bounds, name);
+  return finished(std::move(map), config, name, notes);
+}
+
+}  // namespace ridgeway

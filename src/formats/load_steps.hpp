@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "ridgeway/formats/load_map.hpp"
+#include "voxel_placement.hpp"
+
+namespace ridgeway {
+
+// What load_map is made of.
+
+/// A file that holds voxels, ready to be read into place.
+struct VoxelSource {
+  double voxel_size;
+  std::function<OccupancyMap(const VoxelPlacement&)> read;
+};
+
+void tell(LoadNotes* notes, std::string_view note);
+
+/// The edits that every kind of file ends with.
+OccupancyMap finished(OccupancyMap map, const LoadConfig& config, const std::string& name,
+                      LoadNotes* notes);
+
+/// Only what can come to lie within the bounds is read: large files with small bounds fit.
+OccupancyMap load_voxels(const VoxelSource& source, const LoadConfig& config,
+                         const std::string& name, LoadNotes* notes);
+
+/// The triangles of a file of a format (mesh_format), by map_from_mesh.
+OccupancyMap load_mesh_map(const std::filesystem::path& file, std::string_view bytes,
+                           const std::string& format, const LoadConfig& config, LoadNotes* notes);
+
+/// A simulated world, by touched_by.
+OccupancyMap load_world_map(const std::filesystem::path& file, const LoadConfig& config,
+                            LoadNotes* notes);
+
+/// A planar map of the image that a ROS map file names, in the layer from 0 to a voxel's height.
+OccupancyMap load_planar_map(const std::filesystem::path& file, std::string_view text,
+                             const LoadConfig& config, LoadNotes* notes);
+
+}  // namespace ridgeway

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "mesh_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/number_text.hpp"
+#include "memory_limit.hpp"
+#include "mesh_leak.hpp"
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/common/parallel.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
+#include "space_flood.hpp"
+#include "touched_voxels.hpp"
+
+namespace ridgeway {
+namespace {
+
+constexpr const char* kRepair = "repair it, or write it again";
+
+std::string place_text(const Point& p) {
+  return number_text(p.x()) + "," + number_text(p.y()) + "," + number_text(p.z());
+}
+
+/// As voxels from the low corner of `range`. Those that are off by rounding are within the slack.
+VoxelTriangles in_voxels(const TriangleSoup& mesh, const VoxelIndex& origin, double voxel_size) {
+  VoxelTriangles local;
+  local.triangles = mesh.triangles;
+  local.vertices.resize(mesh.vertices.size());
+  const Point corner(origin.x, origin.y, origin.z);
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const Point v = mesh.vertices[i] / voxel_size;
+    const double far = v.cwiseAbs().maxCoeff();
+    // What no triangle uses may be anything.
+    local.vertices[i] = far <= 4e9 ? Point(v - corner) : Point(Point::Zero());
+    if (far <= 4e9) farthest = std::max(farthest, far);
+  }
+  local.slack = 4.0 * std::numeric_limits<double>::epsilon() * farthest;
+  return local;
+}
+
+/// Those voxels of masks that lie in a range.
+void write_states(const BlockMasks& masks, VoxelState state, const VoxelRange& kept,
+                  OccupancyMap& map) {
+  parallel_for_each_index(masks.blocks.size(), [&](std::size_t i) {
+    VoxelState* const states = map.state.block(map.layout.find_block(masks.blocks[i]));
+    for (int local = 0; local < kBlockVoxels; ++local) {
+      const std::uint64_t layer = masks.voxels[i][static_cast<std::size_t>(local >> 6)];
+      if ((layer >> (local & 63) & 1) != 0 && kept.contains(voxel_of(masks.blocks[i], local)))
+        states[local] = state;
+    }
+  });
+}
+
+/// Where to spread from, and what that is.
+class FreeSpace {
+ public:
+  /// `range` is counted from the lattice's voxel `origin`.
+  FreeSpace(const BlockMasks& walls, const VoxelRange& range, const VoxelIndex& origin,
+            const MeshMapConfig& config, const std::string& name)
+      : walls_(walls), range_(range), origin_(origin), config_(config), name_(name) {}
+
+  SpaceFlood find(MeshMapReport& report) {
+    if (!config_.inside.empty()) return from_places(report);
+    SpaceFlood around = flood();
+    const std::uint64_t outside = around.spread_from_sides();
+    SpaceFlood all = flood();
+    all.spread_from_sides();
+    std::uint64_t most = 0;
+    VoxelIndex largest;
+    while (const auto voxel = all.find_unreached()) {
+      const std::uint64_t count = all.spread_from(*voxel);
+      ++report.enclosed;
+      if (count > most) largest = *voxel;
+      most = std::max(most, count);
+    }
+    report.largest_enclosed = static_cast<double>(most) * std::pow(config_.voxel_size, 3);
+    report.in_largest = centre_of(origin_ + largest, config_.voxel_size);
+    if (most <= outside) return around;
+    report.free = MeshMapReport::Free::kWithin;
+    --report.enclosed;
+    SpaceFlood within = flood();
+    within.spread_from(largest);
+    return within;
+  }
+
+ private:
+  SpaceFlood flood() const { return {walls_, range_, name_}; }
+
+  SpaceFlood from_places(MeshMapReport& report) const {
+    report.free = MeshMapReport::Free::kSeeded;
+    SpaceFlood reached = flood();
+    for (const Point& place : config_.inside) {
+      const bool is_near = has_voxel(place, config_.voxel_size);
+      const VoxelIndex voxel =
+          is_near ? voxel_at(place, config_.voxel_size) - origin_ : VoxelIndex{};
+      if (!is_near || !range_.contains(voxel))
+        throw InputError("inside " + place_text(place), "lies outside the bounds of " + name_,
+                         "give a place within " + place_text(report.box.min) + " to " +
+                             place_text(report.box.max) + ", or larger bounds");
+      if (!reached.is_open(voxel))
+        throw InputError("inside " + place_text(place), "lies in a voxel that the surface touches",
+                         "give a place in open space, or a smaller voxel_size");
+      reached.spread_from(voxel);
+    }
+    return reached;
+  }
+
+  const BlockMasks& walls_;
+  VoxelRange range_;
+  VoxelIndex origin_;
+  const MeshMapConfig& config_;
+  const std::string& name_;
+};
+
+void require_legal(const MeshMapConfig& config, const std::string& name) {
+  validate_voxel_size(config.voxel_size, "voxel_size");
+  if (config.bounds) validate_box(*config.bounds, "bounds");
+  for (const Point& place : config.inside)
+    if (!place.allFinite())
+      throw InputError("inside", "is no place for " + name, "give three finite numbers");
+}
+
+}  // namespace
+
+Box box_around(const TriangleSoup& mesh, const std::string& name) {
+  if (mesh.triangles.empty()) throw InputError(name, "has no triangles", "give one with a surface");
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Box box = {Point::Constant(kInfinity), Point::Constant(-kInfinity)};
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    for (const std::uint32_t v : mesh.triangles[i]) {
+      if (v >= mesh.vertices.size())
+        throw InputError(name,
+                         "has a triangle, number " + std::to_string(i) + ", of vertex " +
+                             std::to_string(v) + " of " + std::to_string(mesh.vertices.size()),
+                         kRepair);
+      const Point& p = mesh.vertices[v];
+      if (!p.allFinite())
+        throw InputError(name, "has a vertex, number " + std::to_string(v) + ", that is not finite",
+                         kRepair);
+      box.min = box.min.cwiseMin(p);
+      box.max = box.max.cwiseMax(p);
+    }
+  return box;
+}
+
+OccupancyMap map_from_mesh(const TriangleSoup& mesh, const MeshMapConfig& config,
+                           const std::string& name, MeshMapReport* told) {
+  require_legal(config, name);
+  MeshMapReport report;
+  report.box = box_around(mesh, name);
+  const VoxelRange whole = voxels_overlapping(report.box, config.voxel_size);
+  require_within_reach(whole, name);
+  const Box bounds = config.bounds.value_or(report.box);
+  // The surface where it ends at the bounds is a wall too, if the bounds are the mesh's own.
+  VoxelRange range = voxels_overlapping(bounds, config.voxel_size);
+  if (!bounds.min.allFinite() || !bounds.max.allFinite()) range = intersection(range, whole);
+  const VoxelRange free_range = intersection(voxels_inside(bounds, config.voxel_size), range);
+  if (range.empty() || free_range.empty())
+    throw InputError(name, "has no voxel wholly within the bounds",
+                     "it spans " + place_text(report.box.min) + " to " +
+                         place_text(report.box.max) +
+                         "; give larger bounds, or a smaller voxel_size");
+  const VoxelRange kept = grown(range, 1 + config.margin);
+  const VoxelIndex origin = kept.min;
+  const auto in_kept = [&](const VoxelRange& r) {
+    return VoxelRange{r.min - origin, r.max - origin};
+  };
+  const BlockMasks walls = touched_voxels(in_voxels(mesh, origin, config.voxel_size),
+                                          kept.max - kept.min + VoxelIndex{1, 1, 1}, name);
+  const SpaceFlood flood = FreeSpace(walls, in_kept(range), origin, config, name).find(report);
+  const BlockMasks reached = flood.reached();
+
+  OccupancyMap map;
+  map.voxel_size = config.voxel_size;
+  map.origin = origin;
+  std::vector<BlockIndex> blocks = walls.blocks;
+  blocks.insert(blocks.end(), reached.blocks.begin(), reached.blocks.end());
+  map.layout = BlockLayout(std::move(blocks));
+  require_memory_for_blocks(map.layout.block_count(), kPipelineBytesPerVoxel, name);
+  map.state = VoxelField<VoxelState>(map.layout);
+  write_states(reached, VoxelState::kFree, in_kept(free_range), map);
+  write_states(walls, VoxelState::kOccupied, in_kept(kept), map);
+  map = normalised(std::move(map));
+  if (report.free == MeshMapReport::Free::kSeeded && flood.reaches_sides()) {
+    std::vector<VoxelIndex> seeds;
+    for (const Point& place : config.inside) seeds.push_back(voxel_at(place, config.voxel_size));
+    report.leak = find_leak(map, seeds, free_range);
+  }
+  if (told != nullptr) *told = report;
+  return map;
+}
+
+}  // namespace ridgeway

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "formats/map_server.hpp"
+
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include "ridgeway/formats/load_map.hpp"
+#include "support/refusal.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace ridgeway {
+namespace {
+
+std::string yaml(const std::string& image, const std::string& origin,
+                 const std::string& more = "") {
+  return "image: " + image + "\nresolution: 0.5\norigin: " + origin +
+         "\noccupied_thresh: 0.65\nfree_thresh: 0.196\n" + more;
+}
+
+/// 4 x 3 pixels: black at the lower left, grey at the upper right, else white.
+std::string pgm() {
+  return "P2\n# made by hand\n4 3\n255\n254 254 254 205\n254 254 254 254\n0 254 254 254\n";
+}
+
+VoxelState at(const OccupancyMap& map, double x, double y) {
+  return map.at(voxel_at(Point(x, y, 0.25), map.voxel_size) - map.origin);
+}
+
+TEST(MapServer, PixelsLieWhereTheOriginSays) {
+  const TemporaryFolder folder;
+  write_whole(folder / "a.pgm", pgm());
+  write_whole(folder / "a.yaml", yaml("a.pgm", "[-1.0, 2.0, 0.0]"));
+  const OccupancyMap map = load_map(folder / "a.yaml");
+  EXPECT_TRUE(map.planar);
+  EXPECT_EQ(map.voxel_size, 0.5);
+  EXPECT_EQ(at(map, -0.75, 2.25), VoxelState::kOccupied);
+  EXPECT_EQ(at(map, -0.25, 2.25), VoxelState::kFree);
+  EXPECT_EQ(at(map, 0.75, 3.25), VoxelState::kUnknown);
+  EXPECT_EQ(at(map, -0.75, 3.25), VoxelState::kFree);
+  EXPECT_EQ(at(map, 1.25, 2.25), VoxelState::kUnknown);
+}
+
+TEST(MapServer, AQuarterTurnIsExactAndAnyOtherLosesNoObstacle) {
+  const TemporaryFolder folder;
+  write_whole(folder / "a.pgm", pgm());
+  write_whole(folder / "quarter.yaml", yaml("a.pgm", "[0, 0, 1.5707963267948966]"));
+  const OccupancyMap quarter = load_map(folder / "quarter.yaml");
+  EXPECT_EQ(at(quarter, -0.25, 0.25), VoxelState::kOccupied);
+  EXPECT_EQ(at(quarter, -0.25, 0.75), VoxelState::kFree);
+  write_whole(folder / "turned.yaml", yaml("a.pgm", "[0.1, 0.2, 0.4]"));
+  const OccupancyMap turned = load_map(folder / "turned.yaml");
+  for (double u = 0.02; u < 0.5; u += 0.04)
+    for (double v = 0.02; v < 0.5; v += 0.04)
+      EXPECT_EQ(at(turned, 0.1 + std::cos(0.4) * u - std::sin(0.4) * v,
+                   0.2 + std::sin(0.4) * u + std::cos(0.4) * v),
+                VoxelState::kOccupied);
+}
+
+TEST(MapServer, ModesAndThresholdsDecideOnPixels) {
+  MapServerFile file;
+  const auto state = [&](int grey) {
+    return state_of_pixel(file, static_cast<std::uint8_t>(grey), 255);
+  };
+  EXPECT_EQ(state(0), VoxelState::kOccupied);
+  EXPECT_EQ(state(89), VoxelState::kOccupied);
+  EXPECT_EQ(state(90), VoxelState::kUnknown);
+  EXPECT_EQ(state(205), VoxelState::kUnknown);
+  EXPECT_EQ(state(206), VoxelState::kFree);
+  EXPECT_EQ(state_of_pixel(file, 255, 254), VoxelState::kUnknown);
+  file.negate = true;
+  EXPECT_EQ(state(255), VoxelState::kOccupied);
+  EXPECT_EQ(state(0), VoxelState::kFree);
+  file.negate = false;
+  file.mode = MapServerFile::Mode::kRaw;
+  EXPECT_EQ(state(0), VoxelState::kFree);
+  EXPECT_EQ(state(100), VoxelState::kOccupied);
+  EXPECT_EQ(state(255), VoxelState::kUnknown);
+}
+
+TEST(MapServer, ColouredPicturesAreAveragedAndWhatOneSeesThroughIsUnknown) {
+  const TemporaryFolder folder;
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = 2;
+  image.height = 2;
+  image.format = PNG_FORMAT_RGBA;
+  const std::uint8_t pixels[16] = {255, 255, 255, 255, 30, 60, 90, 255,
+                                   255, 255, 255, 0,   0,  0,  0,  255};
+  ASSERT_NE(png_image_write_to_file(&image, (folder / "a.png").c_str(), 0, pixels, 0, nullptr), 0);
+  write_whole(folder / "a.yaml", yaml("a.png", "[0, 0, 0]"));
+  const OccupancyMap map = load_map(folder / "a.yaml");
+  EXPECT_EQ(at(map, 0.25, 0.75), VoxelState::kFree);
+  EXPECT_EQ(at(map, 0.75, 0.75), VoxelState::kOccupied);
+  EXPECT_EQ(at(map, 0.25, 0.25), VoxelState::kUnknown);
+  EXPECT_EQ(at(map, 0.75, 0.25), VoxelState::kOccupied);
+}
+
+TEST(MapServer, DamagedFilesAreRefusedByName) {
+  const TemporaryFolder folder;
+  const auto says = [&](const std::string& text, const std::string& image) {
+    write_whole(folder / "a.pgm", image);
+    write_whole(folder / "a.yaml", text);
+    return refusal([&] { load_map(folder / "a.yaml"); });
+  };
+  const std::string good = yaml("a.pgm", "[0, 0, 0]");
+  EXPECT_NE(says(yaml("none.pgm", "[0, 0, 0]"), pgm()).find("none.pgm"), std::string::npos);
+  EXPECT_NE(says(yaml("a.pgm", "[0, 0]"), pgm()).find("a.yaml line 3"), std::string::npos);
+  EXPECT_NE(says(yaml("a.pgm", "[0, .nan, 0]"), pgm()).find("origin"), std::string::npos);
+  EXPECT_NE(says(yaml("a.pgm", "[0, 0, 0]", "mode: odd\n"), pgm()).find("mode"), std::string::npos);
+  EXPECT_NE(says(good, "P5\n4 3\n255\nshort").find("a.pgm"), std::string::npos);
+  EXPECT_NE(says(good, "P5\n99999 99999\n255\n").find("a.pgm"), std::string::npos);
+  EXPECT_NE(says(good, "P2\n2 2\n255\n1 2 3 999\n").find("brighter"), std::string::npos);
+  EXPECT_NE(says(good, "P6\n").find("no image"), std::string::npos);
+  EXPECT_NE(says(good, "P2\n1 1\n255\n205\n"), "");  // nothing is known
+}
+
+}  // namespace
+}  // namespace ridgeway
