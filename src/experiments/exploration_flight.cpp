@@ -10,6 +10,7 @@
 #include "common/number_text.hpp"
 #include "common/random.hpp"
 #include "common/require.hpp"
+#include "next_best_view.hpp"
 #include "ridgeway/common/error.hpp"
 #include "sensing/poses.hpp"
 #include "viewable.hpp"
@@ -71,7 +72,8 @@ class ExplorationRun {
         live_(live_config(config)),
         viewable_(world_at(world, 0.0), config.voxel_size, within_, config.start,
                   config.clearance(), field_of_view(config.sensor, 1.0)),
-        explorer_(explorer_config()) {
+        explorer_(explorer_config()),
+        next_best_(explorer_config(), config.seed) {
     live_.set_voxels(free_ball(config.start, config.free_radius(), config.voxel_size));
     TrajectorySegment stand;
     stand.coefficients.col(0) << config.start, config.start_yaw;
@@ -150,7 +152,9 @@ class ExplorationRun {
     }
     sample.mapped = static_cast<double>(viewable_.known_of(now)) /
                     std::max(1.0, static_cast<double>(viewable_.voxels()));
-    const ExplorationStep step = explorer_.decide(now, state);
+    const ExplorationStep step = config_.planner == ExplorationPlanner::kNextBest
+                                     ? next_best_.decide(now, state)
+                                     : explorer_.decide(now, state);
     ++flight_.decisions;
     sample.frontiers = step.frontiers;
     sample.seconds = step.seconds;
@@ -186,7 +190,7 @@ class ExplorationRun {
     flight_.seconds = flight_.samples.back().state.time;
     flight_.coverage = flight_.samples.back().mapped;
     flight_.is_complete = flight_.end == ExplorationStatus::kComplete;
-    flight_.unseen = explorer_.unseen();
+    if (config_.planner != ExplorationPlanner::kNextBest) flight_.unseen = explorer_.unseen();
     flight_.map = live_.map();
     flight_.roadmap = live_.settled();
   }
@@ -197,6 +201,7 @@ class ExplorationRun {
   LiveRoadmap live_;
   ViewableVolume viewable_;
   Explorer explorer_;
+  NextBestView next_best_;
   Trajectory flying_;
   double since_ = 0.0;
   ExplorationFlight flight_;

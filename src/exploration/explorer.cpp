@@ -7,7 +7,6 @@
 #include <limits>
 #include <queue>
 
-#include "common/clock.hpp"
 #include "explorer_state.hpp"
 #include "planning/endpoint.hpp"
 #include "ray_walk.hpp"
@@ -15,6 +14,7 @@
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/trajectory/plan_trajectory.hpp"
 #include "shaped_trajectory.hpp"
+#include "thread_clock.hpp"
 
 namespace ridgeway {
 namespace {
@@ -76,21 +76,16 @@ double Explorer::State::seconds_home(const Point& from_local, const Access& acce
   return 1.1 * (length / v + v / a * (1.0 + length / 3.0));
 }
 
-void Explorer::State::look_around(bool thorough) {
+void Explorer::State::look_around(const Point& here, bool thorough) {
+  diagram.update(*roadmap);
   places = diagram.places();
   if (thorough) {
     constexpr std::uint64_t kOffDiagram = std::uint64_t{1} << 62;
     const std::vector<Place> more = detail::widest_places(*roadmap, config.spacing, kOffDiagram);
     places.insert(places.end(), more.begin(), more.end());
   }
-  views.update(*roadmap, frontiers, config.least_frontier, places, thorough);
-}
-
-double Explorer::State::left_of_goal() const {
-  const std::vector<std::uint64_t> none(views.parts(), 0);
-  for (std::size_t i = 0; i < places.size(); ++i)
-    if (places[i].id == goal->place.id) return views.gain_at(i, goal->heading, none);
-  return 0.0;
+  views.update(*roadmap, frontiers, config.least_frontier, places, here,
+               thorough ? detail::Views::kAllRays : config.most_rays);
 }
 
 /// What the goal was to show and did not: from there it is not looked at again, and after looks
@@ -211,7 +206,7 @@ void Explorer::State::refine_first(std::vector<TourStop>& stops,
 
 bool Explorer::State::fly_to(const Point& goal_local, double yaw, const FlightState& state,
                              ExplorationStep& step) const {
-  const double began = detail::seconds_now();
+  const double began = detail::thread_seconds_now();
   const double r = roadmap->min_clearance;
   const bool is_moving = state.velocity.norm() > 1e-9 || state.acceleration.norm() > 1e-9;
   const Point to = to_world(roadmap->esdf, goal_local);
@@ -231,12 +226,12 @@ bool Explorer::State::fly_to(const Point& goal_local, double yaw, const FlightSt
     const PlanResult path =
         plan(*roadmap, state.position, to, {.radius = r, .quick = true, .escape = !is_moving});
     if (!path.ok()) {
-      step.seconds.trajectory += detail::seconds_now() - began;
+      step.seconds.trajectory += detail::thread_seconds_now() - began;
       return false;
     }
     flown = fly_plan(roadmap->esdf, path, fly);
   }
-  step.seconds.trajectory += detail::seconds_now() - began;
+  step.seconds.trajectory += detail::thread_seconds_now() - began;
   if (!flown.ok()) return false;
   step.trajectory = std::move(flown.trajectory);
   detail::turn_to(step.trajectory, state.yaw, yaw, config.limits.max_yaw_rate);
@@ -260,11 +255,11 @@ void Explorer::State::go_home(const FlightState& state, bool arrived, Exploratio
 
 /// Finds the next goal and a trajectory there, or says that there is none to be seen from.
 bool Explorer::State::choose(const FlightState& state, bool thorough, ExplorationStep& step) {
-  double began = detail::seconds_now();
-  look_around(thorough);
-  step.seconds.views += detail::seconds_now() - began;
-  began = detail::seconds_now();
+  double began = detail::thread_seconds_now();
   const Point here = to_local(roadmap->esdf, state.position);
+  look_around(here, thorough);
+  step.seconds.views += detail::thread_seconds_now() - began;
+  began = detail::thread_seconds_now();
   const detail::WaysFrom ways(*roadmap, here, access_at(here));
   const double least_gain = thorough ? 0.0 : 0.5 * static_cast<double>(config.least_frontier);
   std::vector<TourStop> stops = cover(ways, least_gain);
@@ -289,14 +284,16 @@ bool Explorer::State::choose(const FlightState& state, bool thorough, Exploratio
     tour = order(stops, state, step.tour_seconds);
     refine_first(stops, tour, state, ways);
   }
-  step.seconds.tour += detail::seconds_now() - began;
+  step.seconds.tour += detail::thread_seconds_now() - began;
   last_tour = state.time;
   for (const std::size_t i : tour) {
     const Stop& stop = stops[i].stop;
     step.tour.push_back(
         {to_world(roadmap->esdf, places[stop.place].position), views.yaw_of(stop.heading)});
   }
-  for (std::size_t i = 0; i < std::min<std::size_t>(tour.size(), kMostTries); ++i) {
+  const bool at_rest = state.velocity.norm() < 1e-9;
+  const std::size_t tries = at_rest ? tour.size() : std::min<std::size_t>(tour.size(), kMostTries);
+  for (std::size_t i = 0; i < tries; ++i) {
     const Stop& stop = stops[tour[i]].stop;
     const Place& place = places[stop.place];
     if (i == 0 && goal && goal->place.id == place.id && goal->heading == stop.heading) {
@@ -313,7 +310,7 @@ bool Explorer::State::choose(const FlightState& state, bool thorough, Exploratio
     }
     refused.push_back(place.id);
   }
-  return can_see;
+  return can_see && !at_rest;
 }
 
 /// Whether the rest of what is flown is free no longer, for all that is known now.
@@ -341,10 +338,10 @@ void Explorer::State::go_on(const FlightState& state, bool arrived, ExplorationS
     return;
   }
   if (goal) {
-    const double looking = detail::seconds_now();
-    look_around(false);
-    const double left = left_of_goal();
-    step.seconds.views += detail::seconds_now() - looking;
+    const double looking = detail::thread_seconds_now();
+    const double left =
+        views.gain_now(*roadmap, frontiers, config.least_frontier, goal->place, goal->heading);
+    step.seconds.views += detail::thread_seconds_now() - looking;
     const bool is_resolved = left < config.resolved_below * goal->promised;
     if (arrived && left > 0.0) {
       give_up_what_was_not_seen();
@@ -356,7 +353,6 @@ void Explorer::State::go_on(const FlightState& state, bool arrived, ExplorationS
   }
   const bool sees_something = choose(state, false, step);
   if (!sees_something && arrived) {
-    refused.clear();
     if (!choose(state, true, step)) {
       goal.reset();
       go_home(state, arrived, step);
@@ -368,19 +364,21 @@ void Explorer::State::go_on(const FlightState& state, bool arrived, ExplorationS
 }
 
 ExplorationStep Explorer::State::decide(std::shared_ptr<const Roadmap> now,
-                                        const FlightState& state) {
-  const double began = detail::seconds_now();
+                                        const FlightState& given) {
+  const bool arrived = given.time >= flying_since + flying.duration() - 1e-9;
+  FlightState state = given;
+  if (arrived) state.velocity = state.acceleration = Point::Zero();  // but for rounding
+  const double began = detail::thread_seconds_now();
   ExplorationStep step;
   roadmap = std::move(now);
   frontiers.update(roadmap);
-  diagram.update(*roadmap);
+  views.note_changes(*roadmap, frontiers);
   for (const FrontierCluster& cluster : frontiers.clusters())
     if (cluster.voxels >= config.least_frontier) {
       ++step.frontiers;
       step.frontier_voxels += cluster.voxels;
     }
-  step.seconds.frontiers = detail::seconds_now() - began;
-  const bool arrived = state.time >= flying_since + flying.duration() - 1e-9;
+  step.seconds.frontiers = detail::thread_seconds_now() - began;
   step.was_in_doubt = !arrived && is_in_doubt(state);
   go_on(state, arrived, step);
   if (step.was_in_doubt && step.trajectory.segments.empty() && brake(state, step)) {
@@ -391,7 +389,7 @@ ExplorationStep Explorer::State::decide(std::shared_ptr<const Roadmap> now,
     flying = step.trajectory;
     flying_since = state.time;
   }
-  step.seconds.total = detail::seconds_now() - began;
+  step.seconds.total = detail::thread_seconds_now() - began;
   return step;
 }
 

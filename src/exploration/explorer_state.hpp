@@ -47,8 +47,7 @@ struct Explorer::State {
   bool is_out_of_time = false;
 
  private:
-  void look_around(bool thorough);
-  double left_of_goal() const;
+  void look_around(const Point& here, bool thorough);
   void give_up_what_was_not_seen();
   std::vector<TourStop> cover(const detail::WaysFrom& ways, double least_gain) const;
   std::vector<std::size_t> order(const std::vector<TourStop>& stops, const FlightState& state,

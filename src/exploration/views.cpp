@@ -6,31 +6,18 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "ray_walk.hpp"
 
 namespace ridgeway::detail {
 namespace {
 
-constexpr std::size_t kTargets = 8;       // of a part, that are looked at
+constexpr std::size_t kTargets = 6;       // of a part, that are looked at
 constexpr std::size_t kMostTargets = 64;  // that coverage tells apart
-constexpr std::size_t kNearPlaces = 32;   // that are asked for every part
-constexpr std::size_t kFarPlaces = 96;    // and where none of these sees it
+constexpr std::size_t kNearPlaces = 24;   // that are asked for every part
+constexpr std::size_t kFarPlaces = 64;    // and where none of these sees it
 constexpr double kEdge = 0.97;  // of the angles of view: what is at the edge may be missed
-
-/// A box around points.
-struct Bounds {
-  Point low = Point::Constant(std::numeric_limits<double>::infinity());
-  Point high = -low;
-
-  void add(const Point& p) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  bool meets(const Bounds& other) const {
-    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
-  }
-};
 
 Bounds bounds_of(const BlockIndex& block, double voxel_size) {
   const double side = kBlockSide * voxel_size;
@@ -40,7 +27,14 @@ Bounds bounds_of(const BlockIndex& block, double voxel_size) {
 
 }  // namespace
 
-Views::Views(const FieldOfView& view, int headings) : view_(view), headings_(headings) {}
+Views::Views(const FieldOfView& view, int headings)
+    : view_(view),
+      headings_(headings),
+      steepest_(std::tan(0.5 * kEdge * view.vertical)),
+      least_cosine_(std::cos(0.5 * kEdge * view.horizontal)) {
+  for (int heading = 0; heading < headings; ++heading)
+    forward_.emplace_back(std::cos(yaw_of(heading)), std::sin(yaw_of(heading)));
+}
 
 double Views::yaw_of(int heading) const {
   return std::remainder(2.0 * std::numbers::pi * heading / headings_, 2.0 * std::numbers::pi);
@@ -54,19 +48,16 @@ int Views::heading_of(double yaw) const {
 
 std::uint32_t Views::headings_to(const Point& from, const Point& target) const {
   const Eigen::Vector3d way = target - from;
-  const double distance = way.norm();
-  if (distance > view_.range || distance < view_.nearest) return 0;
-  const double level = std::hypot(way.x(), way.y());
-  const double slope = level > 0.0 ? std::abs(way.z()) / level : 1e9;
-  const double steepest = std::tan(0.5 * kEdge * view_.vertical);
-  if (slope > steepest) return 0;
+  const double squared = way.squaredNorm();
+  if (squared > view_.range * view_.range || squared < view_.nearest * view_.nearest) return 0;
+  const double level = std::sqrt(way.x() * way.x() + way.y() * way.y());
+  const double rise = std::abs(way.z());
+  if (rise > steepest_ * level) return 0;
   if (view_.is_all_around()) return ~0u;  // each heading is as good
-  const double azimuth = std::atan2(way.y(), way.x());
   std::uint32_t bits = 0;
-  for (int heading = 0; heading < headings_; ++heading) {
-    const double off = std::abs(std::remainder(azimuth - yaw_of(heading), 2.0 * std::numbers::pi));
-    if (off <= 0.5 * kEdge * view_.horizontal && slope <= steepest * std::cos(off))
-      bits |= 1u << heading;
+  for (std::size_t heading = 0; heading < forward_.size(); ++heading) {
+    const double depth = way.x() * forward_[heading].x() + way.y() * forward_[heading].y();
+    if (depth >= level * least_cosine_ && rise <= steepest_ * depth) bits |= 1u << heading;
   }
   return bits;
 }
@@ -75,17 +66,20 @@ void Views::ban(const Place& place, const FrontierPart& part) {
   banned_.insert({place.id, part.first, part.version});
 }
 
-void Views::forget_changed(const Roadmap& roadmap, const Frontiers& frontiers,
-                           std::span<const Place> places) {
-  const double s = roadmap.esdf.voxel_size;
-  Bounds changed;
+void Views::note_changes(const Roadmap& roadmap, const Frontiers& frontiers) {
+  if (noted_ == frontiers.version()) return;
+  noted_ = frontiers.version();
   for (const BlockIndex& block : frontiers.changed_blocks()) {
-    const Bounds b = bounds_of(block, s);
-    changed.add(b.low);
-    changed.add(b.high);
+    const Bounds b = bounds_of(block, roadmap.esdf.voxel_size);
+    changed_.add(b.low);
+    changed_.add(b.high);
   }
-  if (forgotten_ == frontiers.version() || frontiers.changed_blocks().empty()) return;
-  forgotten_ = frontiers.version();
+}
+
+void Views::forget_changed(const Roadmap& roadmap, std::span<const Place> places) {
+  const double s = roadmap.esdf.voxel_size;
+  const Bounds changed = std::exchange(changed_, Bounds{});
+  if (changed.is_empty()) return;
   std::unordered_map<std::uint64_t, const Place*> by_id;
   for (const Place& place : places) by_id[place.id] = &place;
   for (auto& [first, views] : of_part_) {
@@ -105,26 +99,29 @@ void Views::forget_changed(const Roadmap& roadmap, const Frontiers& frontiers,
   }
 }
 
-const Views::Cached& Views::look(const Roadmap& roadmap, const FrontierPart& part,
-                                 const Place& place, PartViews& views) const {
-  const auto [found, is_new] = views.from.try_emplace(place.id);
-  Cached& cached = found->second;
-  if (!is_new) return cached;
+const Views::Cached* Views::look(const Roadmap& roadmap, const FrontierPart& part,
+                                 const Place& place, PartViews& views,
+                                 std::size_t& rays_left) const {
+  if (const auto found = views.from.find(place.id); found != views.from.end())
+    return &found->second;
   const std::size_t count = part.targets.size();
   const std::size_t looks = views.thorough ? count : std::min(count, kTargets);
+  if (rays_left < looks) return nullptr;
+  Cached& cached = views.from[place.id];
   cached.all_seen = true;
   for (std::size_t i = 0; i < looks; ++i) {
     const VoxelIndex& target = part.targets[i * count / looks];
     const std::uint32_t headings =
         headings_to(place.position, centre_of(target, roadmap.esdf.voxel_size));
     if (headings == 0) continue;  // does not depend on the map
+    --rays_left;
     if (sees(roadmap.esdf, place.position, target))
       cached.rays.push_back({headings, static_cast<std::uint8_t>(i % kMostTargets),
                              static_cast<float>(part.voxels) / static_cast<float>(looks)});
     else
       cached.all_seen = false;
   }
-  return cached;
+  return &cached;
 }
 
 std::vector<std::size_t> Views::candidates(const EsdfMap& esdf, const FrontierPart& part,
@@ -150,15 +147,22 @@ std::vector<std::size_t> Views::candidates(const EsdfMap& esdf, const FrontierPa
 }
 
 void Views::update(const Roadmap& roadmap, const Frontiers& frontiers, std::size_t least,
-                   std::span<const Place> places, bool thorough) {
-  forget_changed(roadmap, frontiers, places);
+                   std::span<const Place> places, const Point& near, std::size_t most_rays) {
+  note_changes(roadmap, frontiers);
+  forget_changed(roadmap, places);
+  const bool thorough = most_rays == kAllRays;
   const std::span<const FrontierPart> parts = frontiers.parts();
   part_count_ = parts.size();
   from_places_.assign(places.size(), {});
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (frontiers.clusters()[parts[i].cluster].voxels >= least)
+      order.push_back({(parts[i].centroid - near).squaredNorm(), i});
+  std::sort(order.begin(), order.end());
   for (auto& [first, views] : of_part_) views.is_live = false;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
+  std::size_t rays_left = most_rays;
+  for (const auto& [distance, i] : order) {
     const FrontierPart& part = parts[i];
-    if (frontiers.clusters()[part.cluster].voxels < least) continue;
     PartViews& views = of_part_[part.first];
     if (views.version != part.version || views.thorough != thorough) views.from.clear();
     views.version = part.version;
@@ -170,13 +174,36 @@ void Views::update(const Roadmap& roadmap, const Frontiers& frontiers, std::size
       if (!thorough && asked >= (is_seen ? kNearPlaces : kFarPlaces)) break;
       ++asked;
       if (banned_.contains({places[place].id, part.first, part.version})) continue;
-      const Cached& cached = look(roadmap, part, places[place], views);
-      if (cached.rays.empty()) continue;
+      const Cached* cached = look(roadmap, part, places[place], views, rays_left);
+      if (cached == nullptr || cached->rays.empty()) continue;
       is_seen = true;
-      from_places_[place].push_back({i, cached.rays});
+      from_places_[place].push_back({i, cached->rays});
     }
   }
   std::erase_if(of_part_, [](const auto& entry) { return !entry.second.is_live; });
+  for (std::vector<Sight>& sights : from_places_)
+    std::sort(sights.begin(), sights.end(),
+              [](const Sight& a, const Sight& b) { return a.part < b.part; });
+}
+
+double Views::gain_now(const Roadmap& roadmap, const Frontiers& frontiers, std::size_t least,
+                       const Place& place, int heading) const {
+  double gain = 0.0;
+  for (const FrontierPart& part : frontiers.parts()) {
+    if (frontiers.clusters()[part.cluster].voxels < least) continue;
+    if (banned_.contains({place.id, part.first, part.version})) continue;
+    const double reach = view_.range + kBlockSide * roadmap.esdf.voxel_size;
+    if ((part.centroid - place.position).squaredNorm() > reach * reach) continue;
+    const std::size_t count = part.targets.size(), looks = std::min(count, kTargets);
+    for (std::size_t i = 0; i < looks; ++i) {
+      const VoxelIndex& target = part.targets[i * count / looks];
+      const Point centre = centre_of(target, roadmap.esdf.voxel_size);
+      if ((headings_to(place.position, centre) >> heading & 1) != 0 &&
+          sees(roadmap.esdf, place.position, target))
+        gain += static_cast<double>(part.voxels) / static_cast<double>(looks);
+    }
+  }
+  return gain;
 }
 
 Stop Views::best_heading(std::size_t place, std::span<const std::uint64_t> covered) const {

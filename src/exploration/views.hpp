@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <map>
 #include <set>
 #include <span>
@@ -14,6 +15,21 @@
 #include "viewpoints.hpp"
 
 namespace ridgeway::detail {
+
+/// A box around points.
+struct Bounds {
+  Point low = Point::Constant(std::numeric_limits<double>::infinity());
+  Point high = Point::Constant(-std::numeric_limits<double>::infinity());
+
+  bool is_empty() const { return low.x() > high.x(); }
+  void add(const Point& p) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  bool meets(const Bounds& other) const {
+    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
+  }
+};
 
 /// A target of a part as seen from a place.
 struct Ray {
@@ -42,10 +58,19 @@ class Views {
   Views(const FieldOfView& view, int headings);
 
   /// Looks at the parts of clusters with `least` voxels or more from the nearest places, and from
-  /// farther ones where none of these sees a part. With `thorough` at all their targets, from all
+  /// farther ones where none of these sees a part; at parts near to a point first, with no more
+  /// than so many rays: what is left over comes next time. With kAllRays at all targets from all
   /// places.
+  static constexpr std::size_t kAllRays = std::numeric_limits<std::size_t>::max();
   void update(const Roadmap& roadmap, const Frontiers& frontiers, std::size_t least,
-              std::span<const Place> places, bool thorough);
+              std::span<const Place> places, const Point& near, std::size_t most_rays);
+
+  /// To be called after every update of the frontiers.
+  void note_changes(const Roadmap& roadmap, const Frontiers& frontiers);
+
+  /// Voxels of frontiers in view of a place by rays cast now.
+  double gain_now(const Roadmap& roadmap, const Frontiers& frontiers, std::size_t least,
+                  const Place& place, int heading) const;
 
   /// By place: what is seen from it.
   const std::vector<std::vector<Sight>>& from_places() const { return from_places_; }
@@ -77,20 +102,22 @@ class Views {
     std::unordered_map<std::uint64_t, Cached> from;  ///< by id of the place
   };
 
-  void forget_changed(const Roadmap& roadmap, const Frontiers& frontiers,
-                      std::span<const Place> places);
-  const Cached& look(const Roadmap& roadmap, const FrontierPart& part, const Place& place,
-                     PartViews& views) const;
+  void forget_changed(const Roadmap& roadmap, std::span<const Place> places);
+  const Cached* look(const Roadmap& roadmap, const FrontierPart& part, const Place& place,
+                     PartViews& views, std::size_t& rays_left) const;
   std::vector<std::size_t> candidates(const EsdfMap& esdf, const FrontierPart& part,
                                       std::span<const Place> places) const;
 
   FieldOfView view_;
   int headings_;
+  double steepest_, least_cosine_;
+  std::vector<Eigen::Vector2d> forward_;     ///< by heading
   std::map<VoxelIndex, PartViews> of_part_;  ///< by the part's first voxel
   std::set<std::tuple<std::uint64_t, VoxelIndex, std::uint64_t>> banned_;
   std::vector<std::vector<Sight>> from_places_;
   std::size_t part_count_ = 0;
-  std::uint64_t forgotten_ = 0;  ///< the version of the frontiers whose changes are followed
+  Bounds changed_;           ///< around all that has changed since the last update
+  std::uint64_t noted_ = 0;  ///< the version of the frontiers whose changes are in it
 };
 
 }  // namespace ridgeway::detail
