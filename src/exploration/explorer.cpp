@@ -88,22 +88,46 @@ void Explorer::State::look_around(const Point& here, bool thorough) {
                thorough ? detail::Views::kAllRays : config.most_rays);
 }
 
-/// What the goal was to show and did not: from there it is not looked at again, and after looks
-/// from several places not at all.
-void Explorer::State::give_up_what_was_not_seen() {
+/// Unknown voxels that are in view from a place, within a share of the range, after what was seen
+/// from there is in the map: looks in vain. After several of them a voxel is left alone.
+void Explorer::State::count_looks(const Point& from, int heading, double share, int weight,
+                                  const Place* standing) {
+  const double s = roadmap->esdf.voxel_size;
+  const double reach = share * config.view.range;
   std::vector<VoxelIndex> hopeless;
   for (const FrontierPart& part : frontiers.parts()) {
+    if ((part.centroid - from).norm() > reach + kBlockSide * s) continue;
     bool is_seen = false;
     for (const VoxelIndex& target : part.targets) {
-      const Point centre = centre_of(target, roadmap->esdf.voxel_size);
-      if ((views.headings_to(goal->place.position, centre) >> goal->heading & 1) == 0) continue;
-      if (!detail::sees(roadmap->esdf, goal->place.position, target)) continue;
+      const Point centre = centre_of(target, s);
+      if ((centre - from).norm() > reach) continue;
+      if ((views.headings_to(from, centre) >> heading & 1) == 0) continue;
+      if (!detail::sees(roadmap->esdf, from, target)) continue;
       is_seen = true;
-      if (++looks[target] >= config.most_looks) hopeless.push_back(target);
+      int& count = looks[target];
+      count += weight;
+      if (count >= config.most_looks) hopeless.push_back(target);
     }
-    if (is_seen) views.ban(goal->place, part);
+    if (is_seen && standing != nullptr) views.ban(*standing, part);
   }
+  if (hopeless.empty()) return;
   frontiers.ignore(hopeless);
+  frontiers.update(roadmap);
+}
+
+/// In flight a look counts where the robot is elsewhere, or turned, since the last one.
+void Explorer::State::look_in_flight(const FlightState& state) {
+  constexpr double kNear = 0.6;  // of the range: from farther off little may be measured
+  const int heading = views.heading_of(state.yaw);
+  const Point here = to_local(roadmap->esdf, state.position);
+  if (last_look && heading == last_look->second &&
+      (here - last_look->first).norm() < 0.5 * config.spacing)
+    return;
+  last_look.emplace(here, heading);
+  // At the heading next to the true one the sides of the view differ by half a step at most.
+  if (std::abs(detail::turn_between(state.yaw, views.yaw_of(heading))) <
+      0.25 * 2.0 * std::numbers::pi / config.headings)
+    count_looks(here, heading, kNear, 1, nullptr);
 }
 
 /// Stops that see all that can be seen, by what each adds; those out of reach are left out.
@@ -343,9 +367,10 @@ void Explorer::State::go_on(const FlightState& state, bool arrived, ExplorationS
         views.gain_now(*roadmap, frontiers, config.least_frontier, goal->place, goal->heading);
     step.seconds.views += detail::thread_seconds_now() - looking;
     const bool is_resolved = left < config.resolved_below * goal->promised;
-    if (arrived && left > 0.0) {
-      give_up_what_was_not_seen();
-      frontiers.update(roadmap);
+    if (arrived) {  // `left` is of samples, which may miss what is in view
+
+      count_looks(goal->place.position, goal->heading, 1.0, 2, &goal->place);
+      views.note_changes(*roadmap, frontiers);
     }
     if (!arrived && !is_resolved && !step.was_in_doubt && state.time < last_tour + kTourPeriod)
       return;
@@ -372,6 +397,8 @@ ExplorationStep Explorer::State::decide(std::shared_ptr<const Roadmap> now,
   ExplorationStep step;
   roadmap = std::move(now);
   frontiers.update(roadmap);
+  views.note_changes(*roadmap, frontiers);
+  look_in_flight(given);
   views.note_changes(*roadmap, frontiers);
   for (const FrontierCluster& cluster : frontiers.clusters())
     if (cluster.voxels >= config.least_frontier) {

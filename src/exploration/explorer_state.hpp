@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "ridgeway/exploration/explorer.hpp"
@@ -38,9 +39,10 @@ struct Explorer::State {
   std::vector<detail::Place> places;  ///< that views are of
   std::shared_ptr<const Roadmap> roadmap;
   std::optional<Goal> goal;
-  std::map<VoxelIndex, int> looks;     ///< in vain, by unknown voxel
-  std::vector<std::uint64_t> refused;  ///< places that no trajectory led to
-  Trajectory flying;                   ///< world
+  std::map<VoxelIndex, int> looks;                 ///< in vain, by unknown voxel
+  std::optional<std::pair<Point, int>> last_look;  ///< in flight: where, and the heading
+  std::vector<std::uint64_t> refused;              ///< places that no trajectory led to
+  Trajectory flying;                               ///< world
   double flying_since = 0.0;
   double last_tour = -1e9;  ///< seconds, of the state's clock
   bool is_returning = false;
@@ -48,7 +50,9 @@ struct Explorer::State {
 
  private:
   void look_around(const Point& here, bool thorough);
-  void give_up_what_was_not_seen();
+  void count_looks(const Point& from, int heading, double share, int weight,
+                   const detail::Place* standing);
+  void look_in_flight(const FlightState& state);
   std::vector<TourStop> cover(const detail::WaysFrom& ways, double least_gain) const;
   std::vector<std::size_t> order(const std::vector<TourStop>& stops, const FlightState& state,
                                  double& seconds) const;

@@ -69,8 +69,9 @@ struct ExplorerConfig {
   /// map, or another one is looked for at once; 0: the roadmap's min_clearance. Less of it than
   /// that keeps noise on surfaces from stopping the robot.
   double kept_clearance = 0.0;
-  /// Looks from different places, each in vain, after which an unknown voxel is left alone.
-  int most_looks = 3;
+  /// Looks from different places, each in vain, after which an unknown voxel is left alone. One
+  /// from where the robot stood to look at it counts twice; those in flight only from near.
+  int most_looks = 6;
   std::optional<Point> home;  ///< world: where to be at the end; none: wherever it ends
   /// Seconds, of the same clock as FlightState::time, until which to be home. Needs `home`.
   double until = std::numeric_limits<double>::infinity();
