@@ -9,7 +9,7 @@ set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/ridgeway")
 
 # Modules that need libraries of their own are components of their own; core is all others, and the
 # umbrella ridgeway::ridgeway.
-set(components ridge pictures sampling trajectory formats recordings)
+set(components ridge pictures sampling trajectory exploration formats recordings)
 set(core_excludes)
 foreach(component IN LISTS components)
   list(APPEND core_excludes PATTERN "${component}" EXCLUDE)

@@ -7,6 +7,7 @@
 namespace ridgeway::cli {
 
 /// Each adds an experiment to `bench`.
+void add_bench_explore(Command& bench);
 void add_bench_fusion(Command& bench);
 void add_bench_grid(Command& bench);
 void add_bench_hall(Command& bench);

@@ -12,6 +12,7 @@ void add_build_command(Command& program);
 void add_plan_command(Command& program);
 void add_check_command(Command& program);
 void add_info_command(Command& program);
+void add_explore_command(Command& program);
 void add_export_command(Command& program);
 void add_world_command(Command& program);
 void add_fuse_command(Command& program);

@@ -36,6 +36,7 @@ void add_commands(CommandLine& line) {
   add_trajectory_command(program);
   add_check_command(program);
   add_info_command(program);
+  add_explore_command(program);
   add_export_command(program);
   add_view_command(program);
   add_world_command(program);

@@ -47,6 +47,10 @@
 #if __has_include("ridgeway/sampling/plan_by_sampling.hpp")
 #include "ridgeway/sampling/plan_by_sampling.hpp"
 #endif
+#if __has_include("ridgeway/exploration/explorer.hpp")
+#include "ridgeway/exploration/explorer.hpp"
+#include "ridgeway/exploration/frontiers.hpp"
+#endif
 #if __has_include("ridgeway/trajectory/plan_trajectory.hpp")
 #include "ridgeway/trajectory/plan_trajectory.hpp"
 #include "ridgeway/trajectory/trajectory.hpp"

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "arguments.hpp"
+#include "bench.hpp"
+#include "bench_table.hpp"
+#include "console.hpp"
+#include "experiments/exploration_flight.hpp"
+#include "explore_options.hpp"
+#include "interruption.hpp"
+#include "ridgeway/pictures/picture.hpp"
+#include "sensing/world_generators.hpp"
+
+namespace ridgeway::cli {
+namespace {
+
+using Json = BenchTable::Json;
+
+struct BenchExploreOptions {
+  std::vector<std::string> worlds = {"maze", "hall", "house"};
+  std::vector<std::string> planners = {"ridgeway", "frontier", "nbvp"};
+  std::string output;
+  int seeds = 5, cells = 10;
+  ExploreSettings settings;
+};
+
+struct Place {
+  World world;
+  Point start;
+};
+
+Place place_of(const std::string& name, std::uint64_t seed, int cells) {
+  if (name == "maze") return {make_maze({.cells = cells, .seed = seed}), {1.5, 1.5, 1.25}};
+  if (name == "hall") return {make_hall({.seed = seed}), {1.5, 1.5, 1.5}};
+  return {make_house(), {1.2, 1.2, 1.5}};
+}
+
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json row_of(const ExplorationFlight& flight) {
+  std::vector<double> milliseconds;
+  for (const ExplorationSample& sample : flight.samples)
+    milliseconds.push_back(1e3 * sample.decision_seconds);
+  const Spread decisions = spread_of(milliseconds);
+  Json seconds, lengths;
+  for (const int percent : {90, 95, 99}) {
+    seconds[std::to_string(percent)] = number_or_null(flight.seconds_to(0.01 * percent));
+    lengths[std::to_string(percent)] = number_or_null(flight.length_to(0.01 * percent));
+  }
+  return {{"end", name_of(flight.end)},
+          {"seconds_to", seconds},
+          {"length_to", lengths},
+          {"seconds", flight.seconds},
+          {"length", flight.length},
+          {"coverage", flight.coverage},
+          {"collisions", flight.collisions},
+          {"nearest", flight.nearest},
+          {"stops", flight.stops},
+          {"decision_milliseconds",
+           {{"median", decisions.median}, {"p95", decisions.p95}, {"max", decisions.max}}}};
+}
+
+void draw(const ExplorationFlight& flight, const std::string& folder, const std::string& name) {
+  PictureConfig picture;
+  picture.title = name;
+  picture.diagram = false;
+  picture.path_label = "flight";
+  if (flight.roadmap)
+    draw_floor_plan(*flight.roadmap, flight.path, folder + "/" + name + ".png", picture);
+}
+
+int run(const BenchExploreOptions& options, const Globals& globals) {
+  if (!options.output.empty()) require_folder(options.output);
+  BenchTable table;
+  ProgressBar bar(globals);
+  const bool complete = completes([&] {
+    for (const std::string& name : options.worlds)
+      for (int seed = 1; seed <= options.seeds; ++seed)
+        for (const std::string& planner : options.planners) {
+          ExploreSettings settings = options.settings;
+          settings.planner = planner;
+          const Place place = place_of(name, static_cast<std::uint64_t>(seed), options.cells);
+          ExplorationFlightConfig config = settings.flight();
+          config.start = place.start;
+          config.seed = static_cast<std::uint64_t>(seed);
+          const ExplorationFlight flight = explore(place.world, config, bar.callback());
+          Json row = {{"world", name}, {"seed", seed}, {"planner", planner}};
+          row.update(row_of(flight));
+          table.add(row);
+          if (!options.output.empty())
+            draw(flight, options.output,
+                 "explore_" + name + "_" + std::to_string(seed) + "_" + planner);
+        }
+  });
+  bar.clear();
+  const ExplorationFlightConfig& config = options.settings.config;
+  const Json facts = {{"voxel_size", config.voxel_size},
+                      {"radius", config.radius},
+                      {"max_speed", config.explorer.limits.max_speed},
+                      {"max_acceleration", config.explorer.limits.max_acceleration},
+                      {"scan_rate", config.scan_rate}};
+  return table.report(globals, options.output, "explore", facts, complete);
+}
+
+}  // namespace
+
+void add_bench_explore(Command& bench) {
+  const auto options = std::make_shared<BenchExploreOptions>();
+  Command command = bench.add(
+      "explore", "A simulated drone maps worlds by itself: time, length and safety by planner");
+  command.choices("--worlds", options->worlds, {"maze", "hall", "house"}, "Worlds to map");
+  command.choices("--planners", options->planners, {"ridgeway", "frontier", "nbvp"},
+                  "Who decides where to fly");
+  command.whole("--seeds", options->seeds, {1, 1000}, "Of worlds and noise: 1 up to this");
+  command.whole("--cells", options->cells, {2, 100}, "Of the maze, along each side");
+  ExploreSettings& settings = options->settings;
+  ExplorationFlightConfig& config = settings.config;
+  command.number("--voxel-size", config.voxel_size, kLengths, "Of the map, metres");
+  command.number("--radius", config.radius, kLengths, "Of the drone, metres");
+  command.number("--sigma", settings.sigma, kLengthsFromZero,
+                 "Gaussian noise on every range, metres");
+  command.number("--scan-rate", config.scan_rate, {1e-3, 1e3}, "Images a second");
+  command.number("--longest", config.longest, {.least = 0.0, .most = 1e6, .above = true},
+                 "A flight is cut off then, seconds");
+  command.path("-o,--output", options->output,
+               "Folder for explore.json, explore.csv and a picture of each flight");
+  command.footer("Example:\n  ridgeway bench explore --worlds house --seeds 1");
+  command.runs(options, run);
+}
+
+}  // namespace ridgeway::cli

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ridgeway/exploration/frontiers.hpp"
+#include "ridgeway/roadmap/components.hpp"
+#include "ridgeway/roadmap/roadmap.hpp"
+#include "ridgeway/sensing/depth_camera.hpp"
+#include "ridgeway/trajectory/trajectory.hpp"
+
+namespace ridgeway {
+
+/// What a level depth sensor sees: a pyramid, or all around.
+struct FieldOfView {
+  double horizontal = 0.5 * std::numbers::pi;  ///< radians, the whole angle; 2 pi: all around
+  double vertical = 1.2;                       ///< radians, the whole angle, in the middle
+  double nearest = 0.0;                        ///< metres; what is nearer is not seen
+  double range = 7.0;                          ///< metres; what is farther is not counted on
+
+  bool is_all_around() const { return horizontal > 6.28; }
+
+  /// Throws InputError naming the bad field.
+  void validate() const;
+};
+/// Of a camera, counting on a share of its range, since rays that meet no surface within it measure
+/// nothing.
+FieldOfView field_of_view(const DepthSensor& sensor, double share_of_range = 0.7);
+
+/// Where to look from, and which way.
+struct Viewpoint {
+  Point position = Point::Zero();  ///< metres, world
+  double yaw = 0.0;                ///< radians
+};
+
+/// How the next viewpoint is chosen.
+enum class ExplorationStrategy : std::uint8_t {
+  kTour,     ///< the first of a tour over viewpoints that see all frontiers
+  kNearest,  ///< the nearest along the roadmap that sees a frontier (Yamauchi 1997)
+};
+
+struct ExplorerConfig {
+  MotionLimits limits = {.max_speed = 2.0, .max_acceleration = 2.0};
+  FieldOfView view;
+  /// Voxels of the lattice that are to be explored.
+  VoxelRange within = kAllVoxels;
+  /// Voxels of a frontier that is worth a look: a smaller one, with all that it is joined to, is
+  /// left alone.
+  std::size_t least_frontier = 10;
+  double spacing = 0.8;  ///< metres between viewpoints, about
+  int headings = 16;     ///< directions that are tried at each
+  ExplorationStrategy strategy = ExplorationStrategy::kTour;
+  /// Seconds by which another tour must be shorter for the goal to be given up: what keeps the
+  /// robot from turning back and forth between tours that are as good.
+  double persistence = 1.5;
+  /// The goal is given up once less than this share is left of what was to be seen from there.
+  double resolved_below = 0.3;
+  std::size_t most_rays = 6000;  ///< cast in one decision; what is left over waits for the next
+  std::size_t most_stops = 20;   ///< of a tour; the nearest, the others count when these are seen
+  /// Metres to obstacles and the unknown that the rest of a trajectory must keep, by the newest
+  /// map, or another one is looked for at once; 0: the roadmap's min_clearance. Less of it than
+  /// that keeps noise on surfaces from stopping the robot.
+  double kept_clearance = 0.0;
+  /// Looks from different places, each in vain, after which an unknown voxel is left alone. One
+  /// from where the robot stood to look at it counts twice; those in flight only from near.
+  int most_looks = 6;
+  std::optional<Point> home;  ///< world: where to be at the end; none: wherever it ends
+  /// Seconds, of the same clock as FlightState::time, until which to be home. Needs `home`.
+  double until = std::numeric_limits<double>::infinity();
+
+  /// Throws InputError naming the bad field.
+  void validate() const;
+};
+
+/// How the robot moves now. Metres, seconds, radians, world frame.
+struct FlightState {
+  double time = 0.0;
+  Point position = Point::Zero();
+  Point velocity = Point::Zero();
+  Point acceleration = Point::Zero();
+  double yaw = 0.0;
+};
+
+enum class ExplorationStatus : std::uint8_t {
+  kFly,        ///< along the trajectory that is given, from now on
+  kKeep,       ///< what was given before is as good
+  kReturn,     ///< as kFly, home: all is seen, or it is time
+  kComplete,   ///< at its end (home): no viewpoint sees a frontier
+  kOutOfTime,  ///< home, or at rest, though there are frontiers that can be seen
+  kStuck,      ///< no trajectory leads on, as the robot's place is no longer free
+};
+/// "fly", "keep", "return", "complete", "out_of_time", "stuck".
+std::string_view name_of(ExplorationStatus status);
+
+/// Processor time of the thread that asked.
+struct ExplorationSeconds {
+  double frontiers = 0.0, views = 0.0, tour = 0.0, trajectory = 0.0, total = 0.0;
+};
+
+/// What to do next, and what that is based on.
+struct ExplorationStep {
+  ExplorationStatus status = ExplorationStatus::kKeep;
+  /// Verified in known-free space, ends at rest; with yaw at a limited rate. Starts with the state
+  /// that was given, at time 0. Empty unless kFly or kReturn.
+  Trajectory trajectory;
+  std::optional<Viewpoint> goal;
+  std::vector<Viewpoint> tour;      ///< the stops that follow now, the goal first
+  double tour_seconds = 0.0;        ///< estimate
+  bool was_in_doubt = false;        ///< what was flown before is not free for certain any more
+  bool is_braking = false;          ///< the trajectory does no more than stop the robot
+  std::size_t frontiers = 0;        ///< clusters of the least size or more
+  std::size_t frontier_voxels = 0;  ///< in them
+  ExplorationSeconds seconds;
+};
+
+/// Why a frontier stays as it is.
+enum class UnseenReason : std::uint8_t {
+  kTooNarrow,    ///< it could be seen from space that the robot does not get to
+  kOutOfView,    ///< no place of the robot has it within range, angle and line of sight
+  kLookedInVain  ///< seen from several places, nothing was measured
+};
+/// "too_narrow", "out_of_view", "looked_in_vain".
+std::string_view name_of(UnseenReason reason);
+
+struct UnseenFrontier {
+  Point centroid = Point::Zero();  ///< world
+  std::size_t voxels = 0;
+  UnseenReason reason = UnseenReason::kOutOfView;
+  /// Of kTooNarrow: where the widest way there is narrowest, and the radius that would fit.
+  std::optional<Point> door = std::nullopt;
+  double door_radius = 0.0;
+};
+
+/// Decides where a robot with a level depth sensor flies to map what it has not seen: from a
+/// snapshot of the map, and how it moves now, to the next trajectory. Knows nothing of sensors,
+/// clocks and threads; the same calls give the same answers.
+///
+/// Viewpoints stand on the roadmap's diagram, where clearance and view are widest, at most one in
+/// each cube of the side `spacing`; where no diagram passes through a cube its widest traversable
+/// voxel is one too, asked only for frontiers that no other sees. What is seen from each is found
+/// by rays through known-free voxels; they are kept, and cast again where the map has changed.
+/// A greedy cover of all frontiers by viewpoints with headings is ordered to a tour (nearest
+/// insertion, 2-opt and or-opt) by the time of flight along the roadmap, turning included.
+///
+/// Complete means: no reachable viewpoint of these, at any heading, sees a target of a frontier of
+/// at least the least size, but for targets that were looked at in vain.
+class Explorer {
+ public:
+  explicit Explorer(const ExplorerConfig& config);
+  ~Explorer();
+  Explorer(Explorer&&) noexcept;
+  Explorer& operator=(Explorer&&) noexcept;
+
+  /// What to do now; to be asked after every scan. `now`: of unknown space as an obstacle; the
+  /// robot's radius is its min_clearance. The robot is taken to follow the last trajectory, from
+  /// the time on at which that was given; once its end has passed, what was seen there must be in
+  /// the map. Throws InputError for a state that is not finite, a time that runs backwards, or a
+  /// roadmap of another policy.
+  ExplorationStep decide(std::shared_ptr<const Roadmap> now, const FlightState& state);
+
+  /// The frontiers of at least the least size that are left, each with its reason; looks through
+  /// the whole map.
+  std::vector<UnseenFrontier> unseen() const;
+
+  const Frontiers& frontiers() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace ridgeway

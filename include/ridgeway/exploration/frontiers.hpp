@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "ridgeway/roadmap/roadmap.hpp"
+
+namespace ridgeway {
+
+/// A connected piece (over 26 neighbours) of the frontier in one block: free voxels with an unknown
+/// one across a face. Voxels are the map's own.
+struct FrontierPart {
+  BlockIndex block;
+  VoxelIndex first;                 ///< the first of the free ones, which no other part has
+  std::size_t voxels = 0;           ///< free ones
+  std::vector<VoxelIndex> targets;  ///< unknown voxels across their faces, in (z, y, x) order
+  Point centroid = Point::Zero();   ///< of the free voxels, metres, local frame
+  /// Mean direction from the free voxels to the unknown ones, at most of length one: short where
+  /// they lie on several sides.
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  std::size_t cluster = 0;    ///< the connected piece of the whole frontier that this is a part of
+  std::uint64_t version = 0;  ///< the update of the frontier in which it was made
+
+  friend bool operator==(const FrontierPart&, const FrontierPart&) = default;
+};
+
+/// A connected piece of the whole frontier.
+struct FrontierCluster {
+  std::size_t voxels = 0;                            ///< free ones
+  Point centroid = Point::Zero();                    ///< metres, local frame
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< as of a part
+  std::vector<std::size_t> parts;                    ///< ascending
+};
+
+/// Where what is known ends: kept block by block as a map changes. Only blocks with another state
+/// than in the last update, and those beside them, are looked at again; an update of nothing takes
+/// time linear in the blocks. Deterministic: the result is that of an update from nothing.
+class Frontiers {
+ public:
+  /// `within`: voxels of the lattice that count as unknown or free at all. `ignored`: unknown
+  /// voxels of the lattice that are not worth a look (see ignore()).
+  explicit Frontiers(const VoxelRange& within = kAllVoxels) : within_(within) {}
+
+  /// Follows the map. Keeps the roadmap until the next update, to compare with.
+  void update(std::shared_ptr<const Roadmap> roadmap);
+
+  /// Unknown voxels, the map's own, that count as known from the next update on: looked at in vain.
+  void ignore(std::span<const VoxelIndex> voxels);
+
+  /// By block in (z, y, x) order.
+  std::span<const FrontierPart> parts() const { return parts_; }
+  /// By their first part.
+  std::span<const FrontierCluster> clusters() const { return clusters_; }
+  /// Voxels of parts.
+  std::size_t voxels() const;
+  /// The blocks that had another state than before, in the last update.
+  std::span<const BlockIndex> changed_blocks() const { return changed_; }
+  std::uint64_t version() const { return version_; }
+  /// How many unknown voxels are ignored.
+  std::size_t ignored() const { return ignored_count_; }
+
+ private:
+  using Labels = std::array<std::uint8_t, kBlockVoxels>;  ///< 0: no frontier, else part + 1
+  /// What is known of a block with a frontier in it.
+  struct Entry {
+    std::vector<FrontierPart> parts;
+    Labels labels{};
+    /// Pairs of a part here and a part of a block that is greater than this.
+    std::vector<std::array<std::uint32_t, 2>> pairs;
+    std::vector<BlockIndex> partners;  ///< by pair
+  };
+
+  void find_changed(const Roadmap& now);
+  bool is_frontier(VoxelId id, const VoxelIndex& voxel, Eigen::Vector3d& normal,
+                   std::vector<VoxelIndex>* targets) const;
+  bool is_unknown(const VoxelIndex& voxel, VoxelId id) const;
+  void remake(const BlockIndex& block);
+  void link(const BlockIndex& block);
+  void gather();
+
+  VoxelRange within_;
+  std::shared_ptr<const Roadmap> roadmap_;
+  std::map<BlockIndex, Entry> entries_;
+  std::map<BlockIndex, VoxelMask::Block> ignored_;  ///< by block of the map's own
+  std::vector<BlockIndex> stale_;                   ///< blocks with newly ignored voxels
+  std::vector<BlockIndex> changed_;
+  std::vector<FrontierPart> parts_;
+  std::vector<FrontierCluster> clusters_;
+  std::size_t ignored_count_ = 0;
+  std::uint64_t version_ = 0;
+};
+
+}  // namespace ridgeway

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "exploration_flight.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "common/number_text.hpp"
+#include "common/random.hpp"
+#include "common/require.hpp"
+#include "next_best_view.hpp"
+#include "ridgeway/common/error.hpp"
+#include "sensing/poses.hpp"
+#include "viewable.hpp"
+
+namespace ridgeway {
+namespace {
+
+constexpr double kPathStep = 0.02;  // seconds between places that are held against the world
+
+/// Voxels whose centres are in a ball.
+std::vector<VoxelChange> free_ball(const Point& centre, double radius, double voxel_size) {
+  const VoxelIndex low = voxel_at(centre - Point::Constant(radius), voxel_size);
+  const VoxelIndex high = voxel_at(centre + Point::Constant(radius), voxel_size);
+  std::vector<VoxelChange> changes;
+  for (int z = low.z; z <= high.z; ++z)
+    for (int y = low.y; y <= high.y; ++y)
+      for (int x = low.x; x <= high.x; ++x)
+        if ((centre_of({x, y, z}, voxel_size) - centre).norm() <= radius)
+          changes.push_back({{x, y, z}, VoxelState::kFree});
+  return changes;
+}
+
+Box bounds_of(const World& world, const ExplorationFlightConfig& config) {
+  if (config.bounds) return *config.bounds;
+  const PoseSampling inside = sampling_inside(world);
+  return {inside.low, inside.high};
+}
+
+void require_start(const World& world, const ExplorationFlightConfig& config, const Box& bounds) {
+  const std::string place = "start " + number_text(config.start.x()) + "," +
+                            number_text(config.start.y()) + "," + number_text(config.start.z());
+  if (!((config.start.array() >= bounds.min.array()).all() &&
+        (config.start.array() <= bounds.max.array()).all()))
+    throw InputError(place, "is outside of what is to be mapped", "give a start within the bounds");
+  const double room = surface_distance(world_at(world, 0.0), config.start).distance;
+  if (room < config.radius)
+    throw InputError(
+        place,
+        room <= 0.0 ? "is inside an obstacle" : "is " + number_text(room) + " m from an obstacle",
+        "give a start farther from obstacles than the radius");
+  if (room < config.free_radius())
+    throw InputError(place,
+                     "has " + number_text(room) + " m of free space around it, not the " +
+                         number_text(config.free_radius()) + " m that are taken for free",
+                     "give a start with more room, a smaller start radius or smaller voxels");
+}
+
+/// Images as a recording holds them: depths in steps of a fifth of a millimetre.
+void round_depths(DepthImage& image) {
+  for (float& depth : image.depth) depth = std::round(depth * 5000.0f) / 5000.0f;
+}
+
+class ExplorationRun {
+ public:
+  ExplorationRun(const World& world, const ExplorationFlightConfig& config, const Box& bounds)
+      : world_(world),
+        config_(config),
+        within_(voxels_inside(bounds, config.voxel_size)),
+        live_(live_config(config)),
+        viewable_(world_at(world, 0.0), config.voxel_size, within_, config.start,
+                  config.clearance(), field_of_view(config.sensor, 1.0)),
+        explorer_(explorer_config()),
+        next_best_(explorer_config(), config.seed) {
+    live_.set_voxels(free_ball(config.start, config.free_radius(), config.voxel_size));
+    TrajectorySegment stand;
+    stand.coefficients.col(0) << config.start, config.start_yaw;
+    flying_.segments.push_back(stand);
+    flight_.viewable_volume = viewable_.volume();
+  }
+
+  ExplorationFlight run(const Progress& progress, const OnImage& on_image) {
+    const double step = 1.0 / config_.scan_rate;
+    for (std::size_t scan = 0; flight_.end == ExplorationStatus::kKeep; ++scan) {
+      const double time = static_cast<double>(scan) * step;
+      if (time > config_.longest) break;
+      const FlightState state = state_at(time);
+      look(state, scan, on_image);
+      decide(state);
+      if (progress && !progress(label(), flight_.samples.back().mapped)) throw Cancelled();
+      if (flight_.end == ExplorationStatus::kKeep) follow(time, time + step);
+    }
+    finish();
+    return std::move(flight_);
+  }
+
+ private:
+  static LiveConfig live_config(const ExplorationFlightConfig& config) {
+    return {.fusion = {.voxel_size = config.voxel_size,
+                       .min_range = std::max(0.1, config.sensor.min_range),
+                       .max_range = config.sensor.max_range},
+            .build = {.min_clearance = config.clearance(), .max_distance = config.max_distance},
+            .origin = VoxelIndex{}};
+  }
+
+  ExplorerConfig explorer_config() const {
+    ExplorerConfig explorer = config_.explorer;
+    explorer.view = field_of_view(config_.sensor);
+    explorer.within = within_;
+    explorer.kept_clearance = config_.radius + 0.5 * (config_.clearance() - config_.radius);
+    if (config_.come_back) explorer.home = config_.start;
+    explorer.until = config_.budget;
+    explorer.strategy = config_.planner == ExplorationPlanner::kFrontier
+                            ? ExplorationStrategy::kNearest
+                            : ExplorationStrategy::kTour;
+    return explorer;
+  }
+
+  FlightState state_at(double time) const {
+    const TrajectoryState at = flying_.at(time - since_);
+    return {time, at.position, at.velocity, at.acceleration, at.yaw};
+  }
+
+  std::string label() const {
+    const ExplorationSample& last = flight_.samples.back();
+    return "explore " + std::to_string(static_cast<int>(last.state.time)) + " s, " +
+           std::to_string(last.frontiers) + " frontiers";
+  }
+
+  void look(const FlightState& state, std::size_t scan, const OnImage& on_image) {
+    Eigen::Isometry3d pose = level_pose(state.position, state.yaw);
+    pose.linear() = Eigen::Quaterniond(pose.linear()).normalized().toRotationMatrix();
+    DepthImage image = render_depth(world_at(world_, state.time), config_.sensor, pose,
+                                    Random(config_.seed, scan).bits());
+    round_depths(image);
+    if (on_image) on_image(image, pose);
+    const UpdateReport report = live_.integrate(image, config_.sensor.camera, pose);
+    ExplorationSample sample;
+    sample.state = state;
+    sample.update_seconds = report.seconds;
+    flight_.samples.push_back(sample);
+  }
+
+  void decide(const FlightState& state) {
+    const std::shared_ptr<const Roadmap> now = live_.snapshot();
+    ExplorationSample& sample = flight_.samples.back();
+    if (!now) {
+      flight_.end = ExplorationStatus::kStuck;
+      return;
+    }
+    sample.mapped = static_cast<double>(viewable_.known_of(now)) /
+                    std::max(1.0, static_cast<double>(viewable_.voxels()));
+    const ExplorationStep step = config_.planner == ExplorationPlanner::kNextBest
+                                     ? next_best_.decide(now, state)
+                                     : explorer_.decide(now, state);
+    ++flight_.decisions;
+    sample.frontiers = step.frontiers;
+    sample.seconds = step.seconds;
+    sample.decision_seconds = step.seconds.total;
+    flight_.doubts += step.was_in_doubt;
+    flight_.brakes += step.is_braking;
+    if (!step.trajectory.segments.empty()) {
+      flying_ = step.trajectory;
+      since_ = state.time;
+      ++flight_.trajectories;
+      flight_.stops += state.velocity.norm() < 1e-3;
+    }
+    if (step.status == ExplorationStatus::kComplete ||
+        step.status == ExplorationStatus::kOutOfTime || step.status == ExplorationStatus::kStuck)
+      flight_.end = step.status;
+  }
+
+  /// Holds the way from one time to another against the exact world.
+  void follow(double from, double to) {
+    const World now = world_at(world_, from);
+    const auto steps = static_cast<int>(std::ceil((to - from) / kPathStep));
+    for (int i = 0; i < steps; ++i) {
+      const Point p = state_at(from + (to - from) * i / steps).position;
+      const double room = surface_distance(now, p).distance - config_.radius;
+      flight_.nearest = std::min(flight_.nearest, room);
+      flight_.collisions += room < 0.0;
+      if (!flight_.path.empty()) flight_.length += (p - flight_.path.back()).norm();
+      flight_.path.push_back(p);
+    }
+  }
+
+  void finish() {
+    flight_.seconds = flight_.samples.back().state.time;
+    flight_.coverage = flight_.samples.back().mapped;
+    flight_.is_complete = flight_.end == ExplorationStatus::kComplete;
+    if (config_.planner != ExplorationPlanner::kNextBest) flight_.unseen = explorer_.unseen();
+    flight_.map = live_.map();
+    flight_.roadmap = live_.settled();
+  }
+
+  const World& world_;
+  const ExplorationFlightConfig& config_;
+  const VoxelRange within_;
+  LiveRoadmap live_;
+  ViewableVolume viewable_;
+  Explorer explorer_;
+  NextBestView next_best_;
+  Trajectory flying_;
+  double since_ = 0.0;
+  ExplorationFlight flight_;
+};
+
+}  // namespace
+
+void ExplorationFlightConfig::validate() const {
+  using detail::require;
+  require(radius > 0.0 && std::isfinite(radius), "radius", radius, "give metres above 0");
+  require(margin >= 0.0 && std::isfinite(margin), "margin", margin, "give metres from 0");
+  require(start.allFinite(), "start", start.x(), "give three finite coordinates");
+  require(std::isfinite(start_yaw), "start_yaw", start_yaw, "give radians");
+  require(start_radius == 0.0 || start_radius >= clearance() + 0.5 * voxel_size, "start_radius",
+          start_radius, "give at least the radius, the margin and half a voxel, or 0");
+  require(voxel_size > 0.0 && std::isfinite(voxel_size), "voxel_size", voxel_size,
+          "give metres above 0");
+  require(scan_rate > 0.0 && std::isfinite(scan_rate), "scan_rate", scan_rate,
+          "give images a second, above 0");
+  require(longest > 0.0 && std::isfinite(longest), "longest", longest, "give seconds above 0");
+  require(max_distance > clearance(), "max_distance", max_distance,
+          "give more than the radius and the margin");
+  sensor.validate();
+  require(sensor.max_range >= 2.0 * voxel_size, "max_range", sensor.max_range,
+          "give at least two voxels");
+  explorer.limits.validate();
+  const double turn = 2.0 * std::numbers::pi / explorer.limits.max_yaw_rate;
+  require(budget >= turn, "budget", budget,
+          "give at least the time that the drone takes to turn once around");
+  if (bounds) validate_box(*bounds, "bounds");
+}
+
+ExplorationFlight explore(const World& world, const ExplorationFlightConfig& config,
+                          const Progress& progress, const OnImage& on_image) {
+  config.validate();
+  const Box bounds = bounds_of(world, config);
+  if (!bounds.min.allFinite() || !bounds.max.allFinite())
+    throw InputError(world.name, "has no enclosure", "give bounds");
+  require_start(world, config, bounds);
+  return ExplorationRun(world, config, bounds).run(progress, on_image);
+}
+
+double ExplorationFlight::seconds_to(double share) const {
+  for (const ExplorationSample& sample : samples)
+    if (sample.mapped >= share) return sample.state.time;
+  return std::numeric_limits<double>::infinity();
+}
+
+double ExplorationFlight::length_to(double share) const {
+  double flown = 0.0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (i > 0) flown += (samples[i].state.position - samples[i - 1].state.position).norm();
+    if (samples[i].mapped >= share) return flown;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace ridgeway

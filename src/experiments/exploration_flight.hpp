@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ridgeway/common/progress.hpp"
+#include "ridgeway/exploration/explorer.hpp"
+#include "ridgeway/live/live_roadmap.hpp"
+#include "ridgeway/sensing/world.hpp"
+
+namespace ridgeway {
+
+/// Who decides where to fly.
+enum class ExplorationPlanner : std::uint8_t {
+  kRidgeway,  ///< Explorer, by tours
+  kFrontier,  ///< Explorer, nearest frontier
+  kNextBest,  ///< receding horizon next best view (Bircher et al. 2016)
+};
+
+/// A simulated drone maps a world by itself. Metres, seconds, radians.
+struct ExplorationFlightConfig {
+  Point start = Point::Zero();
+  double start_yaw = 0.0;
+  /// Around the start, taken as free: somebody has looked. 0: what the robot needs and two voxels.
+  double start_radius = 0.0;
+  double radius = 0.3;  ///< of the drone
+  /// Kept beyond the radius, from known obstacles and from the unknown: for surfaces that the map
+  /// has up to a voxel off. 0: a voxel.
+  double margin = 0.0;
+  double budget = std::numeric_limits<double>::infinity();  ///< until it must be back
+  bool come_back = true;
+  double voxel_size = 0.2;
+  double max_distance = 4.0;  ///< distances stop here
+  double scan_rate = 4.0;     ///< images a second
+  std::optional<Box> bounds;  ///< what is to be mapped; else the world's enclosure
+  DepthSensor sensor;
+  double longest = 3600.0;  ///< flights are cut off then
+  ExplorationPlanner planner = ExplorationPlanner::kRidgeway;
+  ExplorerConfig explorer;  ///< limits, sizes; what follows from the rest is set by the flight
+  std::uint64_t seed = 1;   ///< of the sensor's noise, and of planners that sample
+
+  double clearance() const { return radius + (margin > 0.0 ? margin : voxel_size); }
+  double free_radius() const {
+    return start_radius > 0.0 ? start_radius : clearance() + 2.0 * voxel_size;
+  }
+
+  /// Throws InputError naming the bad field.
+  void validate() const;
+};
+
+/// At a scan.
+struct ExplorationSample {
+  FlightState state;
+  double mapped = 0.0;            ///< share of what can be seen at all that is known
+  std::size_t frontiers = 0;      ///< clusters that are worth a look
+  double decision_seconds = 0.0;  ///< of this machine; no part of the simulated time
+  ExplorationSeconds seconds;
+  double update_seconds = 0.0;  ///< of the roadmap
+};
+
+struct ExplorationFlight {
+  std::vector<ExplorationSample> samples;
+  std::vector<Point> path;  ///< every few centiseconds
+  ExplorationStatus end = ExplorationStatus::kKeep;
+  bool is_complete = false;
+  double seconds = 0.0, length = 0.0;
+  double viewable_volume = 0.0;  ///< m^3 that can be seen at all
+  double coverage = 0.0;         ///< share of it that is known at the end
+  double nearest =
+      std::numeric_limits<double>::infinity();  ///< to the exact world, less the radius
+  std::size_t collisions = 0;                   ///< places of `path` nearer than the radius
+  std::size_t decisions = 0, trajectories = 0, stops = 0, doubts = 0, brakes = 0;
+  std::vector<UnseenFrontier> unseen;
+  std::shared_ptr<const Roadmap> roadmap;  ///< settled
+  OccupancyMap map;
+
+  /// Seconds until a share was known; infinite where it never was.
+  double seconds_to(double share) const;
+  double length_to(double share) const;
+};
+
+/// Each image as it is fused, with its pose (camera to world).
+using OnImage = std::function<void(const DepthImage&, const Eigen::Isometry3d&)>;
+
+/// Flies until all is seen, or the time is up. Seeded: the same world and configuration give the
+/// same flight and the same map. Throws InputError, before the flight, for a start that is no place
+/// for the drone, a world without an enclosure and no bounds, a sensor that reaches less than two
+/// voxels, a budget in which nothing can be done.
+ExplorationFlight explore(const World& world, const ExplorationFlightConfig& config,
+                          const Progress& progress = {}, const OnImage& on_image = {});
+
+}  // namespace ridgeway

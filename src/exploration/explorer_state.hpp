@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "ridgeway/exploration/explorer.hpp"
+#include "tour.hpp"
+#include "views.hpp"
+#include "ways.hpp"
+
+namespace ridgeway {
+
+struct Explorer::State {
+  explicit State(const ExplorerConfig& given);
+
+  /// A goal that was decided on.
+  struct Goal {
+    detail::Place place;
+    int heading = 0;
+    double promised = 0.0;  ///< voxels of frontiers that were to be seen from there
+  };
+  /// A stop of the tour with what it costs.
+  struct TourStop {
+    detail::Stop stop;
+    detail::Access access;
+    double from_robot = 0.0;  ///< metres
+  };
+
+  ExplorationStep decide(std::shared_ptr<const Roadmap> now, const FlightState& state);
+
+  const ExplorerConfig config;
+  Frontiers frontiers;
+  detail::DiagramPlaces diagram;
+  detail::Views views;
+  std::vector<detail::Place> places;  ///< that views are of
+  std::shared_ptr<const Roadmap> roadmap;
+  std::optional<Goal> goal;
+  std::map<VoxelIndex, int> looks;                 ///< in vain, by unknown voxel
+  std::optional<std::pair<Point, int>> last_look;  ///< in flight: where, and the heading
+  std::vector<std::uint64_t> refused;              ///< places that no trajectory led to
+  Trajectory flying;                               ///< world
+  double flying_since = 0.0;
+  double last_tour = -1e9;  ///< seconds, of the state's clock
+  bool is_returning = false;
+  bool is_out_of_time = false;
+
+ private:
+  void look_around(const Point& here, bool thorough);
+  void count_looks(const Point& from, int heading, double share, int weight,
+                   const detail::Place* standing);
+  void look_in_flight(const FlightState& state);
+  std::vector<TourStop> cover(const detail::WaysFrom& ways, double least_gain) const;
+  std::vector<std::size_t> order(const std::vector<TourStop>& stops, const FlightState& state,
+                                 double& seconds) const;
+  void refine_first(std::vector<TourStop>& stops, const std::vector<std::size_t>& tour,
+                    const FlightState& state, const detail::WaysFrom& ways) const;
+  double seconds_between(double length, double turn) const;
+  double seconds_from_robot(const TourStop& stop, const FlightState& state) const;
+  double seconds_home(const Point& from_local, const detail::Access& access) const;
+  bool fly_to(const Point& goal_local, double yaw, const FlightState& state,
+              ExplorationStep& step) const;
+  void go_home(const FlightState& state, bool arrived, ExplorationStep& step);
+  bool is_in_doubt(const FlightState& state) const;
+  bool brake(const FlightState& state, ExplorationStep& step) const;
+  void go_on(const FlightState& state, bool arrived, ExplorationStep& step);
+  bool choose(const FlightState& state, bool thorough, ExplorationStep& step);
+  detail::Access access_at(const Point& local) const;
+};
+
+}  // namespace ridgeway

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ray_walk.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace ridgeway::detail {
+namespace {
+
+/// How far along a ray its voxel is left, from where it is at a point.
+double way_out(const Point& p, const VoxelIndex& voxel, const Eigen::Vector3d& direction,
+               double voxel_size) {
+  const Eigen::Vector3d low = Eigen::Vector3d(voxel.x, voxel.y, voxel.z) * voxel_size;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (direction[axis] == 0.0) continue;
+    const double face = direction[axis] > 0.0 ? low[axis] + voxel_size : low[axis];
+    nearest = std::min(nearest, (face - p[axis]) / direction[axis]);
+  }
+  return std::max(nearest, 0.0);
+}
+
+}  // namespace
+
+bool sees(const EsdfMap& esdf, const Point& from, const VoxelIndex& target) {
+  const double s = esdf.voxel_size;
+  const Point to = centre_of(target, s);
+  const double length = (to - from).norm();
+  if (length == 0.0) return true;
+  const Eigen::Vector3d direction = (to - from) / length;
+  const double nudge = 1e-7 * s;  // into the next voxel
+  VoxelFinder finder(esdf.layout);
+  for (double t = 0.0; t < length;) {
+    const Point p = from + t * direction;
+    const VoxelIndex voxel = voxel_at(p, s);
+    if (voxel == target) return true;
+    const VoxelId id = finder.find(voxel);
+    if (id == kNoVoxel || esdf.state[id] != VoxelState::kFree) return false;
+    const double free = esdf.distance(id) - (p - centre_of(voxel, s)).norm();
+    t += free > 2.0 * s ? free : way_out(p, voxel, direction, s) + nudge;
+  }
+  return true;
+}
+
+}  // namespace ridgeway::detail

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include "ridgeway/esdf/esdf.hpp"
+
+namespace ridgeway::detail {
+
+/// Whether the straight line from a point to the centre of a voxel passes known-free voxels alone,
+/// that voxel itself apart. Local frame. Skips through free space by the distances of the field,
+/// whose obstacles must include unknown space.
+bool sees(const EsdfMap& esdf, const Point& from, const VoxelIndex& target);
+
+}  // namespace ridgeway::detail

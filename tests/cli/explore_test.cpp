@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "program.hpp"
+
+namespace ridgeway {
+namespace {
+
+class CliExplore : public Program {
+ protected:
+  /// One room of 5 x 4 x 2.4 m.
+  std::string room() {
+    write_whole(folder_ / "room.yaml",
+                "name: room\n"
+                "planes:\n"
+                "  - {point: [0, 0, 0], normal: [1, 0, 0]}\n"
+                "  - {point: [5, 0, 0], normal: [-1, 0, 0]}\n"
+                "  - {point: [0, 0, 0], normal: [0, 1, 0]}\n"
+                "  - {point: [0, 4, 0], normal: [0, -1, 0]}\n"
+                "  - {point: [0, 0, 0], normal: [0, 0, 1]}\n"
+                "  - {point: [0, 0, 2.4], normal: [0, 0, -1]}\n");
+    return path("room.yaml");
+  }
+  std::vector<std::string> words(const std::string& start) {
+    return {"explore", room(),     "-o",  path("room.ridge"), "--start", start, "--width",
+            "80",      "--radius", "0.2", "--max-distance",   "2"};
+  }
+};
+
+TEST_F(CliExplore, WritesAllThatIsAskedFor) {
+  std::vector<std::string> all = words("1.3,1.3,1.2");
+  for (const char* option : {"--flight", "flight.csv", "--volume", "volume.csv", "--picture",
+                             "room.svg", "--record", "frames"}) {
+    const std::string word = option;
+    all.push_back(word.starts_with("--") ? word : path(word));
+  }
+  all.emplace_back("--json");
+  const Outcome outcome = run(all);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json json = outcome.json();
+  EXPECT_EQ(json["complete"], true);
+  EXPECT_GE(json["coverage"], 0.99);
+  EXPECT_EQ(json["collisions"], 0);
+  EXPECT_GE(json["nearest"], 0.0);
+  EXPECT_EQ(run({"check", path("room.ridge"), "--queries", "20"}).code, 0);
+  for (const char* file : {"flight.csv", "volume.csv", "room.svg", "frames/depth.txt"})
+    EXPECT_FALSE(read_whole(folder_ / file).empty()) << file;
+  // The recording gives a roadmap, too.
+  EXPECT_EQ(run({"live", path("frames"), "-o", path("again.ridge"), "--voxel-size", "0.2"}).code,
+            0);
+}
+
+TEST_F(CliExplore, RefusesBeforeTheFlight) {
+  expect_refused(words("9,1,1"), {"outside"});
+  expect_refused(words("0.1,1,1"), {"from an obstacle"});
+  std::vector<std::string> near_sighted = words("1.3,1.3,1.2");
+  near_sighted.insert(near_sighted.end(), {"--max-range", "0.3"});
+  expect_refused(near_sighted, {"max-range"});
+  std::vector<std::string> hasty = words("1.3,1.3,1.2");
+  hasty.insert(hasty.end(), {"--budget", "1"});
+  expect_refused(hasty, {"budget"});
+  write_whole(folder_ / "open.yaml", "name: open\nspheres:\n  - {centre: [0, 0, 0], radius: 1}\n");
+  expect_refused({"explore", path("open.yaml"), "-o", path("x.ridge"), "--start", "0,0,0"},
+                 {"inside an obstacle"});
+}
+
+}  // namespace
+}  // namespace ridgeway
