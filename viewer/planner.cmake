@@ -50,7 +50,7 @@ endforeach()
 set(sources
     mapping/occupancy_map.cpp mapping/memory_limit.cpp mapping/normalised.cpp mapping/voxel_range.cpp
     files/atomic_file.cpp files/file_error.cpp files/read_file.cpp files/temporary.cpp
-    formats/path_io.cpp formats/trajectory_io.cpp)
+    formats/build_record.cpp formats/path_io.cpp formats/trajectory_io.cpp)
 list(TRANSFORM sources PREPEND "${PROJECT_SOURCE_DIR}/src/")
 wasm_objects_of(files ${sources})
 set(sources ridge_checks.cpp ridge_file.cpp ridge_header.cpp ridge_lists.cpp ridge_reader.cpp

@@ -198,10 +198,14 @@ export class LabelLayer {
     this.spans.length = 0;
   }
   place(on_canvas: (place: THREE.Vector3) => { x: number; y: number } | undefined): void {
+    const placed: { x: number; y: number }[] = [];
     for (const { span, place } of this.spans) {
       const at = this.visible ? on_canvas(place) : undefined;
-      span.hidden = !at;
-      if (at) {
+      // Where texts would cover each other, the first is read.
+      const is_covered = !!at && placed.some((other) => Math.abs(other.x - at.x) < 58 && Math.abs(other.y - at.y) < 22);
+      span.hidden = !at || is_covered;
+      if (at && !is_covered) {
+        placed.push(at);
         span.style.left = `${at.x}px`;
         span.style.top = `${at.y}px`;
       }

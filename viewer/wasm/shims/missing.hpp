@@ -27,8 +27,7 @@ inline to_chars_result to_chars(char* first, char* last, double value) {
 /// Of the texts that the page sends: decimal numbers.
 inline from_chars_result from_chars(const char* first, const char* last, double& value) {
   const string text(first, last);
-  if (text.empty() || text[0] == ' ' || text[0] == '+' ||
-      text.find_first_of("xX") != string::npos)
+  if (text.empty() || text[0] == ' ' || text[0] == '+' || text.find_first_of("xX") != string::npos)
     return {first, errc::invalid_argument};
   char* end = nullptr;
   value = strtod(text.c_str(), &end);
