@@ -179,28 +179,37 @@ void Frontiers::link(const BlockIndex& block) {
   Entry& entry = own->second;
   entry.pairs.clear();
   entry.partners.clear();
+  std::array<const Entry*, 27> beside{};  // by direction, those that are greater than this
+  bool has_any = false;
   for (int d = 0; d < 27; ++d) {
     const VoxelIndex& o = offset_of(d);
-    const BlockIndex beside = block + BlockIndex{o.x, o.y, o.z};
-    if (!(block < beside)) continue;
-    const auto other = entries_.find(beside);
-    if (other == entries_.end()) continue;
-    std::set<std::array<std::uint32_t, 2>> pairs;
-    for (int local = 0; local < kBlockVoxels; ++local) {
-      const std::uint8_t label = entry.labels[static_cast<std::size_t>(local)];
-      if (label == 0) continue;
-      const VoxelIndex voxel = voxel_of(block, local);
-      for (int e = 0; e < 27; ++e) {
-        const VoxelIndex next = voxel + offset_of(e);
-        if (block_of(next) != beside) continue;
-        const std::uint8_t there = other->second.labels[static_cast<std::size_t>(local_of(next))];
-        if (there != 0) pairs.insert({label - 1u, there - 1u});
-      }
+    const BlockIndex other = block + BlockIndex{o.x, o.y, o.z};
+    if (!(block < other)) continue;
+    if (const auto found = entries_.find(other); found != entries_.end()) {
+      beside[static_cast<std::size_t>(d)] = &found->second;
+      has_any = true;
     }
-    for (const auto& pair : pairs) {
-      entry.pairs.push_back(pair);
-      entry.partners.push_back(beside);
+  }
+  if (!has_any) return;
+  std::set<std::array<std::uint32_t, 3>> links;  // direction, part here, part there
+  for (int local = 0; local < kBlockVoxels; ++local) {
+    const std::uint8_t label = entry.labels[static_cast<std::size_t>(local)];
+    if (label == 0) continue;
+    const VoxelIndex in_block = voxel_of(BlockIndex{}, local);
+    for (int e = 0; e < 27; ++e) {
+      const VoxelIndex next = in_block + offset_of(e);
+      const BlockIndex step = block_of(next);
+      const int d = direction_of({step.x, step.y, step.z});
+      const Entry* const other = beside[static_cast<std::size_t>(d)];
+      if (other == nullptr) continue;
+      const std::uint8_t there = other->labels[static_cast<std::size_t>(local_of(next))];
+      if (there != 0) links.insert({static_cast<std::uint32_t>(d), label - 1u, there - 1u});
     }
+  }
+  for (const auto& [d, here, there] : links) {
+    const VoxelIndex& o = offset_of(static_cast<int>(d));
+    entry.pairs.push_back({here, there});
+    entry.partners.push_back(block + BlockIndex{o.x, o.y, o.z});
   }
 }
 

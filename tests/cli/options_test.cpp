@@ -126,7 +126,7 @@ TEST_F(CliOptions, DescriptionHoldsWhatTheHelpShows) {
       EXPECT_FALSE(option["help"].get<std::string>().empty()) << name;
     }
   });
-  EXPECT_EQ(commands, 18u);
+  EXPECT_EQ(commands, 20u);
   const Json plan = run({"plan", "--json", "--help"}).json();
   EXPECT_EQ(plan["name"], "plan");
 }

@@ -63,7 +63,7 @@ struct ExplorerConfig {
   double persistence = 1.5;
   /// The goal is given up once less than this share is left of what was to be seen from there.
   double resolved_below = 0.3;
-  std::size_t most_rays = 6000;  ///< cast in one decision; what is left over waits for the next
+  std::size_t most_rays = 3000;  ///< cast in one decision; what is left over waits for the next
   std::size_t most_stops = 20;   ///< of a tour; the nearest, the others count when these are seen
   /// Metres to obstacles and the unknown that the rest of a trajectory must keep, by the newest
   /// map, or another one is looked for at once; 0: the roadmap's min_clearance. Less of it than
