@@ -124,6 +124,20 @@ void require_legal(const MeshMapConfig& config, const std::string& name) {
       throw InputError("inside", "is no place for " + name, "give three finite numbers");
 }
 
+void require_within_reach(const Box& box, double voxel_size, const std::string& name) {
+  const double farthest = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
+  if (farthest < kMaxVoxelIndex * voxel_size) return;
+  throw InputError(name, "has a vertex at " + number_text(farthest) + " m, beyond 1e9 voxels",
+                   "check its units, or give a larger voxel_size");
+}
+
+/// The blocks of the outermost layers, all of which a flood from the sides looks at.
+double blocks_at_sides(const VoxelRange& range) {
+  const VoxelRange within = {range.min + VoxelIndex{kBlockSide, kBlockSide, kBlockSide},
+                             range.max - VoxelIndex{kBlockSide, kBlockSide, kBlockSide}};
+  return range.block_count() - (within.empty() ? 0.0 : within.block_count());
+}
+
 }  // namespace
 
 Box box_around(const TriangleSoup& mesh, const std::string& name) {
@@ -153,7 +167,7 @@ OccupancyMap map_from_mesh(const TriangleSoup& mesh, const MeshMapConfig& config
   MeshMapReport report;
   report.box = box_around(mesh, name);
   const VoxelRange whole = voxels_overlapping(report.box, config.voxel_size);
-  require_within_reach(whole, name);
+  require_within_reach(report.box, config.voxel_size, name);
   const Box bounds = config.bounds.value_or(report.box);
   // The surface where it ends at the bounds is a wall too, if the bounds are the mesh's own.
   VoxelRange range = voxels_overlapping(bounds, config.voxel_size);
@@ -164,6 +178,8 @@ OccupancyMap map_from_mesh(const TriangleSoup& mesh, const MeshMapConfig& config
                      "it spans " + place_text(report.box.min) + " to " +
                          place_text(report.box.max) +
                          "; give larger bounds, or a smaller voxel_size");
+  if (config.inside.empty())
+    require_memory_for_blocks(blocks_at_sides(range), kPipelineBytesPerVoxel, name);
   const VoxelRange kept = grown(range, 1 + config.margin);
   const VoxelIndex origin = kept.min;
   const auto in_kept = [&](const VoxelRange& r) {
