@@ -2,7 +2,7 @@
 # Copyright (c) 2026 The Ridgeway authors
 #
 # docker build -t ridgeway . && docker run --rm -v "$PWD:/work" ridgeway build office.bt -o office.ridge
-# The steps are those of ./dev bare package and ./dev bare packaged, which need no Docker.
+# The steps are those of ./dev bare package and ./dev try-packages, which need no Docker.
 
 # Builds the Debian packages.
 FROM debian:12-slim AS builder
