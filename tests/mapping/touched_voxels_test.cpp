@@ -70,9 +70,9 @@ void expect_as_by_cutting(const VoxelTriangles& mesh, const VoxelIndex& size) {
 
 TEST(TouchedVoxels, AreThoseThatTrianglesMeetWhenCutToThem) {
   for (std::uint64_t seed = 0; seed < 30; ++seed)
-    expect_as_by_cutting(
-        moved(testing::random_soup(seed, 12), Point::Constant(10.0 + 0.37 * seed), 1.3),
-        {19, 23, 17});
+    expect_as_by_cutting(moved(testing::random_soup(seed, 12),
+                               Point::Constant(10.0 + 0.37 * static_cast<double>(seed)), 1.3),
+                         {19, 23, 17});
 }
 
 TEST(TouchedVoxels, OfTrianglesWithoutAreaAreThoseOfSegmentsAndPoints) {
