@@ -6,8 +6,10 @@ import importlib.util
 import inspect
 import os
 import re
+import signal
 import subprocess
 import sys
+import urllib.request
 
 import numpy as np
 import pytest
@@ -165,14 +167,31 @@ def test_code_of_pages_runs_as_printed(source, page, tmp_path, monkeypatch):
     assert printed == expected
 
 
+def serves(command, folder):
+    """The page is there under the address that the command prints, until it is interrupted."""
+    server = subprocess.Popen(["bash", "-c", "exec " + command], cwd=folder, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    try:
+        address = next(found for found in (re.search(r"http://127[^ \n]*", line) for line in server.stdout) if found)
+        with urllib.request.urlopen(address[0], timeout=60) as page:
+            assert page.status == 200
+    finally:
+        server.send_signal(signal.SIGINT)
+        server.communicate(timeout=60)
+
+
 def test_commands_of_the_readme_run_as_printed(source, program, tmp_path):
     (tmp_path / "office.bt").symlink_to(source / "data/fr_079.bt")
     (tmp_path / "recording").symlink_to(source / "data/house_depth")
+    (tmp_path / "worlds").symlink_to(source / "worlds")
     commands = [line for block in blocks(source / "README.md", "sh") for line in block.splitlines()
                 if line.startswith("build/bin/ridgeway ")]
     assert len(commands) >= 5
     (tmp_path / "build/bin").mkdir(parents=True)
     (tmp_path / "build/bin/ridgeway").symlink_to(os.path.abspath(program))
     for command in commands:
+        if " view " in command:  # serves until it is interrupted
+            serves(command.replace(" --open", " --port 0"), tmp_path)
+            continue
         done = subprocess.run(["bash", "-c", command], cwd=tmp_path, capture_output=True, text=True)
         assert done.returncode == 0, (command, done.stderr)

@@ -33,27 +33,27 @@ std::string point_text(const Point& p) {
 void tell_of_frame(const MeshFrame& own, const LoadConfig& config, LoadNotes* notes) {
   const bool unit_known = own.unit || config.units, up_known = own.up || config.up;
   if (unit_known && up_known) return;
-  const std::string what = unit_known ? "the file names no upward axis: z is taken (--up)"
-                           : up_known ? "the file names no unit: metres are taken (--units)"
+  const std::string what = unit_known ? "the file names no upward axis: z is taken (option up)"
+                           : up_known ? "the file names no unit: metres are taken (option units)"
                                       : "the file names no unit and no upward axis: metres and z "
-                                        "are taken (--units, --up)";
+                                        "are taken (options units, up)";
   tell(notes, what);
 }
 
 void tell_of_space(const MeshMapReport& report, const LoadConfig& config, LoadNotes* notes) {
   if (!config.bounds)
     tell(notes, "the map ends where the mesh does, which spans " + size_text(report.box) + ", " +
-                    describe(report.box) + " (--bounds)");
+                    describe(report.box) + " (option bounds)");
   using Free = MeshMapReport::Free;
   if (report.free == Free::kWithin)
     tell(notes,
          "the mesh encloses more space than there is around it within the bounds: what it "
-         "encloses is taken as free (--inside)");
+         "encloses is taken as free (option inside)");
   else if (report.free == Free::kAround && report.enclosed > 0)
     tell(notes, std::to_string(report.enclosed) +
                     " spaces that the mesh encloses are taken as solid, the largest of " +
-                    number_text(std::round(1e3 * report.largest_enclosed) / 1e3) +
-                    " m3; --inside " + point_text(report.in_largest) + " makes that one free");
+                    number_text(std::round(1e3 * report.largest_enclosed) / 1e3) + " m3; inside " +
+                    point_text(report.in_largest) + " makes that one free");
   if (report.leak)
     tell(notes, "the space is not closed: it is open to the bounds at " +
                     point_text(report.leak->exit) + "; the widest way there is narrowest, about " +
@@ -65,7 +65,7 @@ void tell_of_space(const MeshMapReport& report, const LoadConfig& config, LoadNo
 constexpr double kUsualVoxelSize = 0.1;
 
 void tell_of_voxels(const LoadConfig& config, LoadNotes* notes) {
-  if (!config.voxel_size) tell(notes, "voxels of 0.1 m are taken (--voxel-size)");
+  if (!config.voxel_size) tell(notes, "voxels of 0.1 m are taken (option voxel_size)");
 }
 
 }  // namespace

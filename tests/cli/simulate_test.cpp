@@ -106,7 +106,8 @@ TEST_F(CliSimulate, SurfaceOfAFusedMap) {
   expect_refused({"export", path("map.ridge"), "--mesh", path("none/out.ply")}, {"none"});
   expect_refused({"export", path("map.ridge"), "--mesh", path("a.ply"), "-o", path("b.ply")},
                  {"--mesh"});
-  expect_refused({"export", path("map.ridge"), "-o", path("graph.ply")}, {"not a roadmap"});
+  expect_refused({"export", path("map.ridge"), "-o", path("graph.ply")},
+                 {"no format that a fused map can be written in", "--mesh"});
   save_tsdf({0.1, {}, 0.4, {}, {}, {}}, "nothing", path("empty.ridge"));
   expect_refused({"export", path("empty.ridge"), "--mesh", path("out.ply")}, {"no surface"});
 }

@@ -251,7 +251,7 @@ TEST(DepthSequence, ATrajectoryLogGivesThePosesOfTheImagesInOrder) {
   write_whole(folder / "trajectory.log", "0 0 1\n1 2 3\n");
   EXPECT_NE(refusal([&] { open_sequence(folder.path()); }).find("trajectory.log"),
             std::string::npos);
-  write_whole(folder / "trajectory.log", "0 0 1\n" + turn.substr(0, 12));
+  write_whole(folder / "trajectory.log", "0 0 1\n" + turn.substr(0, 11));
   EXPECT_NE(refusal([&] { open_sequence(folder.path()); }).find("ends within a pose"),
             std::string::npos);
 }
