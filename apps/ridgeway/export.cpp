@@ -155,10 +155,11 @@ void add_export_command(Command& program) {
   Command command =
       program.add("export", "Write a roadmap, or the surface of a fused map, in other formats");
   command.path("roadmap", options->file, "Roadmap or, for --mesh, fused map, .ridge").required();
-  command.paths("-o,--output", options->outputs,
-                "File to write, by its extension: .json, .graphml, .ply, .pb (voxblox sparse graph), "
-                ".vxblx (voxblox ESDF and skeleton; TSDF of a fused map), .png, .svg, or .html, the "
-                "page of view as one file that plans by itself; may be repeated");
+  command.paths(
+      "-o,--output", options->outputs,
+      "File to write, by its extension: .json, .graphml, .ply, .pb (voxblox sparse graph), "
+      ".vxblx (voxblox ESDF and skeleton; TSDF of a fused map), .png, .svg, or .html, the "
+      "page of view as one file that plans by itself; may be repeated");
   command.choice("--what", options->what, {"graph", "diagram"}, "What a .ply file is to hold");
   command.path("--json-graph", options->json_graph, "Graph as JSON, for networkx");
   command.path("--picture", options->picture, "Map, graph and path from above, .png or .svg");

@@ -82,6 +82,7 @@ TEST_F(TumFolder, TimesAreMatchedAsByBruteForce) {
     Random random(seed);
     std::map<double, double> images;  // time -> pose
     std::vector<double> poses;
+    poses.reserve(60);
     std::string image_lines, pose_lines;
     for (int i = 0; i < 40; ++i) images[random.uniform(0.0, 1.0)] = -1.0;
     for (int k = 0; k < 60; ++k) poses.push_back(random.uniform(0.0, 1.0));
@@ -146,7 +147,7 @@ TEST_F(TumFolder, MistakesAreNamedWithFileAndLine) {
   const auto with = [&](const char* file, const std::string& text) {
     const std::string before = read_whole(folder_ / file);
     write_whole(folder_ / file, text);
-    const std::string message = refused();
+    std::string message = refused();
     write_whole(folder_ / file, before);
     return message;
   };
