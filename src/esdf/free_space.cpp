@@ -151,6 +151,10 @@ bool FreeSpace::cylinder_fits(VoxelId from, VoxelId to) const {
 
 SquaredHalves FreeSpace::slow_move_clearance(VoxelId from, VoxelId to, int direction,
                                              SquaredHalves enough) const {
+  if (direction < kCentre) {  // the same both ways, to the last bit
+    std::swap(from, to);
+    direction = opposite(direction);
+  }
   const SquaredHalves low = std::min(esdf_.squared[from], esdf_.squared[to]);
   if (low == SquaredHalves(kNoSite))
     return low;  // both ends farther than max_distance from everything

@@ -4,19 +4,28 @@
 
 #include "live_ridges.hpp"
 #include "skeleton/watershed.hpp"
+#include "voxel/flat_table.hpp"
 
 namespace ridgeway::detail {
 
-/// What find_watershed learns of each block by itself, of a field that changes.
+/// The watershed of a field that changes. A basin keeps its number for as long as its peak is one.
 struct LiveBasins {
   LocalWays ways = {};
+  std::vector<Cube27> exits = {};   ///< by block: the directions of blocks that its ways lead to
+  std::vector<VoxelId> peaks = {};  ///< by number; kNoVoxel for one that no basin has
+  /// By block, of the critical voxels those that may join two basins.
+  std::vector<std::vector<CriticalVoxel>> saddles = {};
+  std::vector<std::uint32_t> unused = {};  ///< those numbers
+  FlatTable<VoxelId, std::uint32_t> number_of_peak = {};
 };
 
-/// Follows a field and its ridges after update_ridges: blocks in which a distance has changed, and
-/// those beside it.
-void update_basins(LiveBasins& basins, const LiveField& field, const LiveRidges& ridges);
+/// Follows a field after update_ridges: ways and peaks in blocks in which a distance has changed
+/// and those beside them, numbers also where ways lead to voxels whose basin became another.
+void update_basins(LiveBasins& basins, BasinNumbers& numbers, const LiveField& field,
+                   const LiveRidges& ridges);
 
-/// What find_watershed gives for the field. At least one voxel is traversable.
-Watershed watershed_of(const LiveBasins& basins, const LiveField& field, const LiveRidges& ridges);
+/// As find_watershed of what is traversable, but for the order of the numbers, and of the critical
+/// voxels only those that may join two basins.
+Watershed watershed_of(const LiveBasins& basins, BasinNumbers numbers, const LiveField& field);
 
 }  // namespace ridgeway::detail

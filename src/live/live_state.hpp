@@ -18,7 +18,7 @@
 #include "live_ridges.hpp"
 #include "live_window.hpp"
 #include "ridgeway/live/live_roadmap.hpp"
-#include "roadmap/remembered_space.hpp"
+#include "roadmap/build_stages.hpp"
 #include "scan_log.hpp"
 #include "shared_memory.hpp"
 
@@ -56,7 +56,7 @@ struct LiveRoadmap::State {
     detail::LiveRidges ridges;
     detail::LiveBasins basins;
     detail::LiveAttach attach;
-    std::unique_ptr<detail::SegmentMemory> segments;  // that the graph was fitted by
+    std::unique_ptr<detail::BuildMemory> memory;
   };
 
   explicit State(const LiveConfig& given);

@@ -89,7 +89,7 @@ void LiveRoadmap::State::bring_up_to_date(std::span<const VoxelChange> changes,
   snapshot = std::move(next);
   ++version;
   if (other) now = std::move(other);
-  now->segments->forget_unasked();
+  now->memory->segments.forget_unasked();
   constexpr std::size_t kUsual = 50'000;  // changes of an update
   if (now->field.before.capacity() > kUsual) decltype(now->field.before)().swap(now->field.before);
 }
@@ -101,7 +101,7 @@ LiveRoadmap::State::Live LiveRoadmap::State::nothing(const VoxelIndex& origin) c
             {},
             {},
             nullptr};
-  live.segments = std::make_unique<detail::SegmentMemory>();
+  live.memory = std::make_unique<detail::BuildMemory>();
   return live;
 }
 
@@ -111,7 +111,7 @@ LiveRoadmap::State::Live LiveRoadmap::State::remade() const {
   apply_changes(other.field, all_of(map_of(now->field)));
   update_distances(other.field);
   update_ridges(other.ridges, other.field);
-  update_basins(other.basins, other.field, other.ridges);
+  update_basins(other.basins, other.memory->basin, other.field, other.ridges);
   return other;
 }
 
@@ -129,21 +129,22 @@ std::shared_ptr<const Roadmap> LiveRoadmap::State::built_on(Live& live, detail::
   build.gvd_voxels = live.ridges.gvd_count;
   build.edge_voxels = live.ridges.thick_count;
   build.seconds.gvd = lap.seconds();
-  update_basins(live.basins, field, live.ridges);
+  update_basins(live.basins, live.memory->basin, field, live.ridges);
   build.seconds.kernel = lap.seconds();
-  live.segments->change(field.esdf.layout, changed_since(field));
+  live.memory->segments.change(field.esdf.layout, changed_since(field));
+  live.memory->peeling.change(field.esdf.layout, field.changed.voxels, field.changed.slots);
   if (build.traversable_voxels == 0) return nullptr;
   BuildResult result;
   result.report = build;
   result.roadmap.esdf = share(field);
   result.roadmap.min_clearance = live.ridges.radius;
   report.copy_seconds = lap.seconds();
-  detail::Watershed watershed = watershed_of(live.basins, field, live.ridges);
+  detail::Watershed watershed = watershed_of(live.basins, std::move(live.memory->basin), field);
   result.report.seconds.kernel += lap.seconds();
   const Progress none;
   detail::StageClock clock(none);
   detail::build_on_watershed(live.ridges.traversable, live.ridges.edges, std::move(watershed),
-                             config.build, result, clock, live.segments.get());
+                             config.build, result, clock, live.memory.get());
   result.roadmap.attach = share(live.attach, field.esdf.layout, result.roadmap.attach);
   return published(std::move(result), build);
 }

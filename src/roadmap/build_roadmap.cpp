@@ -18,6 +18,8 @@
 #include "ridgeway/mapping/map_edits.hpp"
 #include "ridgeway/skeleton/diagram.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
+#include "skeleton/join_diagram.hpp"
+#include "skeleton/level_peeling.hpp"
 
 namespace ridgeway {
 namespace {
@@ -121,45 +123,53 @@ void build_on_distances(VoxelMask traversable, const BuildConfig& config, BuildR
 
 void build_on_watershed(VoxelMask traversable, VoxelMask edges, Watershed watershed,
                         const BuildConfig& config, BuildResult& result, StageClock& clock,
-                        SegmentMemory* memory) {
+                        BuildMemory* memory) {
   Roadmap& roadmap = result.roadmap;
   const EsdfMap& esdf = roadmap.esdf;
   BuildReport& report = result.report;
 
   require_memory_for(edges, kKernelBytesPerEdgeVoxel);
   clock.start();
+  SegmentMemory* const segments = memory == nullptr ? nullptr : &memory->segments;
+  const RememberedSpace space(esdf, segments);
   VoxelMask joined = traversable;  // to have fewer voxels of it
   VoxelMask not_simple = std::move(watershed.basins.not_simple_at_first_turn);
   Basins basins;
   parallel_for_each_index(2, [&](std::size_t task) {  // neither of which knows of the other
     if (task == 0)
-      basins = find_passes(esdf, traversable, config.min_clearance, std::move(watershed));
+      basins = find_passes(space, config.min_clearance, std::move(watershed));
     else
       join_background(esdf, joined, not_simple);
   });
   basins.not_simple_at_first_turn = std::move(not_simple);
   traversable = std::move(joined);
   report.traversable_components = basins.components();
-  VoxelMask kernel = compute_kernel(esdf, traversable, basins);
+  const VoxelMask peaks = significant_peaks(esdf, basins);
+  VoxelMask kernel =
+      memory != nullptr
+          ? memory->peeling.peel(esdf, traversable, basins.not_simple_at_first_turn, peaks)
+          : peel_levels(esdf, traversable, basins.not_simple_at_first_turn, peaks);
   traversable = {};
   report.kernel_voxels = kernel.count();
-  open_shells(esdf, kernel, significant_peaks(esdf, basins));
-  VoxelMask diagram = join_diagram(esdf, edges, kernel, config.min_clearance, basins);
+  open_shells(esdf, kernel, peaks);
+  VoxelMask diagram = detail::join_diagram(space, edges, kernel, config.min_clearance, basins);
   clock.end(report.seconds.kernel);
 
   clock.begin("graph");
   if (config.paper_diagram) diagram = std::move(edges);
   require_memory_for(diagram, kGraphBytesPerDiagramVoxel);
-  const DiagramCurves curves = index_diagram(esdf, diagram, config.min_clearance, memory);
-  roadmap.graph = detail::build_graph(esdf, curves, graph_of(config), memory);
+  const DiagramCurves curves = index_diagram(esdf, diagram, config.min_clearance, segments);
+  roadmap.graph = detail::build_graph(esdf, curves, graph_of(config), segments);
   if (config.simplify)
-    roadmap.graph = detail::simplify_graph(esdf, roadmap.graph, simplification_of(config), memory);
+    roadmap.graph =
+        detail::simplify_graph(esdf, roadmap.graph, simplification_of(config), segments);
   roadmap.tree = build_clearance_tree(esdf, roadmap.graph, basins);
   roadmap.landmarks = place_landmarks(roadmap.graph);
   report.graph_components = connected_components(roadmap.graph).count;
   clock.end(report.seconds.graph);
 
   clock.begin("attach");
+  if (memory != nullptr) memory->basin = std::move(basins.basin);
   roadmap.attach = detail::build_attach_field(esdf, curves, roadmap.graph, std::move(basins));
   roadmap.diagram.voxels = std::move(diagram);
   roadmap.diagram.complete = !config.paper_diagram;

@@ -5,15 +5,22 @@
 #include <string_view>
 
 #include "common/clock.hpp"
+#include "esdf/remembered_space.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
+#include "skeleton/peeling_memory.hpp"
 #include "skeleton/watershed.hpp"
 
 /// Parts of build_roadmap, for those who have the results of its first stages already.
 namespace ridgeway::detail {
 
-class SegmentMemory;
+/// What is kept from one build to the next of a map that changes.
+struct BuildMemory {
+  SegmentMemory segments;
+  PeelingMemory peeling;
+  BasinNumbers basin;  ///< of the watershed that was built on last
+};
 
 /// Times the stages one after the other and reports each to the caller.
 class StageClock {
@@ -54,10 +61,10 @@ void build_on_distances(VoxelMask traversable, const BuildConfig& config, BuildR
                         StageClock& clock);
 
 /// And from the edges of the diagram, thinned, and the watershed of what is traversable. `memory`:
-/// of segments, where the map is one that changes.
+/// where the map is one that changes.
 void build_on_watershed(VoxelMask traversable, VoxelMask edges, Watershed watershed,
                         const BuildConfig& config, BuildResult& result, StageClock& clock,
-                        SegmentMemory* memory = nullptr);
+                        BuildMemory* memory = nullptr);
 
 /// What is learnt of a roadmap that is complete but for this, and the total of all seconds. Queries
 /// do without, slower.

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "remembered_space.hpp"
+#include "esdf/remembered_space.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "curve_following.hpp"
-#include "remembered_space.hpp"
+#include "esdf/remembered_space.hpp"
 
 namespace ridgeway::detail {
 

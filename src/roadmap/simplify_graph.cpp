@@ -9,7 +9,7 @@
 #include "common/require.hpp"
 #include "editable_graph.hpp"
 #include "graph_of_curves.hpp"
-#include "remembered_space.hpp"
+#include "esdf/remembered_space.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/roadmap/build_graph.hpp"
 

@@ -8,21 +8,20 @@
 #include <numeric>
 #include <queue>
 
+#include "by_height.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/esdf/free_space.hpp"
 #include "voxel/disjoint_sets.hpp"
 #include "watershed.hpp"
 
 namespace ridgeway {
 namespace {
 
-/// Place of a voxel in the total order of heights; larger is higher. Zero: not traversable.
-std::uint64_t height(const EsdfMap& esdf, VoxelId id) {
-  return std::uint64_t{esdf.squared[id]} << 32 | (0xffffffffu - esdf.layout.order_of(id));
-}
+using detail::CriticalVoxel;
+using detail::height;
+using detail::RememberedSpace;
 
-/// A critical voxel and its higher neighbours.
-struct CriticalVoxel {
+/// A critical voxel that may join two basins: by these of its higher neighbours.
+struct Saddle {
   std::uint64_t height;
   VoxelId id;
   Cube27 higher;
@@ -42,31 +41,21 @@ void for_each_part(Cube27 higher, const Body& body) {
 Cube27 cells_to_join(Cube27 part) { return part & kCells6 ? part & kCells6 : part; }
 
 /// From the top down the critical voxels that may join two basins.
-std::vector<CriticalVoxel> order_critical(const EsdfMap& esdf, const VoxelMask& traversable,
-                                          const Basins& basins,
-                                          const std::vector<VoxelId>& critical) {
-  std::vector<CriticalVoxel> voxels(critical.size());
+std::vector<Saddle> find_saddles(const EsdfMap& esdf, const Basins& basins,
+                                 const std::vector<CriticalVoxel>& critical) {
+  std::vector<Saddle> saddles(critical.size());
   parallel_for_each_index(
       critical.size(),
       [&](std::size_t i) {
-        const VoxelId id = critical[i];
-        voxels[i] = {height(esdf, id), id, 0};
-        Cube27 higher = 0;
-        for (Cube27 cube = cube_around(esdf.layout, traversable, id) & kCells26; cube != 0;
-             cube &= cube - 1) {
-          const int d = std::countr_zero(cube);
-          if (height(esdf, esdf.layout.neighbour(id, d)) > voxels[i].height) higher |= 1u << d;
-        }
-        for_each_part(higher, [&](Cube27 part) {
-          const VoxelId other = esdf.layout.neighbour(id, std::countr_zero(cells_to_join(part)));
-          if (basins.basin[id] != basins.basin[other]) voxels[i].higher |= part;
-        });
+        const VoxelId id = critical[i].id;
+        saddles[i] = {height(esdf, id), id,
+                      detail::higher_in_others(esdf.layout, basins.basin, critical[i])};
       },
       64);
-  std::erase_if(voxels, [](const CriticalVoxel& v) { return v.higher == 0; });
-  std::sort(voxels.begin(), voxels.end(),
-            [](const CriticalVoxel& a, const CriticalVoxel& b) { return a.height > b.height; });
-  return voxels;
+  std::erase_if(saddles, [](const Saddle& s) { return s.higher == 0; });
+  std::sort(saddles.begin(), saddles.end(),
+            [](const Saddle& a, const Saddle& b) { return a.height > b.height; });
+  return saddles;
 }
 
 /// Kruskal over the voxels from the top down. A pass that is narrower than both its ends
@@ -77,22 +66,22 @@ std::vector<CriticalVoxel> order_critical(const EsdfMap& esdf, const VoxelMask& 
 /// moves to a part of their higher neighbours one (3), none to their own basin (4), dips wait (5).
 class PassFinder {
  public:
-  PassFinder(const EsdfMap& esdf, SquaredHalves threshold, Basins& basins)
-      : esdf_(esdf),
+  PassFinder(const RememberedSpace& space, SquaredHalves threshold, Basins& basins)
+      : esdf_(space.map()),
         threshold_(threshold),
         basins_(basins),
         sets_(basins.peaks.size()),
-        space_(esdf),
-        waiting_(NarrowerPass{&esdf.layout}) {
+        space_(space),
+        waiting_(NarrowerPass{&esdf_.layout}) {
     basins_.dynamics.assign(basins_.peaks.size(), std::numeric_limits<double>::infinity());
     highest_.resize(basins_.peaks.size());
     std::iota(highest_.begin(), highest_.end(), 0u);
   }
 
-  void run(const std::vector<CriticalVoxel>& voxels) {
-    for (const CriticalVoxel& voxel : voxels) {
-      join_waiting(esdf_.squared[voxel.id]);
-      for_each_part(voxel.higher, [&](Cube27 part) { connect(voxel.id, part); });
+  void run(const std::vector<Saddle>& saddles) {
+    for (const Saddle& saddle : saddles) {
+      join_waiting(esdf_.squared[saddle.id]);
+      for_each_part(saddle.higher, [&](Cube27 part) { connect(saddle.id, part); });
     }
     join_waiting(SquaredHalves());
   }
@@ -146,23 +135,33 @@ class PassFinder {
   const SquaredHalves threshold_;  // of the narrowest pass that counts
   Basins& basins_;
   DisjointSets sets_;
-  FreeSpace space_;
+  const RememberedSpace& space_;
   std::vector<std::uint32_t> highest_;  // by set: the basin of its highest peak
   std::priority_queue<Pass, std::vector<Pass>, NarrowerPass> waiting_;
 };
 
 }  // namespace
 
-Basins detail::find_passes(const EsdfMap& esdf, const VoxelMask& traversable, double radius,
-                           Watershed watershed) {
-  const SquaredHalves threshold = least_clearance(radius, esdf.voxel_size);
-  PassFinder(esdf, threshold, watershed.basins)
-      .run(order_critical(esdf, traversable, watershed.basins, watershed.critical));
+Cube27 detail::higher_in_others(const BlockLayout& layout, const BasinNumbers& basin,
+                                const CriticalVoxel& voxel) {
+  Cube27 joining = 0;
+  for_each_part(voxel.higher, [&](Cube27 part) {
+    const VoxelId other = layout.neighbour(voxel.id, std::countr_zero(cells_to_join(part)));
+    if (basin[voxel.id] != basin[other]) joining |= part;
+  });
+  return joining;
+}
+
+Basins detail::find_passes(const RememberedSpace& space, double radius, Watershed watershed) {
+  const SquaredHalves threshold = least_clearance(radius, space.map().voxel_size);
+  PassFinder(space, threshold, watershed.basins)
+      .run(find_saddles(space.map(), watershed.basins, watershed.critical));
   return std::move(watershed.basins);
 }
 
 Basins find_basins(const EsdfMap& esdf, const VoxelMask& traversable, double radius) {
-  return detail::find_passes(esdf, traversable, radius, detail::find_watershed(esdf, traversable));
+  return detail::find_passes(detail::RememberedSpace(esdf, nullptr), radius,
+                             detail::find_watershed(esdf, traversable));
 }
 
 }  // namespace ridgeway

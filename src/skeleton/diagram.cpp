@@ -3,6 +3,7 @@
 #include "ridgeway/skeleton/diagram.hpp"
 
 #include "edge_hooks.hpp"
+#include "join_diagram.hpp"
 #include "kernel_joiner.hpp"
 #include "redundant_voxels.hpp"
 
@@ -19,12 +20,19 @@ VoxelMask united(VoxelMask a, const VoxelMask& b) {
 
 VoxelMask join_diagram(const EsdfMap& esdf, const VoxelMask& edges, const VoxelMask& kernel,
                        double min_clearance, Basins& basins) {
+  return detail::join_diagram(detail::RememberedSpace(esdf, nullptr), edges, kernel, min_clearance,
+                              basins);
+}
+
+VoxelMask detail::join_diagram(const RememberedSpace& space, const VoxelMask& edges,
+                               const VoxelMask& kernel, double min_clearance, Basins& basins) {
+  const EsdfMap& esdf = space.map();
   const SquaredHalves threshold = least_clearance(min_clearance, esdf.voxel_size);
-  VoxelMask diagram = detail::join_kernel(esdf, kernel, threshold, basins);
+  VoxelMask diagram = join_kernel(space, kernel, threshold, basins);
   VoxelMask all = united(edges, diagram);
   open_shells(esdf, all, diagram);  // thins edges onto the curves that they touch
-  detail::hook_edges(esdf, all, threshold, basins, diagram);
-  detail::remove_redundant_voxels(esdf, threshold, basins, diagram);
+  hook_edges(space, all, threshold, basins, diagram);
+  remove_redundant_voxels(space, threshold, basins, diagram);
   return diagram;
 }
 

@@ -3,13 +3,15 @@
 #include "edge_hooks.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <queue>
-#include <unordered_map>
+#include <span>
 #include <vector>
 
-#include "ridgeway/esdf/free_space.hpp"
+#include "by_height.hpp"
 #include "voxel/disjoint_sets.hpp"
+#include "voxel/flat_table.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -19,21 +21,18 @@ constexpr double kPatience = 1.0;        // voxels of clearance a piece may sink
 
 class EdgeHooks {
  public:
-  EdgeHooks(const EsdfMap& esdf, SquaredHalves threshold, const Basins& basins, VoxelMask& diagram)
-      : esdf_(esdf),
-        layout_(esdf.layout),
+  EdgeHooks(const RememberedSpace& space, SquaredHalves threshold, const Basins& basins,
+            VoxelMask& diagram)
+      : esdf_(space.map()),
+        layout_(esdf_.layout),
         threshold_(threshold),
         basins_(basins),
-        space_(esdf),
+        space_(space),
         exact_(diagram),
         diagram_(diagram) {}
 
   void run(const VoxelMask& edges) {
-    std::vector<VoxelId> voxels = edges.members(layout_);
-    std::sort(voxels.begin(), voxels.end(), [&](VoxelId a, VoxelId b) {
-      return std::pair(esdf_.squared[b], layout_.order_of(a)) <
-             std::pair(esdf_.squared[a], layout_.order_of(b));
-    });
+    const std::vector<VoxelId> voxels = highest_first(esdf_, edges);
     piece_.reserve(voxels.size());
     for (const VoxelId id : voxels) {
       sink_to(esdf_.squared[id]);
@@ -80,19 +79,20 @@ class EdgeHooks {
       SquaredHalves width;
       VoxelId other;
     };
-    std::vector<Move> moves;
+    std::array<Move, 26> moves;
+    std::size_t count = 0;
     bool alone = true;
     for (Cube27 cube = cube_around(layout_, diagram_, id) & kCells26; cube != 0; cube &= cube - 1) {
       const int d = std::countr_zero(cube);
       const VoxelId other = layout_.neighbour(id, d);
       const SquaredHalves width = space_.move_clearance(id, other, d);
-      if (width >= threshold_) moves.push_back({width, other});
+      if (width >= threshold_) moves[count++] = {width, other};
       alone &= width < level;
     }
     if (alone && steps_to_diagram(id) <= kBesideSteps) return;
-    piece_[id] = piece;
+    piece_.add(id, mixed(id), piece);
     diagram_.set(id);
-    for (const Move& move : moves) {
+    for (const Move& move : std::span(moves).first(count)) {
       if (move.width >= level) {
         connect(id, move.other);
       } else {
@@ -103,13 +103,14 @@ class EdgeHooks {
     if (!is_hooked(id)) events_.push({std::max(SquaredHalves(sunk * sunk), threshold_), id, id});
   }
 
-  bool is_hooked(VoxelId id) { return exact_.test(id) || hooked_[pieces_.find(piece_.at(id))]; }
+  std::uint32_t piece_of(VoxelId id) const { return *piece_.find(id, mixed(id)); }
+  bool is_hooked(VoxelId id) { return exact_.test(id) || hooked_[pieces_.find(piece_of(id))]; }
 
   void connect(VoxelId a, VoxelId b) {
     if (exact_.test(a)) std::swap(a, b);
     const bool hooked = is_hooked(a) || is_hooked(b);
-    std::uint32_t piece = pieces_.find(piece_.at(a));
-    if (!exact_.test(b)) piece = pieces_.join(piece, piece_.at(b));
+    std::uint32_t piece = pieces_.find(piece_of(a));
+    if (!exact_.test(b)) piece = pieces_.join(piece, piece_of(b));
     hooked_[piece] = hooked;
   }
 
@@ -127,7 +128,7 @@ class EdgeHooks {
     while (true) {
       const VoxelId next = after(id);
       if (!diagram_.test(next)) {
-        piece_[next] = pieces_.add();
+        piece_.add(next, mixed(next), pieces_.add());
         hooked_.push_back(false);
         diagram_.set(next);
       }
@@ -142,20 +143,20 @@ class EdgeHooks {
   const BlockLayout& layout_;
   const SquaredHalves threshold_;
   const Basins& basins_;
-  FreeSpace space_;
+  const RememberedSpace& space_;
   const VoxelMask exact_;  // the diagram as it was: everything on it is connected
   VoxelMask& diagram_;
   DisjointSets pieces_{0};
   std::vector<bool> hooked_;  // by piece: connected with the exact diagram
-  std::unordered_map<VoxelId, std::uint32_t> piece_;
+  FlatTable<VoxelId, std::uint32_t> piece_;
   std::priority_queue<Event, std::vector<Event>, Later> events_{Later{&layout_}};
 };
 
 }  // namespace
 
-void hook_edges(const EsdfMap& esdf, const VoxelMask& edges, SquaredHalves threshold,
+void hook_edges(const RememberedSpace& space, const VoxelMask& edges, SquaredHalves threshold,
                 const Basins& basins, VoxelMask& diagram) {
-  EdgeHooks(esdf, threshold, basins, diagram).run(edges);
+  EdgeHooks(space, threshold, basins, diagram).run(edges);
 }
 
 }  // namespace ridgeway::detail

@@ -124,7 +124,8 @@ std::vector<VoxelId> piercing_places(const EsdfMap& esdf, const std::vector<Voxe
 VoxelMask significant_peaks(const EsdfMap& esdf, const Basins& basins) {
   VoxelMask peaks(esdf.layout);
   for (std::size_t i = 0; i < basins.peaks.size(); ++i)
-    if (basins.dynamics[i] >= kSignificantDynamics) peaks.set(basins.peaks[i]);
+    if (basins.peaks[i] != kNoVoxel && basins.dynamics[i] >= kSignificantDynamics)
+      peaks.set(basins.peaks[i]);
   return peaks;
 }
 

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <queue>
-#include <unordered_map>
 #include <vector>
 
-#include "ridgeway/esdf/free_space.hpp"
+#include "by_height.hpp"
 #include "voxel/disjoint_sets.hpp"
+#include "voxel/flat_table.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -23,24 +23,21 @@ namespace {
 /// at the level reached (2) is so at all above (3), and moves that dip (4).
 class KernelJoiner {
  public:
-  KernelJoiner(const EsdfMap& esdf, SquaredHalves threshold, Basins& basins)
-      : esdf_(esdf),
-        layout_(esdf.layout),
+  KernelJoiner(const RememberedSpace& space, SquaredHalves threshold, Basins& basins)
+      : esdf_(space.map()),
+        layout_(esdf_.layout),
         threshold_(threshold),
         basins_(basins),
-        space_(esdf),
+        space_(space),
         regions_(basins.peaks.size()),
         anchored_(basins.peaks.size(), false),
         pieces_(0),
-        moves_(NarrowerPass{&esdf.layout}),
-        diagram_(esdf.layout) {}
+        moves_(NarrowerPass{&layout_}),
+        diagram_(layout_) {}
 
   VoxelMask run(const VoxelMask& wanted) {
-    std::vector<VoxelId> voxels = wanted.members(layout_);
-    std::sort(voxels.begin(), voxels.end(), [&](VoxelId a, VoxelId b) {
-      return std::pair(esdf_.squared[b], layout_.order_of(a)) <
-             std::pair(esdf_.squared[a], layout_.order_of(b));
-    });
+    const std::vector<VoxelId> voxels = highest_first(esdf_, wanted);
+    piece_.reserve(2 * voxels.size());
     std::size_t pass = 0;
     const auto sink_to = [&](SquaredHalves level) {
       while (true) {
@@ -50,7 +47,7 @@ class KernelJoiner {
             pass < basins_.passes.size() ? basins_.passes[pass].clearance : kNone;
         if (std::max(move, next_pass) <= level) return;
         if (move >= next_pass) {
-          pieces_.join(piece_.at(moves_.top().from), piece_.at(moves_.top().to));
+          pieces_.join(piece_of(moves_.top().from), piece_of(moves_.top().to));
           moves_.pop();
         } else {
           cross(basins_.passes[pass++]);
@@ -95,13 +92,14 @@ class KernelJoiner {
   /// Takes a voxel into the diagram and connects it with the neighbours there, at once where the
   /// move is at least as wide as `level`, later where it is narrower but legal.
   void add_to_diagram(VoxelId id, SquaredHalves level) {
-    const std::uint32_t piece = piece_.try_emplace(id, pieces_.add()).first->second;
+    const std::uint32_t piece = pieces_.add();
+    piece_.add(id, mixed(id), piece);
     for (Cube27 cube = cube_around(layout_, diagram_, id) & kCells26; cube != 0; cube &= cube - 1) {
       const int d = std::countr_zero(cube);
       const VoxelId other = layout_.neighbour(id, d);
       const SquaredHalves width = space_.move_clearance(id, other, d);
       if (width >= level) {
-        pieces_.join(piece, piece_.at(other));
+        pieces_.join(piece, piece_of(other));
       } else if (width >= threshold_) {
         moves_.push({width, id, other});
       }
@@ -109,15 +107,16 @@ class KernelJoiner {
     diagram_.set(id);
   }
 
+  std::uint32_t piece_of(VoxelId id) const { return *piece_.find(id, mixed(id)); }
   bool same_piece(VoxelId a, VoxelId b) {
-    return pieces_.find(piece_.at(a)) == pieces_.find(piece_.at(b));
+    return pieces_.find(piece_of(a)) == pieces_.find(piece_of(b));
   }
 
   /// Adds all of a way that is nowhere narrower than `level`; it ends on the diagram.
   void add_way(const std::vector<VoxelId>& way, SquaredHalves level) {
     for (std::size_t i = way.size(); i-- > 0;) {
       if (!diagram_.test(way[i])) add_to_diagram(way[i], level);
-      if (i + 1 < way.size()) pieces_.join(piece_.at(way[i]), piece_.at(way[i + 1]));
+      if (i + 1 < way.size()) pieces_.join(piece_of(way[i]), piece_of(way[i + 1]));
     }
   }
 
@@ -145,7 +144,7 @@ class KernelJoiner {
       if (!same_piece(left.back(), right.back())) {
         add_way(left, pass.clearance);
         add_way(right, pass.clearance);
-        pieces_.join(piece_.at(from), piece_.at(to));
+        pieces_.join(piece_of(from), piece_of(to));
       }
     } else {
       if (anchored_[b]) std::swap(from, to);
@@ -165,11 +164,11 @@ class KernelJoiner {
   const BlockLayout& layout_;
   const SquaredHalves threshold_;
   Basins& basins_;
-  FreeSpace space_;
+  const RememberedSpace& space_;
   DisjointSets regions_;        // of basins
   std::vector<bool> anchored_;  // by region: holds a diagram voxel
   DisjointSets pieces_;         // of diagram voxels
-  std::unordered_map<VoxelId, std::uint32_t> piece_;
+  FlatTable<VoxelId, std::uint32_t> piece_;
   std::priority_queue<Pass, std::vector<Pass>, NarrowerPass>
       moves_;  // legal but narrower than ends
   VoxelMask diagram_;
@@ -177,9 +176,9 @@ class KernelJoiner {
 
 }  // namespace
 
-VoxelMask join_kernel(const EsdfMap& esdf, const VoxelMask& kernel, SquaredHalves threshold,
-                      Basins& basins) {
-  return KernelJoiner(esdf, threshold, basins).run(kernel);
+VoxelMask join_kernel(const RememberedSpace& space, const VoxelMask& kernel,
+                      SquaredHalves threshold, Basins& basins) {
+  return KernelJoiner(space, threshold, basins).run(kernel);
 }
 
 }  // namespace ridgeway::detail

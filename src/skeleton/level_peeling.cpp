@@ -115,9 +115,10 @@ VoxelId voxel_of_turn(std::uint64_t turn) {
 class LevelPeeling {
  public:
   LevelPeeling(const EsdfMap& esdf, const VoxelMask& traversable, VoxelMask not_simple,
-               const VoxelMask& keep)
+               const VoxelMask& keep, std::vector<LateVoxel>* late)
       : esdf_(esdf),
         keep_(keep),
+        late_(late),
         around_(esdf, traversable, not_simple),
         queued_(std::move(not_simple)),
         left_(esdf.layout) {
@@ -162,8 +163,10 @@ class LevelPeeling {
     std::vector<VoxelId> work = neighbours_of(esdf_.layout, left_, deleted);
     for (const VoxelId id : stayed)  // a neighbour that went unseen
       if ((around_.of(id).equal & ~cube_around(esdf_.layout, left_, id)) != 0) work.push_back(id);
-    while (!work.empty()) {
+    for (std::uint32_t round = 1; !work.empty(); ++round) {
       ask_again(work, level, deleted);
+      if (late_ != nullptr)
+        for (const VoxelId id : deleted) late_->push_back({id, level, round});
       work = neighbours_of(esdf_.layout, left_, deleted);
     }
   }
@@ -209,6 +212,7 @@ class LevelPeeling {
 
   const EsdfMap& esdf_;
   const VoxelMask& keep_;
+  std::vector<LateVoxel>* const late_;
   const KnownNeighbours around_;
   VoxelMask queued_;  // those whose turn is, or has been, played
   VoxelMask left_;    // those whose first turn is over and that are still there
@@ -220,10 +224,10 @@ class LevelPeeling {
 }  // namespace
 
 VoxelMask peel_levels(const EsdfMap& esdf, const VoxelMask& traversable, VoxelMask not_simple,
-                      const VoxelMask& keep) {
+                      const VoxelMask& keep, std::vector<LateVoxel>* late) {
   for (std::uint32_t slot = 0; slot < keep.block_count(); ++slot)
     for (std::size_t z = 0; z < kBlockSide; ++z) not_simple.block(slot)[z] |= keep.block(slot)[z];
-  return LevelPeeling(esdf, traversable, std::move(not_simple), keep).run();
+  return LevelPeeling(esdf, traversable, std::move(not_simple), keep, late).run();
 }
 
 }  // namespace ridgeway::detail

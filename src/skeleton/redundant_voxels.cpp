@@ -6,8 +6,8 @@
 #include <array>
 #include <vector>
 
+#include "by_height.hpp"
 #include "parallel_deletion.hpp"
-#include "ridgeway/esdf/free_space.hpp"
 #include "simple_point.hpp"
 
 namespace ridgeway::detail {
@@ -20,20 +20,20 @@ struct Neighbour {
 };
 
 /// Width of the move between two neighbours of a voxel, or 0 where they are not adjacent.
-SquaredHalves width_between(const FreeSpace& space, const Neighbour& a, const Neighbour& b) {
+SquaredHalves width_between(const RememberedSpace& space, const Neighbour& a, const Neighbour& b) {
   const VoxelIndex o = offset_of(b.direction) - offset_of(a.direction);
   if (std::max({std::abs(o.x), std::abs(o.y), std::abs(o.z)}) > 1) return SquaredHalves();
   return space.move_clearance(a.id, b.id, direction_of(o));
 }
 
 /// Whether each pair of neighbours is connected without the centre as widely as over it.
-bool can_do_without(const EsdfMap& esdf, const FreeSpace& space, SquaredHalves threshold,
-                    VoxelId id, Cube27 cube) {
+bool can_do_without(const RememberedSpace& space, SquaredHalves threshold, VoxelId id,
+                    Cube27 cube) {
   std::array<Neighbour, 26> neighbours;
   std::size_t count = 0;
   for (Cube27 cells = cube & kCells26; cells != 0; cells &= cells - 1) {
     const int d = std::countr_zero(cells);
-    const VoxelId other = esdf.layout.neighbour(id, d);
+    const VoxelId other = space.map().layout.neighbour(id, d);
     const SquaredHalves width = space.move_clearance(id, other, d);
     if (width >= threshold) neighbours[count++] = {other, d, width};
   }
@@ -64,21 +64,18 @@ bool can_do_without(const EsdfMap& esdf, const FreeSpace& space, SquaredHalves t
 
 }  // namespace
 
-void remove_redundant_voxels(const EsdfMap& esdf, SquaredHalves threshold, const Basins& basins,
-                             VoxelMask& diagram) {
-  const FreeSpace space(esdf);
+void remove_redundant_voxels(const RememberedSpace& space, SquaredHalves threshold,
+                             const Basins& basins, VoxelMask& diagram) {
+  const EsdfMap& esdf = space.map();
   std::vector<VoxelId> work = diagram.members(esdf.layout);
   while (!work.empty()) {
-    std::sort(work.begin(), work.end(), [&](VoxelId a, VoxelId b) {
-      return std::pair(esdf.squared[a], esdf.layout.order_of(a)) <
-             std::pair(esdf.squared[b], esdf.layout.order_of(b));
-    });
+    sort_lowest_first(esdf, work);
     std::vector<VoxelId> deleted;
     for (const VoxelId id : work) {
       if (basins.next[id] == kCentre) continue;
       const Cube27 cube = cube_around(esdf.layout, diagram, id);
       if (!is_simple(cube) || is_curve_end(cube)) continue;
-      if (!can_do_without(esdf, space, threshold, id, cube)) continue;
+      if (!can_do_without(space, threshold, id, cube)) continue;
       diagram.reset(id);
       deleted.push_back(id);
     }

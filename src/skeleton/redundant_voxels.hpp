@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
-#include "ridgeway/esdf/esdf.hpp"
+#include "esdf/remembered_space.hpp"
 #include "ridgeway/skeleton/basins.hpp"
 
 namespace ridgeway::detail {
@@ -10,7 +10,7 @@ namespace ridgeway::detail {
 /// Deletes diagram voxels, lowest first, that are simple, end no curve, and whose neighbours stay
 /// connected among themselves by legal moves that are at least as wide as those over the voxel.
 /// Voxels at which ways end (`basins.next` is kCentre) stay.
-void remove_redundant_voxels(const EsdfMap& esdf, SquaredHalves threshold, const Basins& basins,
-                             VoxelMask& diagram);
+void remove_redundant_voxels(const RememberedSpace& space, SquaredHalves threshold,
+                             const Basins& basins, VoxelMask& diagram);
 
 }  // namespace ridgeway::detail

@@ -8,7 +8,6 @@
 #include <array>
 #include <atomic>
 #include <cassert>
-#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -69,34 +68,6 @@ constexpr std::array<Cube27, kBlockVoxels> kLeaving = [] {
 
 bool leaves_block(VoxelId place, Direction next) { return (kLeaving[place] >> next & 1) != 0; }
 
-/// The direction from a block to the one that a step out of it leads to.
-int block_direction(VoxelId place, Direction next) {
-  const BlockIndex block = block_of(voxel_of({}, static_cast<int>(place)) + offset_of(next));
-  return direction_of({block.x, block.y, block.z});
-}
-
-/// Where each place's way ends as long as it stays in the block.
-std::array<std::uint16_t, kBlockVoxels> ends_in_block(const VoxelMask& traversable,
-                                                      std::uint32_t slot, const Direction* next) {
-  std::array<std::uint16_t, kBlockVoxels> end;
-  for (std::uint16_t i = 0; i < kBlockVoxels; ++i) end[i] = i;
-  for_each_member(traversable, slot, [&](VoxelId id) {
-    const VoxelId place = id % kBlockVoxels;
-    if (has_neighbour_in_block(place, next[place]))
-      end[place] = static_cast<std::uint16_t>(neighbour_in_block(place, next[place]));
-  });
-  for (bool again = true; again;) {  // each round doubles the steps that are known
-    unsigned changed = 0;
-    for (std::uint16_t& e : end) {
-      const std::uint16_t further = end[e];
-      changed |= e ^ further;
-      e = further;
-    }
-    again = changed != 0;
-  }
-  return end;
-}
-
 /// Finds the basins of whole blocks, those first that lie high: the ways of others lead there.
 /// Whatever a thread sees of what others have found, it finds the same.
 class BasinFinder {
@@ -133,21 +104,9 @@ class BasinFinder {
   void number(std::uint32_t slot) {
     const std::uint32_t only = ways_[slot].has_peak ? kNone : basin_of_all_exits(slot);
     if (only != kNone) return set_known(slot, only);
-    BasinNumbers::InBlock found;
-    const Direction* next = basins_.next.block(slot);
-    const std::array<std::uint16_t, kBlockVoxels> end = ends_in_block(traversable_, slot, next);
-    std::array<std::uint16_t, kBlockVoxels> place_of_end{};
-    for_each_member(traversable_, slot, [&](VoxelId id) {
-      const VoxelId place = id % kBlockVoxels;
-      if (end[place] != place) return;
-      const std::uint32_t basin = follow(id);
-      const auto same = std::find(found.basins.begin(), found.basins.end(), basin);
-      place_of_end[place] = static_cast<std::uint16_t>(same - found.basins.begin());
-      if (same == found.basins.end()) found.basins.push_back(basin);
-    });
+    BasinNumbers::InBlock found = basins_in_block(traversable_, slot, basins_.next.block(slot),
+                                                  [&](VoxelId id) { return follow(id); });
     if (found.basins.size() == 1) return set_known(slot, found.basins[0]);
-    found.place.resize(kBlockVoxels);
-    for (std::size_t i = 0; i < kBlockVoxels; ++i) found.place[i] = place_of_end[end[i]];
     basins_.basin.several[slot] = std::move(found);
     set_known(slot, BasinNumbers::kSeveral);
   }
@@ -195,6 +154,32 @@ class BasinFinder {
 
 }  // namespace
 
+int block_direction(VoxelId place, Direction next) {
+  const BlockIndex block = block_of(voxel_of({}, static_cast<int>(place)) + offset_of(next));
+  return direction_of({block.x, block.y, block.z});
+}
+
+std::array<std::uint16_t, kBlockVoxels> ends_in_block(const VoxelMask& traversable,
+                                                      std::uint32_t slot, const Direction* next) {
+  std::array<std::uint16_t, kBlockVoxels> end;
+  for (std::uint16_t i = 0; i < kBlockVoxels; ++i) end[i] = i;
+  for_each_member(traversable, slot, [&](VoxelId id) {
+    const VoxelId place = id % kBlockVoxels;
+    if (has_neighbour_in_block(place, next[place]))
+      end[place] = static_cast<std::uint16_t>(neighbour_in_block(place, next[place]));
+  });
+  for (bool again = true; again;) {  // each round doubles the steps that are known
+    unsigned changed = 0;
+    for (std::uint16_t& e : end) {
+      const std::uint16_t further = end[e];
+      changed |= e ^ further;
+      e = further;
+    }
+    again = changed != 0;
+  }
+  return end;
+}
+
 void LocalWays::grow(const BlockLayout& layout) {
   next.grow(layout, kNotTraversable);
   not_simple_at_first_turn.grow(layout);
@@ -228,7 +213,7 @@ void look_at_blocks(const EsdfMap& esdf, const VoxelMask& traversable,
             ways.next[first + x] = static_cast<Direction>(steepest[x]);
             own.has_peak |= steepest[x] == kCentre;
             own.top = std::max(own.top, esdf.squared[first + x]);
-            if (!answers.of(higher[x]).is_regular) own.critical.push_back(first + x);
+            if (!answers.of(higher[x]).is_regular) own.critical.push_back({first + x, higher[x]});
             if (!answers.of(later[x]).is_simple) ways.not_simple_at_first_turn.set(first + x);
           }
         });
@@ -241,12 +226,11 @@ Watershed watershed_of(const EsdfMap& esdf, const VoxelMask& traversable,
   Watershed watershed{std::move(local), {}};
   Basins& basins = watershed.basins;
   for (std::uint32_t rank = 0; rank < blocks.size(); ++rank) {
-    const std::vector<VoxelId>& critical = blocks[esdf.layout.slot_at(rank)].critical;
+    const std::vector<CriticalVoxel>& critical = blocks[esdf.layout.slot_at(rank)].critical;
     watershed.critical.insert(watershed.critical.end(), critical.begin(), critical.end());
   }
-  std::copy_if(watershed.critical.begin(), watershed.critical.end(),
-               std::back_inserter(basins.peaks),
-               [&](VoxelId id) { return basins.next[id] == kCentre; });
+  for (const CriticalVoxel& voxel : watershed.critical)
+    if (basins.next[voxel.id] == kCentre) basins.peaks.push_back(voxel.id);
   BasinFinder(esdf, traversable, blocks, basins).run();
   return watershed;
 }

@@ -52,6 +52,22 @@ class CubeGather {
     return cube;
   }
 
+  /// The voxels of this block that are members or beside one.
+  VoxelMask::Block dilated() const {
+    VoxelMask::Block block;
+    for (std::size_t z = 0; z < kBlockSide; ++z) {
+      block[z] = 0;
+      for (std::size_t y = 0; y < kBlockSide; ++y) {
+        unsigned row = 0;
+        for (std::size_t dz = 0; dz < 3; ++dz)
+          for (std::size_t dy = 0; dy < 3; ++dy) row |= rows_[10 * (z + dz) + y + dy];
+        row |= row << 1 | row >> 1;
+        block[z] |= std::uint64_t{row >> 1 & 0xffu} << 8 * y;
+      }
+    }
+    return block;
+  }
+
  private:
   std::array<std::uint16_t, 100> rows_;
 };

@@ -36,7 +36,8 @@ VoxelId plain_peak(const EsdfMap& esdf, const VoxelMask& traversable, VoxelId id
 
 void expect_to_be_what_every_voxel_sees(const EsdfMap& esdf, const VoxelMask& traversable) {
   const detail::Watershed watershed = detail::find_watershed(esdf, traversable);
-  std::vector<VoxelId> critical, peaks;
+  std::vector<detail::CriticalVoxel> critical;
+  std::vector<VoxelId> peaks;
   for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id) {
     if (!traversable.test(id)) {
       ASSERT_EQ(watershed.basins.next[id], kNotTraversable);
@@ -53,7 +54,7 @@ void expect_to_be_what_every_voxel_sees(const EsdfMap& esdf, const VoxelMask& tr
     ASSERT_EQ(watershed.basins.peaks[watershed.basins.basin[id]],
               plain_peak(esdf, traversable, id));
     ASSERT_EQ(watershed.basins.not_simple_at_first_turn.test(id), !is_simple(later));
-    if (!detail::is_regular(higher)) critical.push_back(id);
+    if (!detail::is_regular(higher)) critical.push_back({id, higher});
     if (watershed.basins.next[id] == kCentre) peaks.push_back(id);
   }
   ASSERT_EQ(watershed.critical, critical);
@@ -123,8 +124,8 @@ TEST(KernelJoiner, ConnectsAtEveryClearanceWhatSpaceConnectsThere) {
     for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
       if (traversable.test(id) && random() % 4096 < kWanted[seed % 4]) wanted.set(id);
     Basins basins = find_basins(esdf, traversable, 0.05);
-    const VoxelMask diagram =
-        detail::join_kernel(esdf, wanted, least_clearance(0.05, esdf.voxel_size), basins);
+    const VoxelMask diagram = detail::join_kernel(detail::RememberedSpace(esdf, nullptr), wanted,
+                                                  least_clearance(0.05, esdf.voxel_size), basins);
     for (double radius = 0.05; radius < 0.6; radius *= 1.12) {
       SCOPED_TRACE(std::to_string(seed) + " " + std::to_string(radius));
       const Regions space = regions_at(esdf, radius);

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -39,6 +40,8 @@ struct BasinNumbers {
   struct InBlock {
     std::vector<std::uint32_t> basins;  ///< that meet in the block
     std::vector<std::uint16_t> place;   ///< among those, by voxel
+
+    friend bool operator==(const InBlock&, const InBlock&) = default;
   };
   std::vector<std::uint32_t>
       whole;                     ///< by block; kSeveral: by voxel; any where none is traversable
@@ -60,12 +63,15 @@ struct BasinNumbers {
 struct Basins {
   VoxelField<Direction> next;    ///< towards the peak; kCentre at a peak
   BasinNumbers basin;            ///< of the voxel
-  std::vector<VoxelId> peaks;    ///< by basin, in the order of voxels
+  std::vector<VoxelId> peaks;    ///< by basin; kNoVoxel for a number that no basin has
   std::vector<double> dynamics;  ///< by basin: height above its pass to a higher peak, voxels
   std::vector<Pass> passes;      ///< widest first
   /// Voxels that compute_kernel cannot delete at their first turn, even if all it asks before went.
   VoxelMask not_simple_at_first_turn;
-  std::size_t components() const { return peaks.size() - passes.size(); }
+  std::size_t components() const {
+    const auto unused = std::count(peaks.begin(), peaks.end(), kNoVoxel);
+    return peaks.size() - static_cast<std::size_t>(unused) - passes.size();
+  }
 };
 
 /// `traversable`: the voxels free at `radius`; only moves that are free at it count.

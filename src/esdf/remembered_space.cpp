@@ -6,43 +6,51 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace ridgeway::detail {
 namespace {
 
-constexpr double kAround = 4.0;  // voxels beyond what decides in which distances are looked up
+/// Voxels beyond what decides in which distances are looked up: a march reads those of voxels that
+/// the segment touches, whose nearest obstacles are no more than a voxel's diagonal farther from it
+/// than the nearest of all, and looks at obstacles no farther than that.
+constexpr double kAround = 4.0;
 constexpr std::size_t kAnswersABlock = 20;
 // Questions about one segment differ by a number: a radius above 0 (is it free at that?), a length
-// below 0 (the clearance, at most as much), or one of these.
-constexpr double kClearance = -std::numeric_limits<double>::infinity(), kMove = 0.0;
+// below 0 (the clearance, at most as much), or this one.
+constexpr double kClearance = -std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-std::size_t SegmentMemory::hash_of_question(const Question& question) noexcept {
+std::uint64_t SegmentMemory::hash_of(const OfSegment& question) noexcept {
   std::uint64_t hash = 0;
-  for (const double part : question) {
-    hash = (hash ^ std::bit_cast<std::uint64_t>(part)) * 0x9e3779b97f4a7c15ull;
-    hash ^= hash >> 29;
-  }
+  for (const double part : question) hash = mixed(hash ^ std::bit_cast<std::uint64_t>(part));
   return hash;
 }
 
+/// body(answers) for those of each kind of question in each shard.
+template <typename Body>
+void SegmentMemory::for_each_kind(const Body& body) {
+  for (Shard& shard : shards_)
+    std::apply([&](auto&... answers) { (body(answers), ...); }, shard.answers);
+}
+
 void SegmentMemory::forget_unasked() {
-  for (Shard& shard : shards_) Answers().swap(shard.before);
+  for_each_kind([](auto& answers) { answers.before.clear(); });
 }
 
 void SegmentMemory::forget() {
-  for (Shard& shard : shards_) {
-    shard.now.clear();
-    shard.before.clear();
-  }
+  for_each_kind([](auto& answers) {
+    answers.now.clear();
+    answers.before.clear();
+  });
 }
 
 void SegmentMemory::change(const BlockLayout& layout, std::span<const std::uint32_t> changed) {
-  for (Shard& shard : shards_) {
-    shard.before.swap(shard.now);
-    shard.now.clear();
-  }
+  for_each_kind([](auto& answers) {
+    std::swap(answers.before, answers.now);
+    answers.now.clear();
+  });
   most_answers_ = kAnswersABlock * layout.block_count() / kShards + 1;
   sums_.clear();
   extent_ = {};
@@ -109,40 +117,40 @@ bool SegmentMemory::touches_change(const Point& low, const Point& high) const {
   return layer(z1) != layer(z0 - 1);
 }
 
-/// At least the distance to the nearest obstacle, metres.
-double RememberedSpace::farthest_obstacle(const Point& p) const {
-  const VoxelId id = esdf_.layout.find(voxel_at(p, esdf_.voxel_size));
-  const double at_centre = id == kNoVoxel ? 0.0 : esdf_.distance(id);
-  return std::min(at_centre + esdf_.voxel_size, esdf_.max_distance + 2.0 * esdf_.voxel_size);
-}
-
-/// `reach`: metres around the segment within which obstacles may decide.
-template <typename Find>
-double RememberedSpace::ask(double kind, const Point& a, const Point& b, double reach,
+/// `reach(answer)`: metres around the segment in which that answer's obstacles lie.
+template <typename Reach, typename Find>
+double RememberedSpace::ask(double kind, const Point& a, const Point& b, const Reach& reach,
                             const Find& find) const {
-  if (memory_ == nullptr || std::isinf(reach)) return find();
-  const Eigen::Vector3d around = Eigen::Vector3d::Constant(reach / esdf_.voxel_size + kAround);
-  return memory_->answer({kind, a.x(), a.y(), a.z(), b.x(), b.y(), b.z()},
-                         a.cwiseMin(b) / esdf_.voxel_size - around,
-                         a.cwiseMax(b) / esdf_.voxel_size + around, find);
+  if (memory_ == nullptr) return find();
+  const auto holds = [&](double answer) {
+    const Eigen::Vector3d around =
+        Eigen::Vector3d::Constant(reach(answer) / esdf_.voxel_size + kAround);
+    return !memory_->touches_change(a.cwiseMin(b) / esdf_.voxel_size - around,
+                                    a.cwiseMax(b) / esdf_.voxel_size + around);
+  };
+  return memory_->answer(SegmentMemory::OfSegment{kind, a.x(), a.y(), a.z(), b.x(), b.y(), b.z()},
+                         holds, find);
 }
 
 bool RememberedSpace::is_free(const Point& a, const Point& b, double radius) const {
-  return ask(radius, a, b, radius, [&] { return space_.is_free(a, b, radius) ? 1.0 : 0.0; }) != 0.0;
+  return ask(
+             radius, a, b, [&](double) { return radius; },
+             [&] { return space_.is_free(a, b, radius) ? 1.0 : 0.0; }) != 0.0;
 }
 
 double RememberedSpace::clearance(const Point& a, const Point& b) const {
-  const double reach = memory_ == nullptr ? 0.0
-                                          : std::min(farthest_obstacle(a), farthest_obstacle(b)) +
-                                                0.5 * (b - a).norm();
-  return ask(kClearance, a, b, reach, [&] { return space_.clearance(a, b); });
+  return ask(
+      kClearance, a, b, [](double clearance) { return clearance; },
+      [&] { return space_.clearance(a, b); });
 }
 
 double RememberedSpace::clearance(const Point& a, const Point& b, double at_most) const {
-  return ask(-at_most, a, b, at_most, [&] {
-    const std::array<Point, 2> ends{a, b};
-    return space_.clearance(ends, at_most);
-  });
+  return ask(
+      -at_most, a, b, [](double clearance) { return clearance; },
+      [&] {
+        const std::array<Point, 2> ends{a, b};
+        return space_.clearance(ends, at_most);
+      });
 }
 
 SquaredHalves RememberedSpace::move_clearance(VoxelId from, VoxelId to, int direction) const {
@@ -151,11 +159,20 @@ SquaredHalves RememberedSpace::move_clearance(VoxelId from, VoxelId to, int dire
   if (memory_ == nullptr || low == SquaredHalves(kNoSite) ||
       FreeSpace::move_bound(a, b, squared_length(direction)) >= low)
     return space_.move_clearance(from, to, direction);
-  const VoxelIndex v = esdf_.layout.index_of(from);
-  return SquaredHalves(ask(kMove, centre_of(v, esdf_.voxel_size),
-                           centre_of(v + offset_of(direction), esdf_.voxel_size),
-                           low.metres(esdf_.voxel_size),
-                           [&] { return space_.move_clearance(from, to, direction).value; }));
+  if (direction < kCentre) {  // both ways are one question
+    std::swap(from, to);
+    direction = opposite(direction);
+  }
+  const auto holds = [&](double) {
+    const VoxelIndex v = esdf_.layout.index_of(from);
+    const Point centre(v.x, v.y, v.z);
+    const double reach = 0.5 * std::sqrt(static_cast<double>(low.value)) + kAround;
+    return !memory_->touches_change(centre - Eigen::Vector3d::Constant(reach),
+                                    centre + Eigen::Vector3d::Constant(reach));
+  };
+  const SegmentMemory::OfMove move = std::uint64_t{from} << 5 | static_cast<unsigned>(direction);
+  return SquaredHalves(memory_->answer(
+      move, holds, [&] { return space_.move_clearance(from, to, direction).value; }));
 }
 
 }  // namespace ridgeway::detail

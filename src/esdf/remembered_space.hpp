@@ -6,10 +6,11 @@
 #include <cstdint>
 #include <mutex>
 #include <span>
-#include <unordered_map>
+#include <tuple>
 #include <vector>
 
 #include "ridgeway/esdf/free_space.hpp"
+#include "voxel/flat_table.hpp"
 
 namespace ridgeway::detail {
 
@@ -26,45 +27,58 @@ class SegmentMemory {
   /// Nothing is known any more.
   void forget();
 
-  /// The answer to a question, or what `find` gives. `low` and `high`: corners of the box, voxels,
-  /// that holds all that the answer depends on.
-  template <typename Find>
-  double answer(const std::array<double, 7>& question, const Point& low, const Point& high,
-                const Find& find) {
-    Shard& shard = shards_[hash_of_question(question) % kShards];
+  /// A segment and a number that says what is asked of it.
+  using OfSegment = std::array<double, 7>;
+  /// A move between neighbours: the voxel from which, 32 times, and the direction.
+  using OfMove = std::uint64_t;
+
+  /// The answer to a question, or what `find` gives. `holds(answer)`: whether the answer of before
+  /// the last change still is right.
+  template <typename Question, typename Holds, typename Find>
+  double answer(const Question& question, const Holds& holds, const Find& find) {
+    const std::uint64_t hash = hash_of(question);
+    Shard& shard = shards_[(hash >> 32) % kShards];
+    Answers<Question>& answers = std::get<Answers<Question>>(shard.answers);
     {
       const std::lock_guard lock(shard.mutex);
-      if (const auto known = shard.now.find(question); known != shard.now.end())
-        return known->second;
-      if (const auto known = shard.before.find(question);
-          known != shard.before.end() && !touches_change(low, high)) {
-        const double value = known->second;
-        shard.now.insert(shard.before.extract(known));
+      if (const double* known = answers.now.find(question, hash)) return *known;
+      if (const double* known = answers.before.find(question, hash); known && holds(*known)) {
+        const double value = *known;
+        keep(answers, question, hash, value);
         return value;
       }
     }
     const double value = find();
     const std::lock_guard lock(shard.mutex);
-    if (shard.now.size() < most_answers_) shard.now.emplace(question, value);
+    // Another thread may have found it meanwhile.
+    if (answers.now.find(question, hash) == nullptr) keep(answers, question, hash, value);
     return value;
   }
 
+  /// Whether a block has changed that a box touches; its corners are in voxels.
+  bool touches_change(const Point& low, const Point& high) const;
+
  private:
-  using Question = std::array<double, 7>;
-  static std::size_t hash_of_question(const Question& question) noexcept;
-  struct Hash {
-    std::size_t operator()(const Question& question) const noexcept {
-      return hash_of_question(question);
-    }
-  };
-  using Answers = std::unordered_map<Question, double, Hash>;
   static constexpr std::size_t kShards = 32;
+  template <typename Question>
+  struct Answers {
+    FlatTable<Question, double> now, before;
+  };
   struct Shard {
     std::mutex mutex;
-    Answers now, before;
+    std::tuple<Answers<OfSegment>, Answers<OfMove>> answers;
   };
 
-  bool touches_change(const Point& low, const Point& high) const;
+  static std::uint64_t hash_of(const OfSegment& question) noexcept;
+  static std::uint64_t hash_of(OfMove question) noexcept { return mixed(question); }
+
+  template <typename Question>
+  void keep(Answers<Question>& answers, const Question& question, std::uint64_t hash,
+            double value) {
+    if (answers.now.size() < most_answers_) answers.now.add(question, hash, value);
+  }
+  template <typename Body>
+  void for_each_kind(const Body& body);
   std::uint32_t sum_up_to(int x, int y, int z) const;
 
   std::array<Shard, kShards> shards_;
@@ -80,6 +94,8 @@ class RememberedSpace {
   RememberedSpace(const EsdfMap& esdf, SegmentMemory* memory)
       : esdf_(esdf), space_(esdf), memory_(memory) {}
 
+  const EsdfMap& map() const { return esdf_; }
+
   bool is_free(const Point& a, const Point& b, double radius) const;
   double clearance(const Point& a, const Point& b) const;
   /// Or `at_most` where it is larger.
@@ -87,9 +103,9 @@ class RememberedSpace {
   SquaredHalves move_clearance(VoxelId from, VoxelId to, int direction) const;
 
  private:
-  template <typename Find>
-  double ask(double kind, const Point& a, const Point& b, double reach, const Find& find) const;
-  double farthest_obstacle(const Point& p) const;
+  template <typename Reach, typename Find>
+  double ask(double kind, const Point& a, const Point& b, const Reach& reach,
+             const Find& find) const;
 
   const EsdfMap& esdf_;
   const FreeSpace space_;

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "ridgeway/esdf/esdf.hpp"
+#include "ridgeway/voxel/voxel_mask.hpp"
+#include "voxel/flat_table.hpp"
+
+namespace ridgeway::detail {
+
+/// How a kernel was peeled: when each voxel went. After a change of the map only those are asked
+/// again whose turn, or what they see at it, may be another; the result is that of peel_levels.
+class PeelingMemory {
+ public:
+  /// Blocks may have come since; the levels of these voxels alone may be others. `slots`: the
+  /// blocks that hold some of them.
+  void change(const BlockLayout& layout, const VoxelMask& changed,
+              std::span<const std::uint32_t> slots);
+
+  /// As peel_levels, for the map to which it has been changed. Its levels are kept, in the same
+  /// memory, which nobody may write to from then on.
+  const VoxelMask& peel(const EsdfMap& esdf, const VoxelMask& traversable,
+                        const VoxelMask& not_simple, const VoxelMask& keep);
+
+ private:
+  void peel_all(const EsdfMap& esdf, const VoxelMask& traversable, const VoxelMask& not_simple,
+                const VoxelMask& keep);
+  void peel_again(const EsdfMap& esdf, const VoxelMask& traversable, const VoxelMask& not_simple,
+                  const VoxelMask& keep);
+
+  bool knows_any_ = false;
+  VoxelMask changed_;                       // since the last peel, maybe
+  VoxelField<std::uint32_t> squared_;       // levels of that
+  VoxelMask traversable_, keep_;            // and what was peeled
+  VoxelMask left_;                          // what it left
+  VoxelMask odd_;                           // those that did not go at their first turn
+  FlatTable<VoxelId, std::uint64_t> late_;  // the turns at which those of them went that went
+};
+
+}  // namespace ridgeway::detail
