@@ -29,6 +29,8 @@ struct PlanOptions {
   std::optional<std::size_t> iteration_limit;
   std::optional<double> range;
   std::vector<Option> sampling_options;  // those that the three above come from
+  std::vector<double> datum;             // latitude, longitude, altitude; for missions
+  std::optional<double> x_heading;       // degrees
 
   Planner chosen() const { return planner_named(planner).value_or(Planner::kGraph); }
 };

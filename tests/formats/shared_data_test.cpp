@@ -34,8 +34,8 @@ TEST_F(SharedData, LayersOfTheOriginalAreWrittenAgainByteForByte) {
   }
 }
 
-TEST_F(SharedData, AGraphOfTheOriginalIsWrittenAgainByteForByte) {
-  const std::string bytes = read_whole(folder_ / "voxblox" / "house_025_sparse_graph.pb");
+TEST(BundledData, AGraphOfTheOriginalIsWrittenAgainByteForByte) {
+  const std::string bytes = read_whole(RIDGEWAY_DATA_DIR "/house_025_sparse_graph.pb");
   const VoxbloxGraph graph = read_voxblox_graph(bytes, "graph");
   EXPECT_EQ(voxblox_graph_bytes(graph), bytes);
   EXPECT_EQ(find_faults(graph).components, 4u);
@@ -56,6 +56,12 @@ TEST_F(SharedData, MeshesAreReadAsMaps) {
   for (const char* name : {"meshes/willowgarage_collision.dae", "mesh_stl/levine.stl",
                            "mesh_stl/office.stl", "mine_mesh/Edgar_Section_03.DAE"})
     EXPECT_GT(count_voxels(load_map(folder_ / name, config)).free, 10'000u) << name;
+}
+
+TEST(BundledData, AMeshOfOthersIsReadAsAMap) {
+  const VoxelCounts counts = count_voxels(load_map(RIDGEWAY_DATA_DIR "/levine.stl"));
+  EXPECT_GT(counts.free, 800'000u);
+  EXPECT_GT(counts.occupied, 100'000u);
 }
 
 TEST_F(SharedData, WhatIsNoMapIsRefusedWithAReason) {
