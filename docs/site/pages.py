@@ -82,15 +82,67 @@ def anchors(lines):
         yield name
 
 
+# --- whether it holds together ----------------------------------------------------------------------
+
+
+def faults_of_links(page, lines, names):
+    """Links to files and headings that are not there. `names`: the anchors of each page."""
+    for number, line in lines:
+        for _, _, target in LINK.findall(re.sub(CODE, "", line)):
+            path, _, name = target.partition("#")
+            if re.match(r"[a-z]+:", path):
+                continue
+            file = (page.parent / path).resolve() if path else page
+            if not file.exists():
+                yield number, f"no file {target}"
+            elif name and name not in names.get(file, ()):
+                yield number, f"no heading {target}"
+
+
+def faults_of_names(lines):
+    """Sources and headers that are named, in `code`, and are not there."""
+    for number, line in lines:
+        for code in CODE.findall(line):
+            name = code.strip("`")
+            if re.fullmatch(r"(src|apps|tests|docs|include|ridgeway|worlds|data|examples)/[\w./-]*\.(\w+)", name):
+                if not (ROOT / name).exists() and not (ROOT / "include" / name).exists():
+                    yield number, f"no file {name}"
+
+
+def faults_of_blocks(blocks):
+    for block in blocks:
+        if block.language not in LANGUAGES:
+            yield block.line, f"a fence of '{block.language}': one of {', '.join(LANGUAGES)}"
+
+
+def check():
+    """Prints what is wrong in all pages; whether nothing is."""
+    found = {page: parse(page) for page in pages()}
+    names = {page: set(anchors(line for _, line in lines)) for page, (lines, _) in found.items()}
+    layout = (ROOT / "docs/site/layout.xml").read_text(encoding="utf-8")
+    good = True
+    for page, (lines, blocks) in found.items():
+        faults = [*faults_of_links(page, lines, names), *faults_of_names(lines), *faults_of_blocks(blocks)]
+        if is_of_site(page) and f'"@ref {page_id(page)}"' not in layout:
+            faults.append((1, "is not in docs/site/layout.xml"))
+        for number, what in faults:
+            print(f"{page.relative_to(ROOT)}:{number}: {what}")
+            good = False
+    return good
+
+
 # --- as Doxygen reads it ----------------------------------------------------------------------------
+
+
+def is_of_site(page):
+    return page.parent == ROOT or ROOT / "docs" in page.parents
 
 
 def page_id(page):
     """The name of a page in the site, and of its file."""
     parts = page.relative_to(ROOT).with_suffix("").parts
-    if parts == ("README",):
-        return "mainpage"  # Doxygen's word
-    return "_".join(parts[1:] if parts[0] == "docs" else parts).lower().replace("-", "_")
+    name = "_".join(parts[1:] if parts[0] == "docs" else parts).lower().replace("-", "_")
+    return "index" if name == "readme" else name
 
 
 def section_id(page, name):
@@ -98,19 +150,30 @@ def section_id(page, name):
 
 
 def site_link(page, target):
-    """Where a link leads in the site."""
+    """Where a link leads in the site; nothing where it leads to a file of the repository alone."""
     path, _, name = target.partition("#")
     if re.match(r"[a-z]+:", path):
         return target
     file = (page.parent / path).resolve() if path else page
-    if file.suffix == ".md":
-        return "@ref " + (section_id(file, name) if name else page_id(file).replace("mainpage", "index"))
+    if file.suffix == ".md" and is_of_site(file):
+        return "@ref " + (section_id(file, name) if name else page_id(file))
     if ROOT / "examples" in file.parents:
-        return file.name.replace(".", "_8").replace("_", "__").replace("__8", "_8") + "-example.html"
-    return None  # of the repository alone
+        return file.name.replace("_", "__").replace(".", "_8") + "-example.html"
+    return None
 
 
-def filtered_line(page, line, name):
+def filtered_heading(page, line, name):
+    """With a name that links find. Those of the main page would stand in the navigation."""
+    depth, title = heading(line)
+    title = title.replace("`", "")
+    if depth == 1:
+        return f"# {title} {{#{page_id(page).replace('index', 'mainpage')}}}"
+    if page_id(page) == "index":
+        return f'<h{depth - 1} id="{section_id(page, name)}">{title}</h{depth - 1}>'
+    return f"{'#' * depth} {title} {{#{section_id(page, name)}}}"
+
+
+def filtered_line(page, line):
     def replaced(match):
         picture, text, target = match.groups()
         if picture:
@@ -118,25 +181,24 @@ def filtered_line(page, line, name):
         where = site_link(page, target)
         return f"[{text}]({where})" if where else text
 
-    if name:
-        depth, title = heading(line)
-        return "#" * depth + f" {title} {{#{page_id(page) if depth == 1 else section_id(page, name)}}}"
     return LINK.sub(replaced, line)
 
 
 def filtered(page):
     """Headings with names, links as Doxygen resolves them, fences without words for tests."""
-    lines, is_code, text = page.read_text(encoding="utf-8").splitlines(), False, []
-    outside = []
+    lines, is_code, outside, text = page.read_text(encoding="utf-8").splitlines(), False, [], []
     for line in lines:
-        is_code ^= bool(FENCE.match(line))
-        outside.append("" if is_code else line)
+        is_fence = bool(FENCE.match(line))
+        is_code ^= is_fence
+        outside.append("" if is_code or is_fence else line)
     for line, plain, name in zip(lines, outside, anchors(outside)):
         fence = FENCE.match(line)
         if fence:
             line = "```" + {"python": "py", "cpp": "cpp"}.get((fence[1].split() or [""])[0], "")
+        elif name:
+            line = filtered_heading(page, line, name)
         elif plain:
-            line = filtered_line(page, line, name)
+            line = filtered_line(page, line)
         text.append(line)
     return "\n".join(text) + "\n"
 
@@ -144,5 +206,7 @@ def filtered(page):
 if __name__ == "__main__":
     if sys.argv[1:2] == ["filter"] and len(sys.argv) == 3:
         sys.stdout.write(filtered((pathlib.Path.cwd() / sys.argv[2]).resolve()))
+    elif sys.argv[1:] == ["check"]:
+        sys.exit(0 if check() else 1)
     else:
         sys.exit(__doc__)
