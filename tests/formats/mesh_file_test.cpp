@@ -64,6 +64,13 @@ std::string stl(const TriangleList& mesh) {
   return text + "endsolid box\n";
 }
 
+template <typename Value>
+void append(std::string& bytes, Value value) {
+  std::string raw(sizeof(value), '\0');
+  std::memcpy(raw.data(), &value, sizeof(value));
+  bytes += raw;
+}
+
 std::string binary_stl(const TriangleList& mesh) {
   std::string bytes(80, ' ');
   append(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));
@@ -104,19 +111,12 @@ std::string dae(const TriangleList& mesh, const std::string& up) {
          "<scene><instance_visual_scene url=\"#w\"/></scene></COLLADA>\n";
 }
 
-template <typename Value>
-void append(std::string& bytes, Value value) {
-  std::string raw(sizeof(value), '\0');
-  std::memcpy(raw.data(), &value, sizeof(value));
-  bytes += raw;
-}
-
 /// A chunk of a .glb file: size, type, and bytes filled up to whole words.
 std::string glb_chunk(std::string bytes, const char* type, char filler) {
   bytes.resize((bytes.size() + 3) / 4 * 4, filler);
   std::string chunk;
   append(chunk, static_cast<std::uint32_t>(bytes.size()));
-  return chunk + std::string(type, 4) + bytes;
+  return chunk.append(type, 4).append(bytes);
 }
 
 /// In metres with y up, as the format has it, placed twice, the second 5 m along x. `image`: JSON
