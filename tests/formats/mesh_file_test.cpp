@@ -214,16 +214,16 @@ TEST(MeshFile, GltfComesInMetresWithZUpWhateverItsTextures) {
 
 TEST(MeshFile, ListsAmongTheVerticesOfAPlyFileArePassedOver) {
   const TemporaryFolder folder;
-  std::string text = ply(box());
-  const std::string before = "property float y\n";
-  text.insert(text.find(before), "property list uchar float tags\n");
-  const auto insert_list = [&](const std::string& line, const std::string& list) {
-    const std::size_t at = text.find(line);
-    ASSERT_NE(at, std::string::npos) << line;
-    text.insert(text.find(' ', at) + 1, list + " ");
-  };
-  for (const Point& v : box().vertices)
-    insert_list("\n" + numbers(v) + "\n", v.x() > 0.0 ? "2 0.5 7" : "0");
+  std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty list uchar float tags\n"
+      "property float y\nproperty float z\nelement face 12\n"
+      "property list uchar int vertex_indices\nend_header\n";
+  const TriangleList mesh = box();
+  for (const Point& v : mesh.vertices)
+    text += number_text(v.x()) + (v.x() > 0.0 ? " 2 0.5 7 " : " 0 ") + number_text(v.y()) + " " +
+            number_text(v.z()) + "\n";
+  for (const auto& [a, b, c] : mesh.triangles)
+    text += "3 " + number_text(a) + " " + number_text(b) + " " + number_text(c) + "\n";
   write_whole(folder / "box.ply", text);
   expect_box(*load_mesh(folder / "box.ply"), {1.0, 2.0, 4.0});
 }
