@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 The Ridgeway authors
-"""Makes the pictures of docs/concepts.md and docs/parameters.md again, in docs/images.
+"""Makes the pictures of docs/concepts.md, docs/parameters.md and docs/tutorials again, in docs/images.
 
     PYTHONPATH=build/python python3 docs/site/pictures.py [NAME...]
 """
 
+import os
 import pathlib
+import subprocess
 import sys
+import tempfile
 import warnings
 
 import matplotlib
@@ -46,12 +49,19 @@ def walls(axes, roadmap, title, height=HEIGHT, graph=False, paths=()):
     axes.set_yticks([])
 
 
-def save(figure, name):
-    # Few colours: a quarter of the bytes.
-    figure.savefig(IMAGES / f"{name}.png", dpi=110)
-    plt.close(figure)
-    image = Image.open(IMAGES / f"{name}.png").convert("RGB")
+def shrink(picture, name, width=None):
+    """Few colours: a quarter of the bytes."""
+    image = Image.open(picture).convert("RGB")
+    if width and image.width > width:
+        image = image.resize((width, image.height * width // image.width), Image.LANCZOS)
     image.quantize(96).save(IMAGES / f"{name}.png", optimize=True)
+
+
+def save(figure, name):
+    with tempfile.NamedTemporaryFile(suffix=".png") as file:
+        figure.savefig(file.name, dpi=110)
+        shrink(file.name, name)
+    plt.close(figure)
 
 
 def concepts_distances():
@@ -152,7 +162,40 @@ def parameters_prefer_clearance():
     save(figure, "parameters_prefer_clearance")
 
 
-MADE = {name: make for name, make in globals().items() if name.startswith(("concepts_", "parameters_"))}
+def by_program(name, *commands):
+    """What commands of the program write to picture.png."""
+    program = os.environ.get("RIDGEWAY_PROGRAM", ROOT / "build/bin/ridgeway")
+    with tempfile.TemporaryDirectory() as folder:
+        for command in commands:
+            subprocess.run([program, "--quiet", *command.replace("DATA", str(ROOT / "data")).split()], cwd=folder,
+                           check=True, stdout=subprocess.DEVNULL)
+        shrink(pathlib.Path(folder) / "picture.png", name, width=1000)
+
+
+def tutorial_mesh():
+    by_program("tutorial_mesh", "build DATA/levine.stl -o a.ridge --min-clearance 0.3",
+               "plan a.ridge --from -1.3,0.5,1.2 --to 11.5,26,1.2 -o path.json",
+               "export a.ridge --picture picture.png --path path.json")
+
+
+def tutorial_depth_camera():
+    by_program("tutorial_depth_camera", "fuse DATA/house_depth -o f.ridge",
+               "build f.ridge -o a.ridge --min-clearance 0.3 --unknown ignore",
+               "plan a.ridge --from 1,1,1.5 --to 9,6.5,1.5 -o path.json",
+               "export a.ridge --picture picture.png --path path.json")
+
+
+def tutorial_simulation():
+    page = (ROOT / "docs/tutorials/simulation.md").read_text()
+    world = page.split("cat > room.yaml <<'END'\n")[1].split("END\n")[0]
+    with tempfile.NamedTemporaryFile("w", suffix=".yaml") as file:
+        file.write(world)
+        file.flush()
+        by_program("tutorial_simulation", f"explore {file.name} -o a.ridge --start 1,1,1 --picture picture.png")
+
+
+MADE = {name: make for name, make in globals().items()
+        if name.startswith(("concepts_", "parameters_", "tutorial_"))}
 
 if __name__ == "__main__":
     warnings.simplefilter("ignore")

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 The Ridgeway authors
+"""Every block of code of README.md and docs/ does what the page says."""
+
+import importlib.util
+import json
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import urllib.request
+
+import pytest
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+SPEC = importlib.util.spec_from_file_location("pages", SOURCE / "docs/site/pages.py")
+pages = importlib.util.module_from_spec(SPEC)
+SPEC.loader.exec_module(pages)
+
+PAGES = [SOURCE / "README.md", *sorted((SOURCE / "docs").rglob("*.md"))]
+# What pages call the maps and recordings that come with Ridgeway.
+FILES = {
+    "office.bt": "data/fr_079.bt",
+    "levine.stl": "data/levine.stl",
+    "house_025_sparse_graph.pb": "data/house_025_sparse_graph.pb",
+    "recording": "data/house_depth",
+    "house_depth": "data/house_depth",
+    "worlds": "worlds",
+}
+
+
+def blocks_of(page, *languages):
+    return [block for block in pages.parse(page)[1] if block.language in languages]
+
+
+def with_blocks(*languages, runs=True):
+    """The pages that have such blocks, named for pytest."""
+    found = [page for page in PAGES if any(block.runs == runs for block in blocks_of(page, *languages))]
+    return pytest.mark.parametrize("page", found, ids=lambda page: str(page.relative_to(SOURCE)))
+
+
+@pytest.fixture
+def folder(program, tmp_path, monkeypatch):
+    """Where the blocks of a page run, with its files, and the program as `ridgeway` and in build/bin."""
+    for name, file in FILES.items():
+        (tmp_path / name).symlink_to(SOURCE / file)
+    (tmp_path / "build").mkdir()
+    programs = pathlib.Path(os.path.abspath(program)).parent
+    (tmp_path / "build/bin").symlink_to(programs)
+    monkeypatch.setenv("PATH", f"{programs}:{pathlib.Path(sys.executable).parent}:/usr/bin:/bin")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def serves(command):
+    """The page is there under the address that the command prints, until it is interrupted."""
+    server = subprocess.Popen(["bash", "-c", "exec " + command], text=True, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT)
+    try:
+        address = next(found for found in (re.search(r"http://127[^ \n]*", line) for line in server.stdout) if found)
+        with urllib.request.urlopen(address[0], timeout=60) as page:
+            assert page.status == 200
+    finally:
+        server.send_signal(signal.SIGINT)
+        server.communicate(timeout=60)
+
+
+def expect_in_order(expected, printed, where):
+    """Each line that a page expects is printed, in this order; `...` stands for anything."""
+    lines = iter(" ".join(line.split()) for line in printed.splitlines())
+    for line in expected:
+        pattern = ".*".join(map(re.escape, " ".join(line.split()).split("...")))
+        assert any(re.fullmatch(pattern, each) for each in lines), f"{where}: not printed: {line}\n{printed}"
+
+
+@with_blocks("sh")
+def test_commands_run_as_printed(page, folder):
+    """All blocks of a page in order, in one folder. Lines after `#>` are among what is printed."""
+    for block in blocks_of(page, "sh"):
+        if not block.runs:
+            continue
+        lines = block.text.splitlines()
+        served = [line for line in lines if re.search(r"\bridgeway view ", line)]
+        script = "\n".join(line for line in lines if line not in served)
+        done = subprocess.run(["bash", "-euo", "pipefail", "-c", script], text=True, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT)
+        where = f"{page.name}:{block.line}"
+        assert done.returncode == 0, f"{where}\n{done.stdout}"
+        expect_in_order(re.findall(r"^#> (.*)$", block.text, re.M), done.stdout, where)
+        for line in served:  # until it is interrupted
+            serves(line.replace(" --open", " --port 0"))
+
+
+@with_blocks("python")
+def test_python_prints_what_is_printed(page, folder):
+    """All blocks of a page in order, as in a notebook. Lines after `#>` are what is printed."""
+    if "plot" in page.read_text(encoding="utf-8"):
+        pytest.importorskip("matplotlib").use("Agg")
+    printed, expected, scope = [], [], {"print": lambda *words: printed.append(" ".join(map(str, words)))}
+    for block in blocks_of(page, "python"):
+        code = compile("\n" * block.line + block.text, str(page), "exec")
+        if block.runs:
+            exec(code, scope)
+            expected += re.findall(r"#> (.*)", block.text)
+    assert printed == expected
+
+
+@with_blocks("sh", runs=False)
+def test_what_cannot_run_here_is_a_script(page):
+    for block in blocks_of(page, "sh"):
+        subprocess.run(["bash", "-n", "-c", block.text], check=True)
+
+
+def test_data_in_pages_can_be_read():
+    for page in PAGES:
+        for block in blocks_of(page, "json"):
+            json.loads(block.text)
+
+
+def test_cpp_of_pages_compiles(tmp_path):
+    """All of it in one translation unit, a function a page. README's is compiled and run by
+    tests/readme."""
+    compiler = os.environ.get("RIDGEWAY_CXX", "c++")
+    libraries = ["eigen3", "ompl"]
+    flags = subprocess.run(["pkg-config", "--cflags", *libraries], capture_output=True, text=True)
+    binary = pathlib.Path(os.environ.get("RIDGEWAY_BINARY_DIR", SOURCE / "build"))
+    includes, bodies = [f'#include "{SOURCE}/tests/readme/pages_context.hpp"'], []
+    for page in PAGES[1:]:
+        body = ""
+        for block in blocks_of(page, "cpp"):
+            lines = block.text.splitlines()
+            includes += [line for line in lines if line.startswith("#include")]
+            body += f'#line {block.line + 1} "{page.relative_to(SOURCE)}"\n'
+            body += "\n".join("" if line.startswith("#include") else line for line in lines) + "\n"
+        if body:
+            bodies.append(f"void page_{len(bodies)}() {{\n{body}}}\n")
+    assert len(bodies) >= 4
+    unit = tmp_path / "pages.cpp"
+    unit.write_text("\n".join(includes) + "\n" + "\n".join(bodies))
+    done = subprocess.run([compiler, "-std=c++20", "-fsyntax-only", "-Wall", "-Wno-unused", f"-I{SOURCE}/include",
+                           f"-I{binary}/include", *flags.stdout.split(), unit], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
+def test_links_and_fences_hold():
+    done = subprocess.run([sys.executable, SOURCE / "docs/site/pages.py", "check"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
