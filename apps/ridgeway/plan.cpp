@@ -218,8 +218,9 @@ void add_plan_command(Command& program) {
   const Option output =
       command.path("-o,--output", options->output,
                    "Path to write, .csv or .json; or a mission of QGroundControl, .plan");
-  command.tuple("--datum", options->datum, 3, "LAT,LON,ALT",
-                "Where the map's origin is, for missions: degrees, and metres above the sea");
+  command.point("--datum", options->datum,
+                "Latitude, longitude and altitude of the map's origin, for missions: degrees, and "
+                "metres above the sea");
   command.number("--x-heading", options->x_heading, {-360.0, 360.0},
                  "Compass heading of the map's x axis, for missions, degrees (default: 90, so that "
                  "x is east and y north)");

@@ -13,7 +13,8 @@ namespace {
 bool is_mission(const std::filesystem::path& file) { return file.extension() == ".plan"; }
 
 Datum datum_of(const PlanOptions& options) {
-  Datum datum{options.datum[0], options.datum[1], options.datum[2]};
+  const Point& place = *options.datum;
+  Datum datum{place.x(), place.y(), place.z()};
   datum.x_heading = options.x_heading.value_or(datum.x_heading);
   return datum;
 }
@@ -33,15 +34,14 @@ std::vector<std::filesystem::path> outputs_of(const PlanOptions& options) {
 }
 
 void require_outputs(const PlanOptions& options) {
-  const bool is_placed = !options.datum.empty();
   if (!is_mission(options.output)) {
-    if (is_placed || options.x_heading)
-      throw InputError(is_placed ? "--datum" : "--x-heading", "places missions on the Earth",
+    if (options.datum || options.x_heading)
+      throw InputError(options.datum ? "--datum" : "--x-heading", "places missions on the Earth",
                        "write one with -o mission.plan, or leave it out");
     if (!options.output.empty()) require_path_format(options.output);
     return;
   }
-  if (!is_placed)
+  if (!options.datum)
     throw InputError(options.output, "is a mission, which is in degrees",
                      "say where the map lies with --datum LATITUDE,LONGITUDE,ALTITUDE");
   try {

@@ -165,7 +165,7 @@ def site_link(page, target):
 def filtered_heading(page, line, name):
     """With a name that links find. Those of the main page would stand in the navigation."""
     depth, title = heading(line)
-    title = title.replace("`", "")
+    title = title.replace("`", "").replace("--", r"\--")
     if depth == 1:
         return f"# {title} {{#{page_id(page).replace('index', 'mainpage')}}}"
     if page_id(page) == "index":
@@ -181,7 +181,9 @@ def filtered_line(page, line):
         where = site_link(page, target)
         return f"[{text}]({where})" if where else text
 
-    return LINK.sub(replaced, line)
+    # Two dashes are two dashes, in Doxygen's words; in `code` they are anyway.
+    parts = re.split(f"({CODE.pattern})", LINK.sub(replaced, line))
+    return "".join(part if part.startswith("`") or "---" in part else part.replace("--", r"\--") for part in parts)
 
 
 def filtered(page):
