@@ -278,7 +278,8 @@ TEST(MeshFile, AFileThatPlacesItsPartsWithoutEndIsRefusedWithinItsLimits) {
   constexpr int kDepth = 40;
   for (int i = 0; i < kDepth; ++i) {
     const std::string next = "<instance_node url=\"#n" + std::to_string(i + 1) + "\"/>";
-    nodes += "<node id=\"n" + std::to_string(i) + "\">" + next + next + "</node>";
+    nodes.append("<node id=\"n").append(std::to_string(i)).append("\">");
+    nodes.append(next).append(next).append("</node>");
   }
   nodes += "<node id=\"n" + std::to_string(kDepth) +
            "\"><instance_geometry url=\"#g\"/></node></library_nodes>\n";

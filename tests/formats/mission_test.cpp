@@ -93,15 +93,15 @@ TEST(Mission, IsAPlanOfQGroundControlWithAWaypointACorner) {
 TEST(Mission, ABadDatumOrNameIsRefused) {
   const TemporaryFolder folder;
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const auto& [datum, field] :
-       std::vector<std::pair<Datum, std::string>>{{{91.0, 0.0, 0.0}, "latitude"},
-                                                  {{0.0, 181.0, 0.0}, "longitude"},
-                                                  {{nan, 0.0, 0.0}, "latitude"},
-                                                  {{0.0, 0.0, nan}, "altitude"},
-                                                  {{0.0, 0.0, 0.0, nan}, "x_heading"}})
-    EXPECT_NE(refusal([&] { write_mission({}, datum, folder / "a.plan"); }).find(field),
+  const std::vector<std::pair<Datum, std::string>> cases = {{{91.0, 0.0, 0.0}, "latitude"},
+                                                            {{0.0, 181.0, 0.0}, "longitude"},
+                                                            {{nan, 0.0, 0.0}, "latitude"},
+                                                            {{0.0, 0.0, nan}, "altitude"},
+                                                            {{0.0, 0.0, 0.0, nan}, "x_heading"}};
+  for (const auto& bad : cases)
+    EXPECT_NE(refusal([&] { write_mission({}, bad.first, folder / "a.plan"); }).find(bad.second),
               std::string::npos)
-        << field;
+        << bad.second;
   EXPECT_NE(refusal([&] { write_mission({}, {}, folder / "a.csv"); }).find(".plan"),
             std::string::npos);
 }
