@@ -148,3 +148,42 @@ def test_cpp_of_pages_compiles(tmp_path):
 def test_links_and_fences_hold():
     done = subprocess.run([sys.executable, SOURCE / "docs/site/pages.py", "check"], capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
+
+
+def keys_of(value):
+    """Of objects in objects and lists too, but not of `config`, which is a record of options."""
+    if isinstance(value, dict):
+        for key, inner in value.items():
+            yield key
+            if key != "config":
+                yield from keys_of(inner)
+    elif isinstance(value, list):
+        for inner in value:
+            yield from keys_of(inner)
+
+
+def test_every_key_and_column_is_in_the_page_of_outputs(folder):
+    named = set(re.findall(r"[a-z_]\w*", " ".join(pages.CODE.findall((SOURCE / "docs/outputs.md").read_text()))))
+    ends = "--from 1,1,1.2 --to 14.2,6,1.2"
+    commands = [
+        "build worlds/house.yaml -o a.ridge --voxel-size 0.2",
+        "info a.ridge", "info a.ridge --at 1,1,1.2", "info levine.stl", "info house_025_sparse_graph.pb",
+        f"plan a.ridge {ends}", f"plan a.ridge {ends} --radius 0.9", f"plan a.ridge {ends} --alternatives 2",
+        f"plan a.ridge {ends} --to 2,1,1.2", f"plan a.ridge {ends} --to 2,1,1.2 --nearest",
+        f"plan a.ridge {ends} --planner rrtconnect", "plan a.ridge --from 1,1,0.3 --to 2,1,1.2 --escape",
+        "plan a.ridge --from 1,1,0.1 --to 2,1,1.2 --snap 1",
+        f"trajectory a.ridge {ends} -o flight.csv", "check a.ridge --queries 5", "export a.ridge -o a.graphml",
+        "fuse recording -o fused.ridge --voxel-size 0.2", "info fused.ridge",
+        "live recording -o live.ridge --voxel-size 0.2 --csv live.csv",
+        "explore worlds/house.yaml -o e.ridge --start 1.2,1.2,1.5 --budget 5 --flight drone.csv --volume volume.csv",
+        "simulate worlds/house.yaml -o images --frames 1", "world house -o house.yaml",
+    ]
+    unnamed = {}
+    for command in commands:
+        done = subprocess.run(["ridgeway", *command.split(), "--json"], capture_output=True, text=True)
+        assert done.returncode in (0, 2), done.stderr
+        unnamed[command] = set(keys_of(json.loads(done.stdout))) - named
+    for table in pathlib.Path(folder).glob("*.csv"):
+        unnamed[table.name] = set(table.read_text().splitlines()[0].split(",")) - named
+    assert len(unnamed) == len(commands) + 4
+    assert {where: sorted(keys) for where, keys in unnamed.items() if keys} == {}
