@@ -145,6 +145,17 @@ def test_cpp_of_pages_compiles(tmp_path):
     assert done.returncode == 0, done.stderr
 
 
+def test_a_broken_page_is_told(tmp_path):
+    page = tmp_path / "page.md"
+    page.write_text("# A page\n[a](page.md#a-page) [b](none.md) [c](#none) `[d](none.md)`\n`src/none.cpp`\n```\n```\n")
+    lines, blocks = pages.parse(page)
+    names = {page: set(pages.anchors(line for _, line in lines))}
+    faults = [*pages.faults_of_links(page, lines, names), *pages.faults_of_names(lines),
+              *pages.faults_of_blocks(blocks)]
+    assert [(number, what.split(":")[0]) for number, what in faults] == [
+        (2, "no file none.md"), (2, "no heading #none"), (3, "no file src/none.cpp"), (4, "a fence of ''")]
+
+
 def test_links_and_fences_hold():
     done = subprocess.run([sys.executable, SOURCE / "docs/site/pages.py", "check"], capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
