@@ -43,10 +43,12 @@ TEST(BundledData, AGraphOfTheOriginalIsWrittenAgainByteForByte) {
 
 TEST_F(SharedData, MapsAreRead) {
   for (const char* name :
-       {"freiburg/fr_078_tidyup.bt", "geb079/geb079.bt", "octomap_ot/map.ot",
+       {"freiburg/fr_078_tidyup.bt", "freiburg/fr_079.bt", "freiburg/fr_campus.bt",
+        "willow_octomap/sample_map2.bt", "geb079/geb079.bt", "octomap_ot/map.ot",
         "simulated_octomaps/box.bt", "simulated_octomaps/tree.bt", "simulated_octomaps/tunnel.bt",
         "voxblox/house_025_tsdf.vxblx", "voxblox/house_025_esdf.vxblx",
-        "voxblox/cafe_voxblox_misnamed.bt.vxblx", "warframe/Simple.3dmap"})
+        "voxblox/cafe_voxblox_misnamed.bt.vxblx", "warframe/Simple.3dmap",
+        "warframe/Complex.3dmap"})
     EXPECT_GT(count_voxels(load_map(folder_ / name)).free, 1000u) << name;
 }
 
@@ -67,6 +69,7 @@ TEST(BundledData, AMeshOfOthersIsReadAsAMap) {
 TEST_F(SharedData, WhatIsNoMapIsRefusedWithAReason) {
   const auto says = [&](const char* name) { return refusal([&] { load_map(folder_ / name); }); };
   EXPECT_NE(says("voxblox/house_025_sparse_graph.pb").find("sparse graph"), std::string::npos);
+  EXPECT_NE(says("geb079/spherical_scan.graph").find("no map format"), std::string::npos);
   EXPECT_NE(says("lidar_lab/merged_registered.xyz").find("give"), std::string::npos);
   EXPECT_NE(says("warframe/Simple.3dmap.3dscen").find("no map format"), std::string::npos);
 }
