@@ -72,8 +72,7 @@ OccupancyMap occupancy_of(const EsdfMap& esdf) {
 }
 
 std::string AnswerFacts::explain_no_route(const Query& query) {
-  const std::string text =
-      "start and goal are not connected at a radius of " + metres(query.radius);
+  std::string text = "start and goal are not connected at a radius of " + metres(query.radius);
   const std::optional<BlockedRoute> blocked = this->blocked(query, PlanStatus::kNoRoute);
   if (!blocked) return text;
   if (blocked->by == Blocker::kLimits)
