@@ -107,7 +107,15 @@ install(
   DIRECTORY docs examples
   DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/ridgeway-doc"
   COMPONENT doc
-  PATTERN "CMakeLists.txt" EXCLUDE)
+  PATTERN "CMakeLists.txt" EXCLUDE
+  PATTERN "docs/site" EXCLUDE)
+
+# Made by ./dev docs; without it the pages are there as Markdown alone.
+install(
+  DIRECTORY "${PROJECT_BINARY_DIR}/site/"
+  DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/ridgeway-doc/html"
+  COMPONENT doc
+  OPTIONAL)
 
 if(TARGET ridgeway_cli)
   install(TARGETS ridgeway_cli RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT runtime)

@@ -15,6 +15,7 @@
 #include "formats/build_record.hpp"
 #include "json.hpp"
 #include "limit_options.hpp"
+#include "option_names.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/load_map.hpp"
 #include "ridgeway/mapping/map_edits.hpp"
@@ -206,7 +207,7 @@ int run(const BuildOptions& options, const Globals& globals) {
   OccupancyMap map = load_map(options.map, loading, &notes);
   outcome.load_seconds = load_watch.seconds();
   bar.clear();
-  for (const std::string& text : notes.notes) note(globals, text);
+  for (const std::string& text : notes.notes) note(globals, with_option_names(text));
   if (!options.planar.empty() && map.planar)
     throw InputError("--planar",
                      "is of maps in three dimensions, and " + options.map + " is planar",

@@ -73,4 +73,24 @@ InputError with_option_names(const InputError& error, const std::vector<std::str
   return {where, problem, remedy};
 }
 
+std::string with_option_names(std::string note) {
+  constexpr std::string_view kOne = "(option ", kSeveral = "(options ";
+  for (std::size_t at = note.find("(option"); at != std::string::npos;
+       at = note.find("(option", at + 1)) {
+    const bool several = note.compare(at, kSeveral.size(), kSeveral) == 0;
+    std::size_t word = at + 1;
+    note.erase(word, (several ? kSeveral : kOne).size() - 1);
+    while (true) {  // "bounds" or "units, up"
+      note.insert(word, "--");
+      const std::size_t end = note.find_first_of(" ,)", word);
+      std::replace(note.begin() + static_cast<std::ptrdiff_t>(word),
+                   note.begin() + static_cast<std::ptrdiff_t>(std::min(end, note.size())), '_',
+                   '-');
+      if (!several || end == std::string::npos || note[end] != ',') break;
+      word = end + 2;
+    }
+  }
+  return note;
+}
+
 }  // namespace ridgeway::cli

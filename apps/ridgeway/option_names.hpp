@@ -13,4 +13,7 @@ namespace ridgeway::cli {
 /// (--min-clearance): the error in the words of a command that has these options.
 InputError with_option_names(const InputError& error, const std::vector<std::string>& options);
 
+/// The same of a note, which names options in brackets: "(option voxel_size)" is "(--voxel-size)".
+std::string with_option_names(std::string note);
+
 }  // namespace ridgeway::cli

@@ -14,12 +14,12 @@
 #include "console.hpp"
 #include "interruption.hpp"
 #include "json.hpp"
+#include "plan_files.hpp"
 #include "plan_options.hpp"
 #include "plan_output.hpp"
 #include "plan_several.hpp"
 #include "query_file.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/formats/path_io.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
 #include "ridgeway/sampling/plan_by_sampling.hpp"
 #include "roadmap_facts.hpp"
@@ -94,7 +94,7 @@ int run_one(const PlanOptions& options, const Roadmap& roadmap, const Globals& g
   const PlanResult& result = answer.plan;
   AnswerFacts facts(roadmap, options.escape, limits_of(options.limits));
   const bool write = result.ok() && !options.output.empty();
-  if (write) write_plan(result, options.output);
+  if (write) write_output(options, result, options.output);
   if (globals.json) {
     print_json(json_of(facts, answer, query));
   } else {
@@ -153,10 +153,8 @@ int run(const PlanOptions& options, const Globals& globals) {
     throw InputError("plan", "needs a start and a goal, or a file of them",
                      "give --from X,Y,Z and --to X,Y,Z, or --queries FILE alone");
   require_one_form(options);
-  if (!options.output.empty()) {
-    require_path_format(options.output);
-    require_writable({outputs_of(options).front()}, {options.file});
-  }
+  require_outputs(options);
+  if (!options.output.empty()) require_writable({outputs_of(options).front()}, {options.file});
   const Roadmap roadmap = load_roadmap(options.file);
   if (batch) return run_batch(options, roadmap, globals);
   if (options.alternatives) return run_alternatives(options, roadmap, globals);
@@ -218,7 +216,14 @@ void add_plan_command(Command& program) {
                  "Seconds (default: no limit, 10 where the planner samples)");
   add_sampling_options(command, *options);
   const Option output =
-      command.path("-o,--output", options->output, "Path to write, .csv or .json");
+      command.path("-o,--output", options->output,
+                   "Path to write, .csv or .json; or a mission of QGroundControl, .plan");
+  command.point("--datum", options->datum,
+                "Latitude, longitude and altitude of the map's origin, for missions: degrees, and "
+                "metres above the sea");
+  command.number("--x-heading", options->x_heading, {-360.0, 360.0},
+                 "Compass heading of the map's x axis, for missions, degrees (default: 90, so that "
+                 "x is east and y north)");
   command
       .path("--queries", options->queries,
             "File of queries instead, a line each: x,y,z,x,y,z[,radius]")

@@ -16,9 +16,9 @@ namespace ridgeway::cli {
 /// Options of `ridgeway plan`.
 struct PlanOptions {
   std::string file, planner = "graph", quality = "default", output, queries;
-  std::optional<Point> from;
+  std::optional<Point> from, datum;  // datum: latitude, longitude, altitude; for missions
   std::vector<Point> to;
-  std::optional<double> radius, time_limit;
+  std::optional<double> radius, time_limit, x_heading;
   std::optional<double> within;  // in place of the quality
   std::optional<std::size_t> alternatives;
   double prefer_clearance = 0.0, snap = 0.0, robot_height = 0.0;

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "console.hpp"
+#include "plan_files.hpp"
 #include "plan_output.hpp"
-#include "ridgeway/formats/path_io.hpp"
 #include "ridgeway/planning/alternatives.hpp"
 #include "ridgeway/planning/many_goals.hpp"
 #include "roadmap_facts.hpp"
@@ -21,18 +21,6 @@ double radius_of(const PlanOptions& options, const Roadmap& roadmap) {
 
 }  // namespace
 
-std::vector<std::filesystem::path> outputs_of(const PlanOptions& options) {
-  const std::filesystem::path output(options.output);
-  if (!options.alternatives) return {output};
-  std::vector<std::filesystem::path> files;
-  for (std::size_t i = 1; i <= *options.alternatives; ++i) {
-    files.push_back(output);
-    files.back().replace_filename(output.stem().string() + "-" + std::to_string(i) +
-                                  output.extension().string());
-  }
-  return files;
-}
-
 int run_alternatives(const PlanOptions& options, const Roadmap& roadmap, const Globals& globals) {
   const Query query = {*options.from, options.to[0], radius_of(options, roadmap)};
   const Alternatives found = plan_alternatives(
@@ -41,7 +29,7 @@ int run_alternatives(const PlanOptions& options, const Roadmap& roadmap, const G
   std::vector<std::filesystem::path> files;
   if (!options.output.empty()) files = outputs_of(options);
   files.resize(std::min(files.size(), found.routes.size()));
-  for (std::size_t i = 0; i < files.size(); ++i) write_plan(found.routes[i], files[i]);
+  for (std::size_t i = 0; i < files.size(); ++i) write_output(options, found.routes[i], files[i]);
   if (globals.json) {
     Json json = {{"status", std::string(name_of(found.status))},
                  {"radius", query.radius},
@@ -106,7 +94,7 @@ int run_nearest(const PlanOptions& options, const Roadmap& roadmap, const Global
   const PlanResult& plan = nearest.plan;
   AnswerFacts facts(roadmap, options.escape, limits_of(options.limits));
   const bool write = plan.ok() && !options.output.empty();
-  if (write) write_plan(plan, options.output);
+  if (write) write_output(options, plan, options.output);
   if (globals.json) {
     Json json = json_of(facts, {.plan = plan}, query);
     json["goal"] = nearest.goal ? Json(*nearest.goal) : Json(nullptr);

@@ -2,9 +2,6 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
-#include <filesystem>
-#include <vector>
-
 #include "commands.hpp"
 #include "plan_options.hpp"
 #include "ridgeway/roadmap/roadmap.hpp"
@@ -13,9 +10,6 @@ namespace ridgeway::cli {
 
 // Forms of `ridgeway plan` that answer with more than one path, or choose among goals. Each prints
 // and returns the exit code.
-
-/// The files that are written: of alternatives, which --output names, one for each.
-std::vector<std::filesystem::path> outputs_of(const PlanOptions& options);
 
 int run_alternatives(const PlanOptions& options, const Roadmap& roadmap, const Globals& globals);
 int run_goals(const PlanOptions& options, const Roadmap& roadmap, const Globals& globals);

@@ -21,8 +21,8 @@ std::string explain_collision(const Roadmap& roadmap, const Query& query, const 
   std::string text = "it is " + metres(distance) + " from the nearest obstacle";
   if (distance >= query.radius)
     return text + ", but no voxel beside it can be reached at a radius of " + metres(query.radius) +
-           ": move it a little";
-  text += ", less than the radius of " + metres(query.radius) + ": move it";
+           ": move it a little, or let --snap do so";
+  text += ", less than the radius of " + metres(query.radius) + ": move it, or let --snap do so";
   if (distance > 0.0)
     text += escapes ? " (there is no straight way to where the robot fits)"
                     : ", or give --escape to begin or end there";
@@ -54,7 +54,9 @@ std::string explain_endpoint(const Roadmap& roadmap, const Query& query, PlanSta
     }
     case PlanStatus::kStartUnknown:
     case PlanStatus::kGoalUnknown:
-      return text + "is in space that the map does not know: move it to where the map is free";
+      return text +
+             "is in space that the map does not know: move it to where the map is free, or let "
+             "--snap do so";
     case PlanStatus::kStartOutsideLimits:
     case PlanStatus::kGoalOutsideLimits:
       return text + "is outside the limits of the flight: move it, or give wider limits";
@@ -70,8 +72,7 @@ OccupancyMap occupancy_of(const EsdfMap& esdf) {
 }
 
 std::string AnswerFacts::explain_no_route(const Query& query) {
-  const std::string text =
-      "start and goal are not connected at a radius of " + metres(query.radius);
+  std::string text = "start and goal are not connected at a radius of " + metres(query.radius);
   const std::optional<BlockedRoute> blocked = this->blocked(query, PlanStatus::kNoRoute);
   if (!blocked) return text;
   if (blocked->by == Blocker::kLimits)

@@ -20,6 +20,7 @@
 #include "formats/voxblox_graph.hpp"
 #include "formats/xyz.hpp"
 #include "json.hpp"
+#include "option_names.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/load_map.hpp"
 #include "ridgeway/formats/point_cloud.hpp"
@@ -115,7 +116,7 @@ std::optional<OccupancyMap> try_voxels(const std::filesystem::path& file, const 
   LoadNotes notes;
   try {
     OccupancyMap map = load_map(file, {}, &notes);
-    for (const std::string& text : notes.notes) note(globals, text);
+    for (const std::string& text : notes.notes) note(globals, with_option_names(text));
     return map;
   } catch (const InputError& error) {
     if (error.remedy().starts_with("give voxel_size")) return std::nullopt;

@@ -169,6 +169,9 @@ int run(const TrajectoryOptions& options, const Globals& globals) {
   std::vector<std::filesystem::path> written, read{options.file};
   if (!options.path.empty()) read.emplace_back(options.path);
   if (!options.output.empty()) {
+    if (std::filesystem::path(options.output).extension() == ".plan")
+      throw InputError(options.output, "is a mission, whose legs are straight",
+                       "write the path as one with `ridgeway plan`");
     require_trajectory_format(options.output);
     written.emplace_back(options.output);
   }

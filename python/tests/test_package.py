@@ -1,17 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 The Ridgeway authors
-"""What is around the compiled part: stubs, docstrings, pictures, man pages, completion, README."""
+"""What is around the compiled part: stubs, docstrings, pictures, man pages, completion."""
 
 import importlib.util
 import inspect
 import os
-import re
-import signal
 import subprocess
 import sys
-import urllib.request
 
-import numpy as np
 import pytest
 
 import ridgeway
@@ -145,53 +141,3 @@ def test_misspelt_words_are_answered(program):
                          (["build", "--unknown", "obstackle"], "obstacle")):
         done = subprocess.run([program, *words], capture_output=True, text=True)
         assert done.returncode == 1 and f"did you mean {meant}?" in done.stderr, done.stderr
-
-
-def blocks(page, language):
-    return re.findall(rf"^```{language}\n(.*?)^```", page.read_text(), re.M | re.S)
-
-
-@pytest.mark.parametrize("page", ["README.md", "docs/python.md"])
-def test_code_of_pages_runs_as_printed(source, page, tmp_path, monkeypatch):
-    """All blocks of a page in order, as in a notebook. Lines after `#>` are what is printed."""
-    pytest.importorskip("matplotlib").use("Agg")
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "office.bt").symlink_to(source / "data/fr_079.bt")
-    (tmp_path / "house_depth").symlink_to(source / "data/house_depth")
-    code = blocks(source / page, "python")
-    assert code
-    printed, expected, scope = [], [], {"print": lambda *words: printed.append(" ".join(map(str, words)))}
-    for block in code:
-        exec(compile(block, page, "exec"), scope)
-        expected += re.findall(r"#> (.*)", block)
-    assert printed == expected
-
-
-def serves(command, folder):
-    """The page is there under the address that the command prints, until it is interrupted."""
-    server = subprocess.Popen(["bash", "-c", "exec " + command], cwd=folder, text=True,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    try:
-        address = next(found for found in (re.search(r"http://127[^ \n]*", line) for line in server.stdout) if found)
-        with urllib.request.urlopen(address[0], timeout=60) as page:
-            assert page.status == 200
-    finally:
-        server.send_signal(signal.SIGINT)
-        server.communicate(timeout=60)
-
-
-def test_commands_of_the_readme_run_as_printed(source, program, tmp_path):
-    (tmp_path / "office.bt").symlink_to(source / "data/fr_079.bt")
-    (tmp_path / "recording").symlink_to(source / "data/house_depth")
-    (tmp_path / "worlds").symlink_to(source / "worlds")
-    commands = [line for block in blocks(source / "README.md", "sh") for line in block.splitlines()
-                if line.startswith("build/bin/ridgeway ")]
-    assert len(commands) >= 5
-    (tmp_path / "build/bin").mkdir(parents=True)
-    (tmp_path / "build/bin/ridgeway").symlink_to(os.path.abspath(program))
-    for command in commands:
-        if " view " in command:  # serves until it is interrupted
-            serves(command.replace(" --open", " --port 0"), tmp_path)
-            continue
-        done = subprocess.run(["bash", "-c", command], cwd=tmp_path, capture_output=True, text=True)
-        assert done.returncode == 0, (command, done.stderr)

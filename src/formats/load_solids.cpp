@@ -24,11 +24,15 @@ std::string size_text(const Box& box) {
   return text.str();
 }
 
-std::string point_text(const Point& p) {
-  std::ostringstream text;
-  text << std::setprecision(6) << p.x() << ',' << p.y() << ',' << p.z();
-  return text.str();
+std::string millimetres_text(double metres) {
+  return number_text(std::round(1e3 * metres) / 1e3 + 0.0);  // not -0
 }
+
+std::string point_text(const Point& p) {
+  return millimetres_text(p.x()) + "," + millimetres_text(p.y()) + "," + millimetres_text(p.z());
+}
+
+std::string box_text(const Box& box) { return point_text(box.min) + " to " + point_text(box.max); }
 
 void tell_of_frame(const MeshFrame& own, const LoadConfig& config, LoadNotes* notes) {
   const bool unit_known = own.unit || config.units, up_known = own.up || config.up;
@@ -43,7 +47,7 @@ void tell_of_frame(const MeshFrame& own, const LoadConfig& config, LoadNotes* no
 void tell_of_space(const MeshMapReport& report, const LoadConfig& config, LoadNotes* notes) {
   if (!config.bounds)
     tell(notes, "the map ends where the mesh does, which spans " + size_text(report.box) + ", " +
-                    describe(report.box) + " (option bounds)");
+                    box_text(report.box) + " (option bounds)");
   using Free = MeshMapReport::Free;
   if (report.free == Free::kWithin)
     tell(notes,
@@ -52,12 +56,12 @@ void tell_of_space(const MeshMapReport& report, const LoadConfig& config, LoadNo
   else if (report.free == Free::kAround && report.enclosed > 0)
     tell(notes, std::to_string(report.enclosed) +
                     " spaces that the mesh encloses are taken as solid, the largest of " +
-                    number_text(std::round(1e3 * report.largest_enclosed) / 1e3) + " m3; inside " +
-                    point_text(report.in_largest) + " makes that one free");
+                    millimetres_text(report.largest_enclosed) + " m3 (option inside " +
+                    point_text(report.in_largest) + " makes that one free)");
   if (report.leak)
     tell(notes, "the space is not closed: it is open to the bounds at " +
                     point_text(report.leak->exit) + "; the widest way there is narrowest, about " +
-                    number_text(std::round(1e3 * report.leak->width) / 1e3) + " m, at " +
+                    millimetres_text(report.leak->width) + " m, at " +
                     point_text(report.leak->narrowest));
 }
 
@@ -102,7 +106,8 @@ OccupancyMap load_world_map(const std::filesystem::path& file, const LoadConfig&
   if (!bounds.min.allFinite() || !bounds.max.allFinite())
     throw InputError("bounds", "are not finite", "give finite bounds around the space to fly in");
   tell_of_voxels(config, notes);
-  if (!config.bounds) tell(notes, "the map ends where the world does, " + describe(bounds));
+  if (!config.bounds)
+    tell(notes, "the map ends where the world does, " + box_text(bounds) + " (option bounds)");
   OccupancyMap map = touched_by(world, config.voxel_size.value_or(kUsualVoxelSize), bounds, name);
   return finished(std::move(map), config, name, notes);
 }

@@ -30,6 +30,17 @@ TEST_F(CliBuild, JsonHasTheKeysThatScriptsRelyOn) {
   EXPECT_EQ(json["file_bytes"], std::filesystem::file_size(path("rooms.ridge")));
 }
 
+TEST_F(CliBuild, NotesOfMeshesNameTheOptionsThatDecide) {
+  const Outcome built = run({"build", std::string(RIDGEWAY_DATA_DIR) + "/levine.stl", "-o",
+                             path("levine.ridge"), "--min-clearance", "0.3"});
+  ASSERT_EQ(built.code, 0) << built.err;
+  for (const char* words :
+       {"(--units, --up)", "(--voxel-size)", "-2.3,-0.3,-0.002 to 12.8,27.3,2.5 (--bounds)",
+        "(--inside 1.65,16.65,0.15 makes that one free)"})
+    EXPECT_NE(built.err.find(words), std::string::npos) << words << " is not in: " << built.err;
+  EXPECT_EQ(built.err.find("(option"), std::string::npos) << built.err;
+}
+
 TEST_F(CliBuild, SameBytesForAnyNumberOfThreads) {
   for (const char* threads : {"1", "2"}) {
     const Outcome built = run({"build", kScan, "-o", path(threads) + ".ridge", "--min-clearance",

@@ -65,6 +65,34 @@ TEST_F(CliPlan, WritesPathsThatExportDraws) {
   }
 }
 
+TEST_F(CliPlan, WritesMissionsWhereTheMapHasAPlaceOnTheEarth) {
+  const std::vector<std::string> query = {"plan", rooms(), "--from=-2,1.5,1", "--to", "2,1.5,1"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), query.begin(), query.end());
+    return more;
+  };
+  const std::string mission = path("mission.plan");
+  const Outcome planned = run(with({"-o", mission, "--datum=-33.9,151.2,40", "--json"}));
+  ASSERT_EQ(planned.code, 0) << planned.err;
+  const Json items = Json::parse(read_whole(mission))["mission"]["items"];
+  ASSERT_EQ(items.size(), planned.json()["waypoints"].size());
+  EXPECT_NEAR(items[0]["params"][4].get<double>(), -33.9 + 1.5 / 110900.0, 1e-7);
+  EXPECT_NEAR(items[0]["params"][5].get<double>(), 151.2 - 2.0 / 92500.0, 1e-7);
+  EXPECT_NEAR(items[0]["params"][6].get<double>(), 41.0, 1e-6);
+  ASSERT_EQ(run(with({"-o", mission, "--datum=-33.9,151.2,40", "--x-heading", "0"})).code, 0);
+  const Json turned = Json::parse(read_whole(mission))["mission"]["items"][0]["params"];
+  EXPECT_LT(turned[4].get<double>(), -33.9);  // 2 m south
+  EXPECT_LT(turned[5].get<double>(), 151.2);  // 1.5 m west
+  std::filesystem::remove(mission);
+  expect_refused(with({"-o", mission}), {"mission.plan", "--datum"});
+  expect_refused(with({"-o", mission, "--datum", "95,0,0"}), {"--datum", "latitude"});
+  expect_refused(with({"-o", path("a.csv"), "--datum", "5,0,0"}), {"--datum", "mission.plan"});
+  expect_refused(with({"--x-heading", "5"}), {"--x-heading"});
+  std::vector<std::string> flight = with({"-o", mission});
+  flight[0] = "trajectory";
+  expect_refused(flight, {"mission.plan", "ridgeway plan"});
+}
+
 TEST_F(CliPlan, SaysWhyThereIsNoPathAndWhatToDo) {
   struct Case {
     std::string from, to, radius, status, reason;

@@ -34,8 +34,8 @@ TEST_F(SharedData, LayersOfTheOriginalAreWrittenAgainByteForByte) {
   }
 }
 
-TEST_F(SharedData, AGraphOfTheOriginalIsWrittenAgainByteForByte) {
-  const std::string bytes = read_whole(folder_ / "voxblox" / "house_025_sparse_graph.pb");
+TEST(BundledData, AGraphOfTheOriginalIsWrittenAgainByteForByte) {
+  const std::string bytes = read_whole(RIDGEWAY_DATA_DIR "/house_025_sparse_graph.pb");
   const VoxbloxGraph graph = read_voxblox_graph(bytes, "graph");
   EXPECT_EQ(voxblox_graph_bytes(graph), bytes);
   EXPECT_EQ(find_faults(graph).components, 4u);
@@ -43,10 +43,12 @@ TEST_F(SharedData, AGraphOfTheOriginalIsWrittenAgainByteForByte) {
 
 TEST_F(SharedData, MapsAreRead) {
   for (const char* name :
-       {"freiburg/fr_078_tidyup.bt", "geb079/geb079.bt", "octomap_ot/map.ot",
+       {"freiburg/fr_078_tidyup.bt", "freiburg/fr_079.bt", "freiburg/fr_campus.bt",
+        "willow_octomap/sample_map2.bt", "geb079/geb079.bt", "octomap_ot/map.ot",
         "simulated_octomaps/box.bt", "simulated_octomaps/tree.bt", "simulated_octomaps/tunnel.bt",
         "voxblox/house_025_tsdf.vxblx", "voxblox/house_025_esdf.vxblx",
-        "voxblox/cafe_voxblox_misnamed.bt.vxblx", "warframe/Simple.3dmap"})
+        "voxblox/cafe_voxblox_misnamed.bt.vxblx", "warframe/Simple.3dmap",
+        "warframe/Complex.3dmap"})
     EXPECT_GT(count_voxels(load_map(folder_ / name)).free, 1000u) << name;
 }
 
@@ -58,9 +60,16 @@ TEST_F(SharedData, MeshesAreReadAsMaps) {
     EXPECT_GT(count_voxels(load_map(folder_ / name, config)).free, 10'000u) << name;
 }
 
+TEST(BundledData, AMeshOfOthersIsReadAsAMap) {
+  const VoxelCounts counts = count_voxels(load_map(RIDGEWAY_DATA_DIR "/levine.stl"));
+  EXPECT_GT(counts.free, 800'000u);
+  EXPECT_GT(counts.occupied, 100'000u);
+}
+
 TEST_F(SharedData, WhatIsNoMapIsRefusedWithAReason) {
   const auto says = [&](const char* name) { return refusal([&] { load_map(folder_ / name); }); };
   EXPECT_NE(says("voxblox/house_025_sparse_graph.pb").find("sparse graph"), std::string::npos);
+  EXPECT_NE(says("geb079/spherical_scan.graph").find("no map format"), std::string::npos);
   EXPECT_NE(says("lidar_lab/merged_registered.xyz").find("give"), std::string::npos);
   EXPECT_NE(says("warframe/Simple.3dmap.3dscen").find("no map format"), std::string::npos);
 }

@@ -40,7 +40,9 @@ echo "== python3 reads meshes by the program of the package"
 
 apt-get install -y --no-install-recommends /root/packages/ridgeway-dev_*.deb /root/packages/ridgeway-doc_*.deb \
   g++ cmake make pkg-config libzstd-dev
-test -s /usr/share/doc/ridgeway-doc/docs/how-it-works.md || grep -q path-exclude /etc/dpkg/dpkg.cfg.d/*
+for file in docs/how-it-works.md html/index.html html/formats.html; do
+  test -s "/usr/share/doc/ridgeway-doc/$file" || grep -q path-exclude /etc/dpkg/dpkg.cfg.d/*
+done
 mkdir consumer
 cp "$source/tests/consumer/core.cpp" "$source/tests/consumer/ridge.cpp" consumer
 cat >consumer/CMakeLists.txt <<'END'

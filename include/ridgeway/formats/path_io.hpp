@@ -31,6 +31,34 @@ void write_plan(const PlanResult& result, const std::filesystem::path& path);
 /// InputError, with the line, for anything else.
 std::vector<Point> read_path(const std::filesystem::path& path);
 
+/// Where the world's frame lies on the Earth.
+struct Datum {
+  double latitude = 0.0, longitude = 0.0;  ///< of the origin, degrees, WGS 84
+  double altitude = 0.0;                   ///< of z = 0, metres above mean sea level
+  double x_heading = 90.0;  ///< of the x axis, degrees clockwise from north; 90: x east, y north
+
+  /// Throws InputError for an angle out of range, and for what is not finite.
+  void validate() const;
+};
+
+/// Degrees (WGS 84), and metres above mean sea level.
+struct GeoPoint {
+  double latitude = 0.0, longitude = 0.0, altitude = 0.0;
+};
+
+/// Where a point of the world is on the Earth. The world's plane z = 0 touches the ellipsoid at the
+/// datum, so 1 km from there a point of that plane is 0.08 m higher.
+GeoPoint geodetic(const Point& point, const Datum& datum);
+
+/// A path as a mission of QGroundControl for PX4: a waypoint a corner, at which the vehicle holds
+/// for a second within 0.2 m, as the legs between corners are what was verified. No take-off and no
+/// landing. MAVLink rounds angles to 1e-7 degrees, a centimetre.
+std::string mission_json(const PlanResult& path, const Datum& datum);
+
+/// Writes a mission to a .plan file, whole or not at all. Throws InputError for another extension,
+/// a bad datum, and where the file cannot be written.
+void write_mission(const PlanResult& path, const Datum& datum, const std::filesystem::path& file);
+
 /// Throws InputError where a file's extension is neither .csv nor .json nor .yaml.
 void require_trajectory_format(const std::filesystem::path& path);
 
