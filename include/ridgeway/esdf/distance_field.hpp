@@ -17,6 +17,7 @@ namespace ridgeway {
 /// everything.
 double signed_distance(const EsdfMap& esdf, const VoxelIndex& voxel, double deepest = 1.0);
 
+/// How far obstacles are from a place, and in which direction that grows.
 struct DistanceAndGradient {
   double distance = 0.0;           ///< metres
   Point gradient = Point::Zero();  ///< of the distance, per metre; points away from obstacles

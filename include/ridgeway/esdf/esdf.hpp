@@ -163,6 +163,7 @@ inline SquaredHalves least_clearance(double radius, double voxel_size) {
   return SquaredHalves(4.0 * r * r);
 }
 
+/// What distances are measured to, and how far.
 struct EsdfConfig {
   UnknownPolicy unknown = UnknownPolicy::kObstacle;
   double max_distance = std::numeric_limits<double>::infinity();  ///< metres

@@ -47,6 +47,7 @@ enum class ExplorationStrategy : std::uint8_t {
   kNearest,  ///< the nearest along the roadmap that sees a frontier (Yamauchi 1997)
 };
 
+/// The robot, its sensor, and when a look is worth its way.
 struct ExplorerConfig {
   MotionLimits limits = {.max_speed = 2.0, .max_acceleration = 2.0};
   FieldOfView view;
@@ -89,6 +90,7 @@ struct FlightState {
   double yaw = 0.0;
 };
 
+/// What the robot is to do now.
 enum class ExplorationStatus : std::uint8_t {
   kFly,        ///< along the trajectory that is given, from now on
   kKeep,       ///< what was given before is as good
@@ -130,6 +132,7 @@ enum class UnseenReason : std::uint8_t {
 /// "too_narrow", "out_of_view", "looked_in_vain".
 std::string_view name_of(UnseenReason reason);
 
+/// What exploration leaves unseen, and why.
 struct UnseenFrontier {
   Point centroid = Point::Zero();  ///< world
   std::size_t voxels = 0;

@@ -26,6 +26,7 @@ struct PointCloud {
   }
 };
 
+/// How a cloud becomes a map.
 struct CloudMapConfig {
   double voxel_size = 0.0;  ///< metres, required
   Box bounds;               ///< where the space is known, map frame, required

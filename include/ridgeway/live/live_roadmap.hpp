@@ -15,6 +15,7 @@
 
 namespace ridgeway {
 
+/// How scans are fused, and how roadmaps are built of them.
 struct LiveConfig {
   FusionConfig fusion = {};  ///< its voxel size is the map's
   BuildConfig build = {};

@@ -22,6 +22,7 @@ inline constexpr int kPipelineBytesPerVoxel = 18;
 /// memory is taken. For one thread.
 class OccupancyBuilder {
  public:
+  /// What a builder takes and what it says of itself.
   struct Config {
     VoxelRange clip = kAllVoxels;                  ///< of the lattice; others are ignored
     int bytes_per_voxel = kPipelineBytesPerVoxel;  ///< to be reckoned with

@@ -37,6 +37,7 @@ struct NamedPath {
   std::vector<Point> waypoints;
 };
 
+/// What a picture of a map shows.
 struct PictureConfig {
   int width = 1600;  ///< pixels, 400 to 16000; the height follows the map, up to 1.5 widths
   /// Not given: between the 20th and the 80th percentile of the free voxels' heights, so that

@@ -28,6 +28,7 @@ inline Spread spread_of(std::vector<double> values) {
   return {at(0.5), at(0.95), at(0.99), values.back()};
 }
 
+/// What check_roadmap compares.
 struct CheckConfig {
   std::size_t queries = 0;
   std::uint64_t seed = 1;
@@ -43,6 +44,7 @@ struct CheckedPath {
   std::vector<Point> waypoints;  ///< world
 };
 
+/// What check_roadmap found; clean where nothing is wrong.
 struct CheckReport {
   std::size_t edges = 0;
   std::size_t edges_below_clearance = 0;

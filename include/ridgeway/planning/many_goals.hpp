@@ -19,6 +19,7 @@ std::vector<double> distances_to_goals(const Roadmap& roadmap, const Point& star
                                        std::span<const Point> goals,
                                        std::optional<double> radius = std::nullopt);
 
+/// The plan to one of many goals.
 struct GoalPlan {
   double distance = std::numeric_limits<double>::infinity();  ///< as distances_to_goals has it
   PlanResult plan;                                            ///< as plan() has it
@@ -29,6 +30,7 @@ struct GoalPlan {
 std::vector<GoalPlan> plan_to_many(const Roadmap& roadmap, const Point& start,
                                    std::span<const Point> goals, const PlanConfig& config = {});
 
+/// The goal that is nearest by path, and the way there.
 struct NearestGoal {
   std::optional<std::size_t> goal;  ///< its index; nothing where none can be reached
   PlanResult plan;                  ///< the path to it; else why the first goal has none

@@ -12,6 +12,7 @@
 
 namespace ridgeway {
 
+/// Whether there is a path, or the one reason why there is none.
 enum class PlanStatus : std::uint8_t {
   kOk,
   kStartOutsideMap,
@@ -54,6 +55,7 @@ std::optional<Planner> planner_named(std::string_view name);
 /// Throws InputError where a planner is no enumerator.
 void validate_planner(Planner planner);
 
+/// How to plan: for which robot, within which limits, how long to look for something shorter.
 struct PlanConfig {
   Planner planner = Planner::kGraph;
   /// Metres; the roadmap's min_clearance when not given.
@@ -96,6 +98,7 @@ struct PlanConfig {
   void validate() const;
 };
 
+/// Seconds that the parts of a query took.
 struct PlanSeconds {
   double attach = 0.0;
   double search = 0.0;

@@ -15,6 +15,7 @@ namespace ridgeway {
 
 class Temporary;
 
+/// One image of a recording, and where the camera was.
 struct DepthFrame {
   std::filesystem::path image;  ///< 16-bit PNG
   Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
@@ -29,6 +30,7 @@ struct DepthSequence {
   std::size_t without_pose = 0;  ///< images that no pose belongs to, passed over
 };
 
+/// What a recording of depth images does not say of itself.
 struct SequenceConfig {
   /// fx, fy, cx, cy in pixels; else those of camera-intrinsics.txt in the folder, else, for images
   /// of 640 x 480, the defaults of the layout (525, 525, 319.5, 239.5; of 7-Scenes 585, 585, 320,

@@ -17,6 +17,7 @@ struct Scan {
   Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity();
 };
 
+/// A recording of scans, each with the pose of its sensor.
 struct ScanSequence {
   std::string layout;  ///< "scans" or "registration"
   std::vector<Scan> scans;

@@ -30,6 +30,7 @@ struct BuildConfig {
   void validate() const;
 };
 
+/// Seconds that each stage of a build took (docs/how-it-works.md says what a stage is).
 struct BuildSeconds {
   double esdf = 0.0, gvd = 0.0, edges = 0.0, thin = 0.0, kernel = 0.0, graph = 0.0, attach = 0.0,
          tangents = 0.0, total = 0.0;
@@ -49,6 +50,7 @@ struct BuildReport {
   BuildSeconds seconds;
 };
 
+/// A roadmap, and what building it took.
 struct BuildResult {
   Roadmap roadmap;
   BuildReport report;

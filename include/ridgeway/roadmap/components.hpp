@@ -39,6 +39,7 @@ struct ComponentJoin {
   Blocker by = Blocker::kObstacle;  ///< what is nearest there; of equally near ones the obstacle
 };
 
+/// The parts of space that hang together, and where a smaller robot finds two of them one.
 struct ComponentReport {
   std::vector<Component> components;  ///< largest first
   std::vector<ComponentJoin> joins;   ///< widest first

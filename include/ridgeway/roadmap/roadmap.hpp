@@ -47,6 +47,7 @@ struct CellGraph {
   static constexpr std::uint16_t kNoPart = 0xffff;  ///< no part, or one of too many
   static constexpr std::size_t kLevels = 4;  ///< of radii: 1, 1.25, 1.5 and 2 times the smallest
 
+  /// A cell: its place, and which of the cells around it are in sight.
   struct Cell {
     std::uint8_t place = kNoPlace;  ///< the voxel in the cell, x fastest
     /// How many of the radii the edges in the directions 14 to 26 (voxel/neighbourhood.hpp) let

@@ -12,18 +12,22 @@
 
 namespace ridgeway {
 
+/// The number of a vertex in its graph.
 enum class VertexId : std::uint32_t {};
+/// The number of an edge in its graph.
 enum class EdgeId : std::uint32_t {};
 inline constexpr VertexId kNoVertex{0xffffffffu};
 constexpr std::size_t number(VertexId id) { return static_cast<std::size_t>(id); }
 constexpr std::size_t number(EdgeId id) { return static_cast<std::size_t>(id); }
 
+/// A vertex of the sparse graph, on a voxel of the diagram.
 struct Vertex {
   VoxelIndex voxel;        ///< the diagram voxel it stands on, one of the map's own
   Point position;          ///< that voxel's centre, metres, in the map's local frame: to_world()
   double clearance = 0.0;  ///< distance to the nearest obstacle, metres
 };
 
+/// A straight edge of the sparse graph, free for every radius up to its clearance.
 struct Edge {
   VertexId from{};  ///< from < to
   VertexId to{};

@@ -28,6 +28,7 @@ class TriangleTree {
   const Point& low() const { return nodes_.front().low; }    ///< of the box around all
   const Point& high() const { return nodes_.front().high; }  ///< of the box around all
 
+  /// The place of a triangle that is nearest to a point.
   struct Nearest {
     Point point = Point::Zero();
     double squared_distance = std::numeric_limits<double>::infinity();
@@ -39,6 +40,7 @@ class TriangleTree {
   /// The point of the triangles nearest to another, to rounding.
   Nearest nearest(const Point& p) const;
 
+  /// A place on a triangle that a ray meets.
   struct Hit {
     double range = std::numeric_limits<double>::infinity();
     std::uint32_t triangle = 0;
@@ -61,6 +63,7 @@ class TriangleTree {
   std::vector<Node> nodes_;
 };
 
+/// How far a surface is, and in which direction away from it.
 struct SurfaceDistance {
   double distance = 0.0;                                ///< metres, negative inside a solid
   Eigen::Vector3d gradient = Eigen::Vector3d::UnitZ();  ///< of length one, away from the surface

@@ -25,6 +25,7 @@ struct SolidBox {
   Eigen::Vector3d size = Eigen::Vector3d::Ones();  ///< metres, all above 0
 };
 
+/// A ball.
 struct SolidSphere {
   Point centre = Point::Zero();
   double radius = 1.0;

@@ -37,6 +37,7 @@ struct NarrowerPass {
 struct BasinNumbers {
   static constexpr std::uint32_t kSeveral = 0xfffffffeu;
 
+  /// The basins of a block in which several meet.
   struct InBlock {
     std::vector<std::uint32_t> basins;  ///< that meet in the block
     std::vector<std::uint16_t> place;   ///< among those, by voxel

@@ -7,6 +7,7 @@
 
 namespace ridgeway {
 
+/// What makes a voxel part of a ridge.
 struct GvdConfig {
   double theta = 0.785;  ///< radians in (0, pi); least angle between the directions to two sites
   /// Metres; least distance between two sites. A robot does not pass between two that are nearer to

@@ -24,6 +24,7 @@ struct CostTerms {
   double total() const { return time + smoothness + collision + limits; }
 };
 
+/// Whether there is a trajectory, or why there is none.
 enum class TrajectoryStatus : std::uint8_t {
   kOk,
   kPathNotFree,       ///< a segment of the path is not free at the radius
@@ -44,6 +45,7 @@ enum class TrajectoryStep : std::uint8_t {
 std::string_view name_of(TrajectoryStatus status);
 std::string_view name_of(TrajectoryStep step);
 
+/// The robot, its limits of motion, and how it starts.
 struct TrajectoryConfig {
   double radius = 0.3;  ///< of the robot, metres
   MotionLimits limits;
@@ -63,6 +65,7 @@ struct TrajectoryConfig {
   void validate() const;
 };
 
+/// Seconds that the parts of planning a trajectory took.
 struct TrajectorySeconds {
   double optimise = 0.0;
   double verify = 0.0;

@@ -87,6 +87,7 @@ constexpr std::uint64_t hash_of(const BlockIndex& b) {
   h = (h ^ (h >> 32) ^ static_cast<std::uint32_t>(b.z)) * 0x94d049bb133111ebull;
   return h ^ (h >> 32);
 }
+/// For hash tables of blocks.
 struct BlockHash {
   std::size_t operator()(const BlockIndex& b) const { return hash_of(b); }
 };
