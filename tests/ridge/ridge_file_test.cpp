@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
+
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
@@ -93,10 +96,13 @@ TEST(RidgeFile, ABuiltRoadmapComesBack) {
 TEST(RidgeFile, LongOffsetsComeBack) {
   SyntheticConfig config;  // one hall, wide enough for offsets that need more than a byte
   config.rooms_x = config.rooms_y = 1;
-  config.room = 420;
-  config.height = 300;
+  config.room = config.height = 270;
   const TemporaryFolder folder;
   Roadmap roadmap = synthetic_roadmap(config);
+  const std::vector<SiteOffset> sites = roadmap.esdf.site.values();
+  ASSERT_TRUE(std::any_of(sites.begin(), sites.end(), [](const SiteOffset& o) {
+    return std::max({std::abs(o.x), std::abs(o.y), std::abs(o.z)}) > 127;
+  }));
   save_roadmap(roadmap, folder / "hall.ridge");
   expect_same(load_roadmap(folder / "hall.ridge"), roadmap);
 }
