@@ -224,14 +224,14 @@ TEST(FarMap, TheBundledScanGivesTheSameRoadmapAndAnswersButForTheShift) {
   const TemporaryFolder folder;
   const std::filesystem::path file = std::filesystem::path(RIDGEWAY_DATA_DIR) / "fr_079.bt";
   const BuildConfig config{.min_clearance = 0.3};
-  LoadConfig loading{.voxel_size = 0.1};
-  const OccupancyMap map = load_map(file, loading);
+  const OccupancyMap map = load_map(file);
   Shifted maps;
   maps.near = build_roadmap(map, config).roadmap;
   const std::string bytes = bytes_but_for_the_origin(maps.near, folder);
   const std::vector<VoxelIndex> shifts = shifts_of(map);
   for (const VoxelIndex& shift : {shifts[0], shifts[2], shifts[3], shifts[4]}) {
     SCOPED_TRACE(shift.x);
+    LoadConfig loading;
     loading.transform.translation() = Point(shift.x, shift.y, shift.z) * map.voxel_size;
     maps.far = build_roadmap(load_map(file, loading), config).roadmap;
     ASSERT_EQ(maps.far.esdf.origin, maps.near.esdf.origin + shift);
@@ -322,6 +322,7 @@ TEST(FarMap, BeyondTheLimitMapsAreRefused) {
   for (const VoxelIndex& beyond :
        {shifts_of(map)[4] + VoxelIndex{1, 0, 0}, shifts_of(map)[5] - VoxelIndex{0, 0, 1},
         VoxelIndex{0, 1'000'000'000, 0}, VoxelIndex{0, -2'000'000'000, 0}}) {
+    LoadConfig loading;
     loading.transform.translation() = Point(beyond.x, beyond.y, beyond.z) * map.voxel_size;
     try {
       load_map(file, loading);
