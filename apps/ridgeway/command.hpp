@@ -56,8 +56,8 @@ class Option {
 
 /// A command of the program, or the program itself, and the options it has. Here alone words of the
 /// command line become values: one that is empty, or not what its option holds, throws InputError
-/// with the option, the text and what to give. The parser of command lines is seen by the source of
-/// this class only, as it takes long to compile.
+/// with the option, the text and what to give. The parser of command lines is seen by
+/// command.cpp only, as it takes long to compile; command_options.cpp has what reads values.
 ///
 /// Options are named as "-o,--output", positional ones as "map". What they write to must live until
 /// the job has run; its value before is the default that the help shows.

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/rounding.hpp"
 #include "console.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 
@@ -88,7 +89,7 @@ std::string AnswerFacts::explain_no_route(const Query& query) {
   const std::string most = metres_at_most(blocked->radius);
   return text + parts + ", but they are at " + most + ", where " + what + " is in the way at " +
          point_text(*blocked->place) +
-         (rounded_down(blocked->radius) >= roadmap_.min_clearance * (1.0 - 1e-9)
+         (detail::is_as_wide(rounded_down(blocked->radius), roadmap_.min_clearance)
               ? ": give that --radius"
               : ": build the map with that --min-clearance");
 }

@@ -11,8 +11,6 @@
 namespace ridgeway::detail {
 namespace {
 
-using Vector = Eigen::Vector3d;
-
 constexpr double kPieceLength = 4.0;  // voxels of a segment at a time: its box stays small
 constexpr double kRounding = 1e-9;    // of the radius and the height: what touches does not collide
 
@@ -33,19 +31,19 @@ Part part_in_layer(double z0, double z1, double layer, double half_height) {
 }
 
 /// Whether a piece of a segment, seen from above, keeps a distance from a rectangle.
-bool is_clear_of(const Vector& a, const Vector& b, double radius, double x0, double y0, double x1,
-                 double y1) {
-  const VoxelBox box{Vector(x0, y0, 0.0), Vector(x1, y1, 0.0)};
+bool is_clear_of(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius, double x0,
+                 double y0, double x1, double y1) {
+  const VoxelBox box{Eigen::Vector3d(x0, y0, 0.0), Eigen::Vector3d(x1, y1, 0.0)};
   return (a == b ? squared_distance(a, box) : squared_distance(a, b, box)) >= radius * radius;
 }
 
 /// And from the voxels of one layer. Heights count no more.
-bool is_clear_of_layer(const EsdfMap& esdf, const Vector& from, const Vector& to, int layer,
-                       double radius) {
-  const Vector a(from.x(), from.y(), 0.0), b(to.x(), to.y(), 0.0);
-  const Vector reach(radius, radius, 0.0);
-  const VoxelIndex low = voxel_at(Vector(a.cwiseMin(b) - reach), 1.0);
-  const VoxelIndex high = voxel_at(Vector(a.cwiseMax(b) + reach), 1.0);
+bool is_clear_of_layer(const EsdfMap& esdf, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                       int layer, double radius) {
+  const Eigen::Vector3d a(from.x(), from.y(), 0.0), b(to.x(), to.y(), 0.0);
+  const Eigen::Vector3d reach(radius, radius, 0.0);
+  const VoxelIndex low = voxel_at(Eigen::Vector3d(a.cwiseMin(b) - reach), 1.0);
+  const VoxelIndex high = voxel_at(Eigen::Vector3d(a.cwiseMax(b) + reach), 1.0);
   const BlockIndex first = block_of({low.x, low.y, layer}),
                    last = block_of({high.x, high.y, layer});
   for (int by = first.y; by <= last.y; ++by)
@@ -69,8 +67,8 @@ bool is_clear_of_layer(const EsdfMap& esdf, const Vector& from, const Vector& to
   return true;
 }
 
-bool piece_is_free(const EsdfMap& esdf, const Vector& a, const Vector& b, double radius,
-                   double half_height) {
+bool piece_is_free(const EsdfMap& esdf, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                   double radius, double half_height) {
   const int first = floor_to_int(std::min(a.z(), b.z()) - half_height);
   const int last = floor_to_int(std::max(a.z(), b.z()) + half_height);
   for (int layer = first; layer <= last; ++layer) {
@@ -84,8 +82,8 @@ bool piece_is_free(const EsdfMap& esdf, const Vector& a, const Vector& b, double
 
 }  // namespace
 
-bool cylinder_is_free(const EsdfMap& esdf, const Vector& a, const Vector& b, double radius,
-                      double half_height) {
+bool cylinder_is_free(const EsdfMap& esdf, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                      double radius, double half_height) {
   const double pieces = std::max(1.0, std::ceil((b - a).norm() / kPieceLength));
   for (double k = 0.0; k < pieces; ++k)
     if (!piece_is_free(esdf, a + (b - a) * (k / pieces), a + (b - a) * ((k + 1.0) / pieces),

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/rounding.hpp"
 #include "obstacle_scan.hpp"
 #include "ridgeway/common/parallel.hpp"
 
@@ -182,7 +183,7 @@ PathSurroundings Surroundings::along(std::span<const Point> path_world, double r
   const Nearest unknown(*this, unknown_);
   result.unknown = s * unknown.along(path);
   if (esdf_.unknown == UnknownPolicy::kFree) result.unknown_inside = share_in_unknown(esdf_, path);
-  const double least = radius * (1.0 - 1e-9) / s;  // as where paths are verified
+  const double least = detail::least_fit(radius) / s;
   if (result.unknown >= s * least) return result;
   double length = 0.0, near = 0.0;
   for_each_piece(path, s, [&](const Vector& a, const Vector& b) {

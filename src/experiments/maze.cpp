@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "common/asking.hpp"
 #include "common/clock.hpp"
 #include "common/number_text.hpp"
 #include "common/random.hpp"
@@ -24,7 +25,8 @@ struct Pair {
   Point start, goal;
 };
 
-using Plan = std::function<PlanResult(const Pair&)>;
+/// Throws Cancelled where the callback says so in the middle of a long one.
+using Plan = std::function<PlanResult(const Pair&, const Progress&)>;
 
 struct Contender {
   std::string name;
@@ -33,20 +35,20 @@ struct Contender {
 };
 
 Plan on_roadmap(const Roadmap& roadmap, Planner planner, bool shorten) {
-  return [&roadmap, planner, shorten](const Pair& pair) {
+  return [&roadmap, planner, shorten](const Pair& pair, const Progress&) {
     return plan(roadmap, pair.start, pair.goal, {.planner = planner, .shorten = shorten});
   };
 }
 
 Plan quickly(const Roadmap& roadmap) {
-  return [&roadmap](const Pair& pair) {
+  return [&roadmap](const Pair& pair, const Progress&) {
     return plan(roadmap, pair.start, pair.goal, {.quick = true});
   };
 }
 
 Plan by_sampling(const Roadmap& roadmap, const MazeExperimentConfig& config, Planner planner,
                  bool first_solution) {
-  return [&roadmap, &config, planner, first_solution](const Pair& pair) {
+  return [&roadmap, &config, planner, first_solution](const Pair& pair, const Progress& progress) {
     const SamplingConfig sampling{.planner = planner,
                                   .radius = config.min_clearance,
                                   .seed = config.seed,
@@ -54,7 +56,7 @@ Plan by_sampling(const Roadmap& roadmap, const MazeExperimentConfig& config, Pla
                                   .first_solution = first_solution,
                                   .shorten = false,
                                   .range = config.range};
-    return plan_by_sampling(roadmap.esdf, pair.start, pair.goal, sampling).plan;
+    return plan_by_sampling(roadmap.esdf, pair.start, pair.goal, sampling, progress).plan;
   };
 }
 
@@ -99,8 +101,8 @@ struct Trial {
   PlanResult answer;
   std::vector<double> seconds;
 
-  void run(const Plan& plan, const Pair& pair) {
-    answer = plan(pair);
+  void run(const Plan& plan, const Pair& pair, const Progress& progress) {
+    answer = plan(pair, progress);
     seconds.push_back(answer.seconds.total);
   }
   double median_seconds() const { return spread_of(seconds).median; }
@@ -112,15 +114,33 @@ struct Trials {
 };
 
 /// All pairs, over and over for a while: what takes microseconds is timed among its like, not
-/// while it fetches from memory what another planner displaced.
+/// while it fetches from memory what another planner displaced. Throws Cancelled.
 void run_round(const Contender& contender, const Pair& single, const std::vector<Pair>& pairs,
-               Trials& trials) {
+               const Progress& progress, Trials& trials) {
   const double end = detail::seconds_now() + kLeastRound;
+  detail::Asking asking(progress);
   trials.pairs.resize(pairs.size());
   do {
-    for (std::size_t i = 0; i < pairs.size(); ++i) trials.pairs[i].run(contender.plan, pairs[i]);
-    trials.single.run(contender.plan, single);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      asking.go_on(contender.name, 0.0);
+      trials.pairs[i].run(contender.plan, pairs[i], progress);
+    }
+    trials.single.run(contender.plan, single, progress);
   } while (detail::seconds_now() < end);
+}
+
+/// Throws Cancelled.
+std::vector<double> lengths_by_esdf(const Roadmap& roadmap, const std::vector<Pair>& pairs,
+                                    const Progress& progress) {
+  detail::Asking asking(progress);
+  std::vector<double> lengths;
+  lengths.reserve(pairs.size());
+  for (const Pair& pair : pairs) {
+    asking.go_on("esdf", 0.0);
+    lengths.push_back(
+        plan(roadmap, pair.start, pair.goal, {.planner = Planner::kEsdf, .shorten = false}).length);
+  }
+  return lengths;
 }
 
 MazeRow row_of(const Contender& contender, const Trials& trials,
@@ -182,10 +202,7 @@ void run_maze(const MazeExperimentConfig& config, const Progress& progress, Maze
                                  {.min_clearance = config.min_clearance}, progress)
                        .roadmap;
   const std::vector<Pair> pairs = random_pairs(world, config);
-  std::vector<double> esdf_lengths;
-  esdf_lengths.reserve(pairs.size());
-  for (const Pair& pair : pairs)
-    esdf_lengths.push_back(on_roadmap(result.roadmap, Planner::kEsdf, false)(pair).length);
+  const std::vector<double> esdf_lengths = lengths_by_esdf(result.roadmap, pairs, progress);
   const std::vector<Contender> all = contenders(result.roadmap, config);
   const Pair single = corners(config.maze);
   std::vector<Pair> few = pairs;
@@ -194,11 +211,12 @@ void run_maze(const MazeExperimentConfig& config, const Progress& progress, Maze
   for (std::size_t round = 0; round < config.repeat; ++round) {
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (all[i].is_slow && round > 0) continue;
-      const auto done = static_cast<double>(round * all.size() + i);
-      if (progress &&
-          !progress(all[i].name, done / static_cast<double>(config.repeat * all.size())))
-        throw Cancelled();
-      run_round(all[i], single, all[i].is_slow ? few : pairs, trials[i]);
+      const double done = static_cast<double>(round * all.size() + i) /
+                          static_cast<double>(config.repeat * all.size());
+      const auto in_this_round = [&](std::string_view, double) {
+        return !progress || progress(all[i].name, done);
+      };
+      run_round(all[i], single, all[i].is_slow ? few : pairs, in_this_round, trials[i]);
     }
     result.rows.clear();
     for (std::size_t i = 0; i < all.size(); ++i)

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "common/rounding.hpp"
 #include "paths/planning_constants.hpp"
 #include "paths/shorten.hpp"
 #include "query.hpp"
@@ -55,7 +56,7 @@ class Answering {
 
   PlanStatus find_path() {
     const auto& [from, to, start, goal, radius, prefer_clearance] = query_;
-    if (space_.inner_radius(radius) < roadmap_.min_clearance * (1.0 - 1e-9))
+    if (!is_as_wide(space_.inner_radius(radius), roadmap_.min_clearance))
       return PlanStatus::kRadiusTooSmall;
     const QueryEnds ends = find_ends(space_, start, goal, radius);
     if (ends.status != PlanStatus::kOk) return ends.status;
@@ -77,7 +78,7 @@ class Answering {
     if (!config_.shorten || config_.planner != Planner::kGraph || !space_.is_for_sphere())
       return {};
     // The smallest robot's corners are of one part of space; that part may fall apart for others.
-    if (query_.radius > roadmap_.min_clearance * (1.0 + 1e-9) && !is_connected()) return {};
+    if (!is_as_wide(roadmap_.min_clearance, query_.radius) && !is_connected()) return {};
     TangentPath tangents =
         plan_tangents(roadmap_.tangents, space_, query_, config_.quick, deadline_);
     result_.seconds.search = tangents.search_seconds;

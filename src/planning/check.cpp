@@ -8,6 +8,7 @@
 #include <iterator>
 #include <random>
 
+#include "common/rounding.hpp"
 #include "query.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
@@ -64,7 +65,9 @@ std::vector<Query> draw_queries(const Roadmap& roadmap, const CheckConfig& confi
         *point = centre;
         continue;
       }
-      *point = space.nearest_within(centre + Point(off(), off(), off()) * esdf.voxel_size);
+      Point shift;  // one by one, as compilers differ in the order of arguments
+      for (const int axis : {2, 1, 0}) shift[axis] = off();
+      *point = space.nearest_within(centre + shift * esdf.voxel_size);
     }
   }
   return queries;
@@ -74,7 +77,7 @@ std::vector<Query> draw_queries(const Roadmap& roadmap, const CheckConfig& confi
 bool holds_clearance(const FreeSpace& space, const PlanResult& result, double radius) {
   for (std::size_t i = 1; i < result.waypoints.size(); ++i)
     if (!space.is_free(result.waypoints[i - 1], result.waypoints[i], radius)) return false;
-  return result.clearance >= space.inner_radius(radius) * (1.0 - 1e-9);
+  return detail::is_as_wide(result.clearance, space.inner_radius(radius));
 }
 
 void summarise(const Roadmap& roadmap, const CheckConfig& config, const std::vector<Query>& queries,
@@ -115,7 +118,7 @@ void report_progress(const Progress& progress, std::size_t done, std::size_t of)
 void check_edges(const Roadmap& roadmap, const Progress& progress, CheckReport& report) {
   const FreeSpace space(roadmap.esdf);
   const SparseGraph& graph = roadmap.graph;
-  const double least = roadmap.min_clearance * (1.0 - 1e-9);
+  const double least = detail::least_fit(roadmap.min_clearance);
   for (const Edge& edge : graph.edges) {
     if (report.edges % kBatch == 0) report_progress(progress, 0, 1);
     const Point& a = graph.vertices[number(edge.from)].position;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/rounding.hpp"
 #include "paths/shorten.hpp"
 #include "roadmap/best_first_search.hpp"
 #include "voxel_route.hpp"
@@ -110,10 +111,10 @@ class LimitedSearch {
     const Point a = place_of(from), b = place_of(link.vertex);
     const bool was_moved = a != graph_.vertices[number(from)].position ||
                            b != graph_.vertices[number(link.vertex)].position;
-    const double clearance = graph_.edges[number(link.edge)].clearance * (1.0 + 1e-9);
-    if (!was_moved && clearance >= space_.outer_radius(query_.radius))
+    const double clearance = graph_.edges[number(link.edge)].clearance;
+    if (!was_moved && is_as_wide(clearance, space_.outer_radius(query_.radius)))
       return space_.is_within_limits(a, b);
-    if (!was_moved && clearance < space_.inner_radius(query_.radius)) return false;
+    if (!was_moved && !is_as_wide(clearance, space_.inner_radius(query_.radius))) return false;
     return space_.is_free(a, b, query_.radius);
   }
 

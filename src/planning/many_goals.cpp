@@ -6,6 +6,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "common/rounding.hpp"
 #include "endpoint.hpp"
 #include "paths/shorten.hpp"
 #include "query.hpp"
@@ -51,7 +52,7 @@ std::vector<double> distances_to_goals(const Roadmap& roadmap, const Point& star
     detail::validate_query(roadmap.esdf, start, goals.back(), r);
   }
   std::vector<double> distances(goals.size(), std::numeric_limits<double>::infinity());
-  if (r < roadmap.min_clearance * (1.0 - 1e-9)) return distances;
+  if (!detail::is_as_wide(r, roadmap.min_clearance)) return distances;
   const Entry from = find_entry(roadmap, start, r);
   if (from.voxel == kNoVoxel) return distances;
   std::vector<double> along;  // the graph, to each vertex

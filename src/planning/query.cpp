@@ -8,6 +8,7 @@
 #include <span>
 
 #include "common/number_text.hpp"
+#include "common/rounding.hpp"
 #include "endpoint.hpp"
 #include "paths/shorten.hpp"
 #include "ridgeway/common/error.hpp"
@@ -96,7 +97,7 @@ bool is_verified(const EsdfMap& esdf, const FreeSpace& space, const PlanResult& 
                  double radius) {
   // Nothing that is called a path may be none: what is empty has no clearance that could be missed.
   if (result.waypoints.size() < 2 || !std::isfinite(result.length)) return false;
-  if (!(result.clearance >= space.inner_radius(radius) * (1.0 - 1e-9))) return false;
+  if (!is_as_wide(result.clearance, space.inner_radius(radius))) return false;
   for (std::size_t i = 1; !space.is_for_sphere() && i < result.waypoints.size(); ++i)
     if (!space.is_free(result.waypoints[i - 1], result.waypoints[i], radius)) return false;
   if (!space.is_within_limits(result.waypoints)) return false;

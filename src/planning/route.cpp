@@ -7,6 +7,7 @@
 #include <span>
 
 #include "any_angle_search.hpp"
+#include "common/rounding.hpp"
 #include "endpoint.hpp"
 #include "limited_route.hpp"
 #include "path_cost.hpp"
@@ -70,7 +71,7 @@ Reach compare_ways(const Roadmap& roadmap, const RouteQuery& query, const Attach
   if (from.voxels.back() == to.voxels.back()) return Reach::kJoined;
   if (from.reached() && to.reached()) {
     const double widest = widest_way(roadmap.graph, roadmap.tree, from.vertex, to.vertex);
-    return widest >= query.radius * (1.0 - 1e-9) ? Reach::kConnected : Reach::kApart;
+    return is_as_wide(widest, query.radius) ? Reach::kConnected : Reach::kApart;
   }
   // A way that stops before it meets the diagram stops at the end of all that its voxel can
   // reach at this radius, and that end is the same for all voxels of such a region.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "common/rounding.hpp"
 #include "deformation.hpp"
 #include "paths/planning_constants.hpp"
 #include "paths/shorten.hpp"
@@ -69,7 +70,7 @@ RouteEnumeration::Legs RouteEnumeration::legs_from(const Point& end, VoxelId vox
 }
 
 bool RouteEnumeration::is_wide_enough(const Link& link) const {
-  return roadmap_.graph.edges[number(link.edge)].clearance >= query_.radius * (1.0 - 1e-9);
+  return is_as_wide(roadmap_.graph.edges[number(link.edge)].clearance, query_.radius);
 }
 
 bool RouteEnumeration::may_be_taken(VertexId from, const Link& link) const {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <span>
 
+#include "common/rounding.hpp"
 #include "paths/planning_constants.hpp"
 #include "paths/shorten.hpp"
 #include "roadmap/graph_search.hpp"
@@ -49,7 +50,7 @@ struct Corners {
 Corners corners_for(const TangentGraph& tangents, double radius) {
   if (tangents.empty()) return {};
   const auto suits = [&](const SparseGraph& graph) {
-    return radius <= graph.min_clearance * (1.0 + 1e-9);
+    return is_as_wide(graph.min_clearance, radius);
   };
   if (suits(tangents.graph)) return {&tangents.graph, &tangents.hubs};
   for (const TangentGraph::Wider& wider : tangents.wider)

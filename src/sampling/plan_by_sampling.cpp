@@ -11,6 +11,7 @@
 #include <cmath>
 #include <string>
 
+#include "common/asking.hpp"
 #include "common/number_text.hpp"
 #include "ompl_problem.hpp"
 #include "paths/deadline.hpp"
@@ -68,8 +69,10 @@ void require_range(const SamplingConfig& config, double voxel_size) {
 }
 
 /// Samples until a path or a limit; the waypoints, empty where there is no path. Points are local.
+/// Throws Cancelled.
 std::vector<Point> sample(const FreeSpace& space, const Point& start, const Point& goal,
-                          const SamplingConfig& config, SamplingResult& result) {
+                          const SamplingConfig& config, const Progress& progress,
+                          SamplingResult& result) {
   const double began = seconds_now();
   const detail::QuietOmpl quiet;
   detail::OmplSeeds seeds(config.seed);
@@ -90,11 +93,19 @@ std::vector<Point> sample(const FreeSpace& space, const Point& start, const Poin
         result.first_seconds = seconds_now() - ready;
         result.first_length = cost.value();
       });
+  detail::Asking asking(progress);
+  const auto share_done = [&] {
+    const double iterations =
+        static_cast<double>(result.iterations) / static_cast<double>(config.iteration_limit);
+    return std::min(1.0, std::max((seconds_now() - ready) / config.time_limit, iterations));
+  };
   planner->solve(ob::PlannerTerminationCondition([&] {
+    if (!asking.may_go_on("sampling", share_done())) return true;
     if (deadline.has_passed() || result.iterations >= config.iteration_limit) return true;
     ++result.iterations;
     return false;
   }));
+  if (asking.is_cancelled()) throw Cancelled();
   result.plan.seconds.search = seconds_now() - ready;
   return detail::solution_of(*problem.definition);
 }
@@ -125,7 +136,7 @@ namespace {
 
 /// plan_by_sampling() between points of the local frame, with waypoints there.
 SamplingResult sample_locally(const EsdfMap& esdf, const Point& start, const Point& goal,
-                              const SamplingConfig& config) {
+                              const SamplingConfig& config, const Progress& progress) {
   config.validate();
   require_range(config, esdf.voxel_size);
   detail::validate_query(esdf, start, goal, config.radius);
@@ -148,8 +159,9 @@ SamplingResult sample_locally(const EsdfMap& esdf, const Point& start, const Poi
 
   const bool is_straight = (config.shorten || start == goal) &&
                            space.is_free(start, goal, config.radius);  // nothing is shorter
-  const std::vector<Point> found =
-      is_straight ? std::vector<Point>{start, goal} : sample(space, start, goal, config, result);
+  const std::vector<Point> found = is_straight
+                                       ? std::vector<Point>{start, goal}
+                                       : sample(space, start, goal, config, progress, result);
   if (found.empty()) return finish(PlanStatus::kTimeout);
   if (result.first_length == 0.0) {  // the planner did not report it: there was but one path
     result.first_seconds = plan.seconds.search;
@@ -175,10 +187,10 @@ SamplingResult sample_locally(const EsdfMap& esdf, const Point& start, const Poi
 }  // namespace
 
 SamplingResult plan_by_sampling(const EsdfMap& esdf, const Point& start, const Point& goal,
-                                const SamplingConfig& config) {
+                                const SamplingConfig& config, const Progress& progress) {
   const Point from = detail::place_in_local(esdf, start, config.radius);
   const Point to = detail::place_in_local(esdf, goal, config.radius);
-  SamplingResult result = sample_locally(esdf, from, to, config);
+  SamplingResult result = sample_locally(esdf, from, to, config, progress);
   detail::move_to_world(esdf, start, goal, result.plan);
   return result;
 }

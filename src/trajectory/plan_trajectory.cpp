@@ -10,6 +10,7 @@
 #include "common/clock.hpp"
 #include "common/name_table.hpp"
 #include "common/number_text.hpp"
+#include "common/rounding.hpp"
 #include "initial_spline.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/planning/plan.hpp"
@@ -64,7 +65,7 @@ void describe(const FreeSpace& space, const std::vector<Point>& path,
   result.duration = trajectory.duration();
   result.peaks = find_peaks(trajectory);
   result.clearance = std::max(clearance_of(space.map(), trajectory),
-                              space.inner_radius(config.radius) * (1.0 - 1e-9));  // as verified
+                              detail::least_fit(space.inner_radius(config.radius)));  // as verified
 }
 
 void require_start_within_limits(const TrajectoryConfig& config) {

@@ -13,14 +13,14 @@ constexpr double kEast = 465000.0, kNorth = 5300000.0, kUp = -0.5;
 
 class CliFarMap : public Program {
  protected:
-  void SetUp() override {
+  void build_both() {
     build("near.ridge", {});
     build("far.ridge", {"--transform", "465000,5300000,-0.5,0,0,0"});
   }
 
   void build(const std::string& name, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = {"build",           kScan, "-o", path(name),
-                                          "--min-clearance", "0.3"};
+    std::vector<std::string> arguments = {
+        "build", kScan, "-o", path(name), "--voxel-size", "0.1", "--min-clearance", "0.3"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Outcome built = run(arguments);
     ASSERT_EQ(built.code, 0) << built.err;
@@ -54,6 +54,7 @@ class CliFarMap : public Program {
 };
 
 TEST_F(CliFarMap, PlansAreTheSameButForTheShift) {
+  build_both();
   for (const auto& arguments : std::vector<std::vector<std::string>>{
            {"plan"},
            {"plan", "--planner", "esdf"},
@@ -72,6 +73,7 @@ TEST_F(CliFarMap, PlansAreTheSameButForTheShift) {
 }
 
 TEST_F(CliFarMap, TrajectoriesFlyThere) {
+  build_both();
   const Json far = answer({"trajectory"}, true);
   EXPECT_EQ(far["status"], "ok");
   const Json& first = far["samples"].front()["position"];
@@ -83,6 +85,7 @@ TEST_F(CliFarMap, TrajectoriesFlyThere) {
 }
 
 TEST_F(CliFarMap, ChecksAndFactsAreInItsCoordinates) {
+  build_both();
   const Outcome check = run({"check", path("far.ridge"), "--queries", "30", "--json"});
   EXPECT_EQ(check.code, 0) << check.out << check.err;
   const Json near = run({"info", path("near.ridge"), "--json"}).json(),
@@ -100,6 +103,7 @@ TEST_F(CliFarMap, ChecksAndFactsAreInItsCoordinates) {
 }
 
 TEST_F(CliFarMap, ExportsAreInItsCoordinates) {
+  build_both();
   for (const char* name : {"near", "far"}) {
     const std::string file = path(std::string(name) + ".ridge");
     ASSERT_EQ(run({"export", file, "-o", path(std::string(name) + ".json"), "-o",

@@ -27,7 +27,7 @@ class CliOptions : public Program {
     }
   }
 
-  /// Exit code 1 within a time bound, one line that names the option, and no file.
+  /// Exit code 1, one line that names the option, and no file.
   void expect_option_refused(std::vector<std::string> words, const Json& option,
                              const std::string& value) {
     const std::string name = option["name"];
@@ -40,9 +40,21 @@ class CliOptions : public Program {
     const bool is_unknown_option = option["positional"] && value.starts_with("-");
     const bool is_list = option["type"] == "choices";
     const std::string word = is_list ? value.substr(0, value.find(',')) : value;
-    expect_refused(words, {(is_unknown_option ? "'" : name + " '") + word + "'"});
+    expect_refused_here(words, {(is_unknown_option ? "'" : name + " '") + word + "'"});
   }
 };
+
+TEST_F(CliOptions, AreRefusedByTheProgramAsWithinThisProcess) {
+  const std::vector<std::vector<std::string>> refused = {
+      {}, {"castle"}, {"plan", "--radius", "nan"}, {"build", "--bounds="}, {"info"}, {"info", ""}};
+  for (const std::vector<std::string>& words : refused) {
+    const Outcome there = run(words), here = run_here(words);
+    EXPECT_EQ(there.code, 1);
+    EXPECT_EQ(there.code, here.code);
+    EXPECT_EQ(there.err, here.err);
+    EXPECT_EQ(there.out, here.out);
+  }
+}
 
 const std::vector<std::string> kNoNumbers = {"",       "nan",     "-nan",   "abc", "1x",
                                              "1e-310", "-5e-324", "1e9999", "1,",  "0x10"};
@@ -106,7 +118,7 @@ TEST_F(CliOptions, TheNumberOfAnyOptionIsRefusedAsAnEmptyWord) {
       if (option["positional"] || option["type"] == "flag") continue;
       const std::string name = option["name"];
       words.push_back(name + "=");
-      expect_refused(words, {name, "is empty"});
+      expect_refused_here(words, {name, "is empty"});
       words.pop_back();
     }
   });

@@ -62,8 +62,19 @@ TEST(Maze, CanBeCancelled) {
   MazeExperimentConfig config = small_config();
   config.repeat = 1;
   const auto planning = [&](const Progress& progress) { run_maze(config, progress); };
-  // While the roadmap is built (nine times asked), and between planners.
+  // While the roadmap is built (nine times asked), before the lengths, and with planners.
   for (const int stop : {0, 8, 9, 10, 12}) testing::expect_cancelled_at(stop, planning);
+}
+
+TEST(Maze, CanBeCancelledInAQueryThatTakesForEver) {
+  MazeExperimentConfig config = small_config();
+  config.time_limit = 1e9;
+  int asked = 0;
+  const auto stop_in_the_long_one = [&](std::string_view stage, double) {
+    return stage != "rrtstar_10s" || ++asked < 3;
+  };
+  EXPECT_THROW(run_maze(config, stop_in_the_long_one), Cancelled);
+  EXPECT_EQ(asked, 3);
 }
 
 }  // namespace

@@ -27,39 +27,15 @@
 #include "support/lattice.hpp"
 #include "support/places.hpp"
 #include "support/random_maps.hpp"
+#include "support/shifted_map.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ridgeway {
 namespace {
 
-/// No farther from zero than this do voxels go.
-constexpr int kLimit = kMaxVoxelIndex;
-
-/// Shifts of a map, voxels: near, far, UTM at 0.1 m, other ways, and up to both limits.
-std::vector<VoxelIndex> shifts_of(const OccupancyMap& map) {
-  const VoxelRange own = known_range(map);
-  const VoxelRange known = moved(own, map.origin);
-  const VoxelIndex top = {kLimit, kLimit, kLimit}, bottom = {-kLimit, -kLimit, -kLimit};
-  return {{1000, -1000, 8},
-          {1'000'000, 1'000'000, -1'000'000},
-          {4'650'000, 53'000'000, 4231},
-          {-4'650'003, -53'000'005, -17},
-          top - known.max,
-          bottom - known.min};
-}
-
-OccupancyMap moved_map(const OccupancyMap& map, const VoxelIndex& shift) {
-  OccupancyBuilder builder(map.voxel_size);
-  for (VoxelId id = 0; id < map.layout.voxel_count(); ++id)
-    builder.set(map.origin + map.layout.index_of(id) + shift, map.state[id]);
-  return std::move(builder).finish();
-}
-
-std::string bytes_but_for_the_origin(Roadmap roadmap, const TemporaryFolder& folder) {
-  roadmap.esdf.origin = {};
-  save_roadmap(roadmap, folder / "map.ridge");
-  return read_whole(folder / "map.ridge");
-}
+using testing::bytes_but_for_the_origin;
+using testing::moved_map;
+using testing::shifts_of;
 
 /// One map at two places.
 struct Shifted {

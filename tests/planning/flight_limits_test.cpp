@@ -176,9 +176,9 @@ FlightLimits random_limits(std::mt19937& random, const Box& bounds) {
   limits.keep_in.min[axis] = bounds.min[axis] + 0.3 * share() * extent[axis];
   limits.keep_in.max[axis] = bounds.max[axis] - 0.3 * share() * extent[axis];
   for (unsigned i = 0; i < random() % 3; ++i) {
-    const Point low = bounds.min + Point(share(), share(), share()).cwiseProduct(extent);
+    const Point low = bounds.min + Point{share(), share(), share()}.cwiseProduct(extent);
     limits.keep_out.push_back(
-        {low, low + 0.4 * Point(share(), share(), share() + 0.2).cwiseProduct(extent) +
+        {low, low + 0.4 * Point{share(), share(), share() + 0.2}.cwiseProduct(extent) +
                   Point::Constant(0.01)});
   }
   return limits;
@@ -186,9 +186,12 @@ FlightLimits random_limits(std::mt19937& random, const Box& bounds) {
 
 struct Answers {
   int routes = 0, none = 0;
+  int by_lines = 0;  ///< routes where no moves between voxels lead from end to end
 };
 
-/// Plans between random places; answers must be the judge's, and paths keep the limits.
+/// Plans between random places; answers must be the judge's, and paths keep the limits. But
+/// straight lines of the graph, and corners that see each other, may lead where no moves between
+/// voxels do.
 void judge_plans(const Roadmap& roadmap, const FlightLimits& limits, const PlanConfig& config,
                  unsigned seed, Answers& answers) {
   const Judge judge(roadmap.esdf, limits, roadmap.min_clearance);
@@ -207,7 +210,12 @@ void judge_plans(const Roadmap& roadmap, const FlightLimits& limits, const PlanC
       asked.planner = planner;
       const PlanResult result = plan(roadmap, start, goal, asked);
       const bool straight = space.is_free(start, goal, roadmap.min_clearance);
-      ASSERT_EQ(result.ok(), straight || judge.connects(from, to)) << name_of(planner);
+      if (straight || judge.connects(from, to)) {
+        ASSERT_TRUE(result.ok()) << name_of(planner);
+      } else if (result.ok()) {
+        ASSERT_EQ(planner, Planner::kGraph);
+        ++answers.by_lines;
+      }
       if (!result.ok()) ASSERT_EQ(result.status, PlanStatus::kNoRoute);
       result.ok() ? ++answers.routes : ++answers.none;
       expect_within(limits, result.waypoints);
@@ -219,7 +227,7 @@ void judge_plans(const Roadmap& roadmap, const FlightLimits& limits, const PlanC
   }
 }
 
-TEST(PlanWithinLimits, FindsAPathExactlyWhereVoxelsWithinThemAreConnected) {
+TEST(PlanWithinLimits, FindsAPathWhereVoxelsWithinThemAreConnected) {
   Answers asked, built;
   for (unsigned seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
@@ -247,6 +255,8 @@ TEST(PlanWithinLimits, FindsAPathExactlyWhereVoxelsWithinThemAreConnected) {
   EXPECT_GT(asked.none, 20);
   EXPECT_GT(built.routes, 200);
   EXPECT_GT(built.none, 20);
+  EXPECT_LT(asked.by_lines, asked.routes / 50);
+  EXPECT_EQ(built.by_lines, 0);
 }
 
 /// A room 6 x 3 x 2 m, with a wall at x = 3 that leaves a gap below the ceiling.

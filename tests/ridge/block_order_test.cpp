@@ -120,7 +120,8 @@ TEST_P(BlockOrder, OfRandomMapsLeavesNoTraceInTheFileAndThePlans) {
 }
 
 TEST_P(BlockOrder, OfARealScanLeavesNoTraceInTheFileAndThePlans) {
-  const OccupancyMap map = load_map(std::filesystem::path(RIDGEWAY_DATA_DIR) / "fr_079.bt");
+  const OccupancyMap map =
+      load_map(std::filesystem::path(RIDGEWAY_DATA_DIR) / "fr_079.bt", {.voxel_size = 0.1});
   const BuildConfig config{.min_clearance = 0.3, .unknown = GetParam()};
   EXPECT_TRUE(expect_same_in_any_order(map, config, 1, 97, random_places(map, 12)));
 }

@@ -4,9 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
+
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
+#include "support/random_maps.hpp"
 #include "support/synthetic_roadmap.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -91,14 +95,19 @@ TEST(RidgeFile, ABuiltRoadmapComesBack) {
 }
 
 TEST(RidgeFile, LongOffsetsComeBack) {
-  SyntheticConfig config;  // one hall, wide enough for offsets that need more than a byte
-  config.rooms_x = config.rooms_y = 1;
-  config.room = 420;
-  config.height = 300;
+  // A passage through the unknown, which is no obstacle, with a wall at one end: offsets that need
+  // more than a byte.
+  const OccupancyMap map = testing::make_map(0.1, {0, 0, 0}, {299, 7, 7}, [](const VoxelIndex& v) {
+    return v.x == 0 ? VoxelState::kOccupied : VoxelState::kFree;
+  });
+  Roadmap roadmap =
+      build_roadmap(map, {.min_clearance = 0.3, .unknown = UnknownPolicy::kIgnore}).roadmap;
+  const std::vector<SiteOffset> sites = roadmap.esdf.site.values();
+  ASSERT_TRUE(std::any_of(sites.begin(), sites.end(),
+                          [](const SiteOffset& o) { return std::abs(o.x) > 255; }));
   const TemporaryFolder folder;
-  Roadmap roadmap = synthetic_roadmap(config);
-  save_roadmap(roadmap, folder / "hall.ridge");
-  expect_same(load_roadmap(folder / "hall.ridge"), roadmap);
+  save_roadmap(roadmap, folder / "passage.ridge");
+  expect_same(load_roadmap(folder / "passage.ridge"), roadmap);
 }
 
 TEST(RidgeFile, AnEmptyRoadmapComesBack) {

@@ -11,6 +11,7 @@
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "sampling/two_rooms.hpp"
+#include "support/cancelling.hpp"
 
 namespace ridgeway {
 namespace {
@@ -43,6 +44,16 @@ TEST(Sampling, EndsAreJudgedAsByEveryOtherPlanner) {
        {PlanStatus::kOk, PlanStatus::kStartOutsideMap, PlanStatus::kStartInCollision,
         PlanStatus::kGoalOutsideMap, PlanStatus::kGoalInCollision})
     EXPECT_GT(seen[static_cast<std::size_t>(status)], 0) << name_of(status);
+}
+
+TEST(Sampling, CanBeCancelledAsLongAsItSamples) {
+  const EsdfMap esdf = compute_esdf(two_rooms(true));
+  for (const Planner planner : kSamplers)
+    for (const int stop : {0, 2})
+      testing::expect_cancelled_at(stop, [&](const Progress& progress) {
+        plan_by_sampling(esdf, kLeft, kRight,
+                         {.planner = planner, .radius = kRadius, .time_limit = 1e9}, progress);
+      });
 }
 
 TEST(Sampling, LeavesTheMessagesOfOmplToTheirOwner) {

@@ -15,20 +15,25 @@ namespace ridgeway::testing {
 
 inline constexpr double kPillarVoxel = 0.1, kPillarClearance = 0.2;  // metres
 
+/// Which coordinate of an axis is drawn first: another hall for the same seed.
+enum class DrawnFirst { kX, kY };
+
 /// A low hall, 8 x 6 m, with at most so many pillars from floor to ceiling, their axes in `axes`
 /// (metres). A robot of kPillarClearance passes between any two, and between them and the walls.
 inline OccupancyMap pillars(unsigned seed, std::vector<Eigen::Vector2d>& axes,
-                            std::size_t most = 12) {
+                            std::size_t most = 12, DrawnFirst first = DrawnFirst::kY) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> x(1.0, 7.0), y(1.0, 5.0), radius(0.1, 0.5);
   std::vector<double> radii;
   axes.clear();
   for (int tries = 0; tries < 12 && axes.size() < most; ++tries) {
-    const double along_y = y(random);  // one by one, as compilers differ in the order of arguments
-    const double along_x = x(random);
-    const Eigen::Vector2d axis(along_x, along_y);
+    Eigen::Vector2d axis;
+    if (first == DrawnFirst::kX) axis.x() = x(random);
+    axis.y() = y(random);
+    if (first == DrawnFirst::kY) axis.x() = x(random);
     const double r = radius(random);
-    const double to_wall = std::min({along_x - 0.1, 7.9 - along_x, along_y - 0.1, 5.9 - along_y});
+    const double to_wall =
+        std::min({axis.x() - 0.1, 7.9 - axis.x(), axis.y() - 0.1, 5.9 - axis.y()});
     bool clear = to_wall > r + 2.0 * kPillarClearance + 0.2;
     for (std::size_t i = 0; i < axes.size(); ++i)
       clear &= (axis - axes[i]).norm() > r + radii[i] + 2.0 * kPillarClearance + 0.4;

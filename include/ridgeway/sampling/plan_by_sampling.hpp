@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "ridgeway/common/progress.hpp"
 #include "ridgeway/planning/plan.hpp"
 
 namespace ridgeway {
@@ -51,8 +52,9 @@ struct SamplingResult {
 /// Thread-safe. OMPL seeds its generators from one of the process: where a caller uses OMPL beside
 /// this function, its own generators made later depend on the seeds given here. OMPL's messages are
 /// off meanwhile.
-/// Throws InputError as plan() does.
+/// Throws InputError as plan() does, and Cancelled; `progress` is asked while it samples, some
+/// twenty times a second.
 SamplingResult plan_by_sampling(const EsdfMap& esdf, const Point& start, const Point& goal,
-                                const SamplingConfig& config);
+                                const SamplingConfig& config, const Progress& progress = {});
 
 }  // namespace ridgeway
