@@ -21,6 +21,7 @@ ExplorationFlightConfig ExploreSettings::flight() const {
   flight.explorer.limits.max_yaw_rate = max_yaw_rate * std::numbers::pi / 180.0;
   if (planner == "frontier") flight.planner = ExplorationPlanner::kFrontier;
   if (planner == "nbvp") flight.planner = ExplorationPlanner::kNextBest;
+  if (planner == "offline") flight.planner = ExplorationPlanner::kOffline;
   return flight;
 }
 

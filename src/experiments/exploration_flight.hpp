@@ -21,6 +21,7 @@ enum class ExplorationPlanner : std::uint8_t {
   kRidgeway,  ///< Explorer, by tours
   kFrontier,  ///< Explorer, nearest frontier
   kNextBest,  ///< receding horizon next best view (Bircher et al. 2016)
+  kOffline,   ///< a tour by one that knows the world; does not come back
 };
 
 /// A simulated drone maps a world by itself. Metres, seconds, radians.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "explorer_state.hpp"
+#include "legs.hpp"
 #include "planning/endpoint.hpp"
 #include "ridgeway/common/error.hpp"
 #include "thread_clock.hpp"
@@ -17,7 +18,10 @@ using detail::Access;
 using detail::Place;
 using detail::Stop;
 
+constexpr double kDeepest = 3.0;     // metres of unknown space behind a frontier that count
 constexpr double kTourPeriod = 1.0;  // seconds between tours while the goal is good
+constexpr double kNear = 1.25;       // times the spacing: so far off a stop may be passed
+constexpr double kFarOff = 1.5;      // seconds to a goal until which what follows it can wait
 constexpr int kMostTries = 3;        // stops that are tried to be flown to in one decision
 
 void require_state(const FlightState& state) {
@@ -32,7 +36,8 @@ Explorer::State::State(const ExplorerConfig& given)
     : config(given),
       frontiers(given.within),
       diagram(given.spacing),
-      views(given.view, given.headings) {}
+      views(given.view, given.headings, given.within,
+            given.strategy == ExplorationStrategy::kTour ? kDeepest : 0.0) {}
 
 Access Explorer::State::access_at(const Point& local) const {
   const FreeSpace space(roadmap->esdf);
@@ -61,10 +66,7 @@ bool Explorer::State::choose(const FlightState& state, bool thorough, Exploratio
     is_out_of_time = true;
     return true;
   }
-  std::stable_sort(stops.begin(), stops.end(), [](const TourStop& a, const TourStop& b) {
-    return a.from_robot < b.from_robot;
-  });
-  if (stops.size() > config.most_stops) stops.resize(config.most_stops);
+  keep_best(stops, state);
   std::vector<std::size_t> tour(stops.size());
   for (std::size_t i = 0; i < tour.size(); ++i) tour[i] = i;
   if (config.strategy == ExplorationStrategy::kTour && !stops.empty()) {
@@ -78,26 +80,54 @@ bool Explorer::State::choose(const FlightState& state, bool thorough, Exploratio
     step.tour.push_back(
         {to_world(roadmap->esdf, places[stop.place].position), views.yaw_of(stop.heading)});
   }
+  const bool flies = fly_tour(stops, tour, state, step);
+  return flies || (can_see && state.velocity.norm() >= 1e-9);
+}
+
+/// To the first stop that a trajectory leads to, on to the next where the first can be passed.
+bool Explorer::State::fly_tour(const std::vector<TourStop>& stops,
+                               const std::vector<std::size_t>& tour, const FlightState& state,
+                               ExplorationStep& step) {
   const bool at_rest = state.velocity.norm() < 1e-9;
   const std::size_t tries = at_rest ? tour.size() : std::min<std::size_t>(tour.size(), kMostTries);
   for (std::size_t i = 0; i < tries; ++i) {
     const Stop& stop = stops[tour[i]].stop;
     const Place& place = places[stop.place];
-    if (i == 0 && goal && goal->place.id == place.id && goal->heading == stop.heading) {
+    const std::uint64_t next = i + 1 < tour.size() ? places[stops[tour[i + 1]].stop.place].id : 0;
+    const bool is_kept =
+        i == 0 && goal && goal->place.id == place.id && goal->heading == stop.heading;
+    step.goal = step.tour[i];
+    if (is_kept) {
       goal->promised = std::max(goal->promised, stop.gain);
-      step.goal = step.tour[0];
-      return true;  // as before
+      if (config.strategy == ExplorationStrategy::kNearest || goal->next == next ||
+          goal->passed_at > state.time + kFarOff)
+        return true;
     }
-    if (fly_to(place.position, views.yaw_of(stop.heading), state, step)) {
+    const bool may_pass =
+        config.strategy == ExplorationStrategy::kTour && !passed.contains({place.id, stop.heading});
+    const double began = detail::thread_seconds_now();
+    auto passing = may_pass
+                       ? detail::fly_past(*roadmap, config.limits, std::span(step.tour).subspan(i),
+                                          state, kNear * config.spacing)
+                       : std::nullopt;
+    step.seconds.trajectory += detail::thread_seconds_now() - began;
+    if (passing) {
+      step.trajectory = std::move(passing->trajectory);
+      goal = Goal{place, stop.heading, stop.gain, state.time + passing->time, next};
+    } else {
+      if (is_kept) return true;
+      if (!fly_to(place.position, views.yaw_of(stop.heading), state, step)) {
+        refused.push_back(place.id);
+        continue;
+      }
       goal = Goal{place, stop.heading, stop.gain};
-      step.status = ExplorationStatus::kFly;
-      step.goal = step.tour[i];
-      refused.clear();
-      return true;
     }
-    refused.push_back(place.id);
+    step.status = ExplorationStatus::kFly;
+    refused.clear();
+    return true;
   }
-  return can_see && !at_rest;
+  step.goal.reset();
+  return false;
 }
 
 void Explorer::State::go_on(const FlightState& state, bool arrived, ExplorationStep& step) {
@@ -110,9 +140,10 @@ void Explorer::State::go_on(const FlightState& state, bool arrived, ExplorationS
     const double left =
         views.gain_now(*roadmap, frontiers, config.least_frontier, goal->place, goal->heading);
     step.seconds.views += detail::thread_seconds_now() - looking;
-    const bool is_resolved = left < config.resolved_below * goal->promised;
-    if (arrived) {  // `left` is of samples, which may miss what is in view
-
+    const bool is_passed = state.time >= goal->passed_at - 1e-9;
+    if (is_passed) passed.insert({goal->place.id, goal->heading});
+    const bool is_resolved = is_passed || left < config.resolved_below * goal->promised;
+    if (arrived && goal->next == 0) {  // `left` is of samples, which may miss what is in view
       count_looks(goal->place.position, goal->heading, 1.0, 2, &goal->place);
       views.note_changes(*roadmap, frontiers);
     }
@@ -152,6 +183,14 @@ ExplorationStep Explorer::State::decide(std::shared_ptr<const Roadmap> now,
   step.seconds.frontiers = detail::thread_seconds_now() - began;
   step.was_in_doubt = !arrived && is_in_doubt(state);
   go_on(state, arrived, step);
+  if (step.status == ExplorationStatus::kFly && !leaves_time_for_home(state, step.trajectory)) {
+    step.status = ExplorationStatus::kKeep;
+    step.trajectory = {};
+    step.goal.reset();
+    goal.reset();
+    is_out_of_time = true;
+    go_home(state, arrived, step);
+  }
   if (step.was_in_doubt && step.trajectory.segments.empty() && brake(state, step)) {
     step.status = ExplorationStatus::kFly;
     step.is_braking = true;

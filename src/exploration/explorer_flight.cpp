@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "explorer_state.hpp"
+#include "legs.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/trajectory/plan_trajectory.hpp"
 #include "shaped_trajectory.hpp"
@@ -11,38 +12,27 @@
 
 namespace ridgeway {
 
+/// To a stop, and to rest there.
 bool Explorer::State::fly_to(const Point& goal_local, double yaw, const FlightState& state,
                              ExplorationStep& step) const {
   const double began = detail::thread_seconds_now();
-  const double r = roadmap->min_clearance;
-  const bool is_moving = state.velocity.norm() > 1e-9 || state.acceleration.norm() > 1e-9;
-  const Point to = to_world(roadmap->esdf, goal_local);
-  TrajectoryConfig fly = {.radius = r, .limits = config.limits, .follow_yaw = false};
-  fly.start_velocity = state.velocity;
-  fly.start_acceleration = state.acceleration;
-  if (fly.start_velocity.norm() > config.limits.max_speed)  // by rounding
-    fly.start_velocity *= config.limits.max_speed * (1.0 - 1e-12) / fly.start_velocity.norm();
-  if (fly.start_acceleration.norm() > config.limits.max_acceleration)
-    fly.start_acceleration *=
-        config.limits.max_acceleration * (1.0 - 1e-12) / fly.start_acceleration.norm();
-  TrajectoryResult flown;
-  if ((to - state.position).norm() < 1e-9 && !is_moving) {
-    const std::vector<Point> here = {state.position};
-    flown = plan_trajectory(roadmap->esdf, here, fly);
-  } else {
-    const PlanResult path =
-        plan(*roadmap, state.position, to, {.radius = r, .quick = true, .escape = !is_moving});
-    if (!path.ok()) {
-      step.seconds.trajectory += detail::thread_seconds_now() - began;
-      return false;
-    }
-    flown = fly_plan(roadmap->esdf, path, fly);
-  }
+  auto flown = detail::fly_to_rest(*roadmap, config.limits,
+                                   {to_world(roadmap->esdf, goal_local), yaw}, state);
   step.seconds.trajectory += detail::thread_seconds_now() - began;
-  if (!flown.ok()) return false;
-  step.trajectory = std::move(flown.trajectory);
-  detail::turn_to(step.trajectory, state.yaw, yaw, config.limits.max_yaw_rate);
-  return true;
+  if (flown) step.trajectory = std::move(*flown);
+  return flown.has_value();
+}
+
+/// Whether the robot is home in time if it flies a trajectory to its end and then, from rest, home:
+/// by a trajectory in the map as it is. No other flight is begun, so that there is always one.
+bool Explorer::State::leaves_time_for_home(const FlightState& state,
+                                           const Trajectory& trajectory) const {
+  if (!std::isfinite(config.until)) return true;
+  const TrajectoryState end = trajectory.at(trajectory.duration());
+  const FlightState rest = {
+      .time = state.time + trajectory.duration(), .position = end.position, .yaw = end.yaw};
+  const auto back = detail::fly_to_rest(*roadmap, config.limits, {*config.home, end.yaw}, rest);
+  return back && rest.time + back->duration() <= config.until;
 }
 
 /// Whether the rest of what is flown is free no longer, for all that is known now.
@@ -72,6 +62,11 @@ void Explorer::State::go_home(const FlightState& state, bool arrived, Exploratio
   }
   if (is_returning && !arrived) return;  // on the way
   if (fly_to(to_local(roadmap->esdf, *config.home), state.yaw, state, step)) {
+    const bool is_late = state.time + step.trajectory.duration() > config.until;
+    if (is_late && !arrived) {  // what is flown now, and from its end home, is in time
+      step.trajectory = {};
+      return;
+    }
     is_returning = true;
     step.status = ExplorationStatus::kReturn;
   } else if (arrived) {

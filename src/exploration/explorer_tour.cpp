@@ -15,7 +15,10 @@ using detail::Access;
 using detail::Place;
 using detail::Stop;
 
-constexpr double kAsGood = 0.8;  // of a stop's gain: a nearer place that sees as much takes it
+constexpr double kBraking = 1.5;  // times the shortest way to rest: jerk is bounded, too
+constexpr double kLate = 0.3;     // seconds by which a turn may end after a stop is passed
+constexpr double kLook = 1.0;     // seconds that a stop takes at least
+constexpr double kAsGood = 0.8;   // of a stop's gain: a nearer place that sees as much takes it
 
 }  // namespace
 
@@ -26,14 +29,23 @@ double Explorer::State::seconds_between(double length, double turn) const {
   return std::max(flight, std::abs(turn) / config.limits.max_yaw_rate);
 }
 
+/// To a stop from the motion that the robot has now.
 double Explorer::State::seconds_from_robot(const TourStop& stop, const FlightState& state) const {
   const Place& place = places[stop.stop.place];
+  const double v = config.limits.max_speed, a = config.limits.max_acceleration;
   const double turn = detail::turn_between(state.yaw, views.yaw_of(stop.stop.heading));
   double seconds = seconds_between(stop.from_robot, turn);
   const Eigen::Vector3d way = place.position - to_local(roadmap->esdf, state.position);
-  if (way.norm() > 0.0)  // what is to be braked and made good
-    seconds += (state.velocity.norm() - state.velocity.dot(way.normalized())) /
-               config.limits.max_acceleration;
+  const double speed = state.velocity.norm();
+  if (speed > 0.0 && way.norm() > 0.0) {
+    const double along = state.velocity.dot(way.normalized());
+    seconds += (speed - along) / a;  // what is to be braked and made good
+    // Where there is no time to turn until the stop is passed, the robot comes back to it.
+    const double braking = kBraking * speed * speed / (2.0 * a);
+    if (braking > stop.from_robot &&
+        std::abs(turn) / config.limits.max_yaw_rate > stop.from_robot / v + kLate)
+      seconds += speed / a + 2.0 * std::sqrt((braking - stop.from_robot) / a);
+  }
   if (goal && (place.position - goal->place.position).norm() < config.spacing)
     seconds -= config.persistence;
   return std::max(seconds, 0.0);
@@ -83,6 +95,23 @@ std::vector<Explorer::State::TourStop> Explorer::State::cover(const detail::Ways
   return stops;
 }
 
+/// Leaves the stops that a tour is made of, the nearest first: those that give most for the time
+/// that it takes to get there.
+void Explorer::State::keep_best(std::vector<TourStop>& stops, const FlightState& state) const {
+  if (config.strategy == ExplorationStrategy::kTour && stops.size() > config.most_stops) {
+    const auto rate = [&](const TourStop& stop) {
+      return stop.stop.gain / (kLook + seconds_from_robot(stop, state));
+    };
+    std::stable_sort(stops.begin(), stops.end(),
+                     [&](const TourStop& a, const TourStop& b) { return rate(a) > rate(b); });
+    stops.resize(config.most_stops);
+  }
+  std::stable_sort(stops.begin(), stops.end(), [](const TourStop& a, const TourStop& b) {
+    return a.from_robot < b.from_robot;
+  });
+  if (stops.size() > config.most_stops) stops.resize(config.most_stops);
+}
+
 std::vector<std::size_t> Explorer::State::order(const std::vector<TourStop>& stops,
                                                 const FlightState& state, double& seconds) const {
   detail::TourCosts costs;
@@ -97,8 +126,9 @@ std::vector<std::size_t> Explorer::State::order(const std::vector<TourStop>& sto
           detail::turn_between(views.yaw_of(from.stop.heading), views.yaw_of(to.stop.heading))));
     costs.between.push_back(std::move(row));
   }
-  const std::vector<std::size_t> tour = detail::shortest_tour(costs);
-  seconds = detail::cost_of(costs, tour);
+  for (const TourStop& stop : stops) costs.gain.push_back(stop.stop.gain);
+  const std::vector<std::size_t> tour = detail::best_tour(costs);
+  seconds = detail::seconds_of(costs, tour);
   return tour;
 }
 
