@@ -51,11 +51,16 @@ Place place_of(const std::string& name, std::uint64_t seed, int cells, double ro
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json row_of(const ExplorationFlight& flight) {
+/// Of one part of all decisions, or of the whole.
+Json milliseconds_of(const ExplorationFlight& flight, double ExplorationSeconds::*part) {
   std::vector<double> milliseconds;
   for (const ExplorationSample& sample : flight.samples)
-    milliseconds.push_back(1e3 * sample.decision_seconds);
-  const Spread decisions = spread_of(milliseconds);
+    milliseconds.push_back(1e3 * sample.seconds.*part);
+  const Spread spread = spread_of(milliseconds);
+  return {{"median", spread.median}, {"p95", spread.p95}, {"max", spread.max}};
+}
+
+Json row_of(const ExplorationFlight& flight) {
   Json seconds, lengths;
   for (const int percent : {90, 95, 99}) {
     seconds[std::to_string(percent)] = number_or_null(flight.seconds_to(0.01 * percent));
@@ -70,8 +75,11 @@ Json row_of(const ExplorationFlight& flight) {
           {"collisions", flight.collisions},
           {"nearest", flight.nearest},
           {"stops", flight.stops},
-          {"decision_milliseconds",
-           {{"median", decisions.median}, {"p95", decisions.p95}, {"max", decisions.max}}}};
+          {"decision_milliseconds", milliseconds_of(flight, &ExplorationSeconds::total)},
+          {"frontiers_milliseconds", milliseconds_of(flight, &ExplorationSeconds::frontiers)},
+          {"views_milliseconds", milliseconds_of(flight, &ExplorationSeconds::views)},
+          {"tour_milliseconds", milliseconds_of(flight, &ExplorationSeconds::tour)},
+          {"trajectory_milliseconds", milliseconds_of(flight, &ExplorationSeconds::trajectory)}};
 }
 
 void draw(const ExplorationFlight& flight, const std::string& folder, const std::string& name) {
