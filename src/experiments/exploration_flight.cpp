@@ -246,6 +246,15 @@ void ExplorationFlightConfig::validate() const {
   if (bounds) validate_box(*bounds, "bounds");
 }
 
+double ExplorationFlightConfig::free_radius() const {
+  if (start_radius > 0.0) return start_radius;
+  const FieldOfView view = field_of_view(sensor);
+  const double half_angle = 0.5 * std::min({view.vertical, view.horizontal, std::numbers::pi});
+  // Where the edges of the view leave the ball the robot must fit between them.
+  return std::max(clearance() + 2.0 * voxel_size,
+                  clearance() / std::sin(half_angle) + 0.25 * voxel_size);
+}
+
 ExplorationFlight explore(const World& world, const ExplorationFlightConfig& config,
                           const Progress& progress, const OnImage& on_image) {
   config.validate();
