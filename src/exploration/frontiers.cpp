@@ -7,6 +7,7 @@
 #include <cstring>
 #include <numeric>
 #include <set>
+#include <unordered_set>
 #include <utility>
 
 #include "ridgeway/voxel/neighbourhood.hpp"
@@ -34,8 +35,16 @@ VoxelMask::Block mask_of(const EsdfMap& esdf, const BlockIndex& block, VoxelStat
     return mask;
   }
   const VoxelState* const states = esdf.state.block(slot);
-  for (std::size_t z = 0; z < kBlockSide; ++z)
-    for (std::size_t i = 0; i < 64; ++i) mask[z] |= std::uint64_t{states[64 * z + i] == state} << i;
+  constexpr std::uint64_t kOnes = 0x0101010101010101;  // a row of eight states is one word
+  static_assert(kBlockSide == 8);
+  for (std::size_t row = 0; row < 64; ++row) {
+    std::uint64_t word = 0;
+    for (std::size_t x = 0; x < 8; ++x)
+      word |= std::uint64_t{static_cast<std::uint8_t>(states[8 * row + x])} << 8 * x;
+    word ^= kOnes * static_cast<std::uint8_t>(state);  // 0 where it is the state, else 1 to 3
+    const std::uint64_t is_state = ~(word | word >> 1) & kOnes;
+    mask[row / 8] |= is_state * 0x0102040810204080 >> 56 << 8 * (row % 8);  // eight bits in a byte
+  }
   return mask;
 }
 
@@ -109,7 +118,7 @@ void Frontiers::update(std::shared_ptr<const Roadmap> roadmap) {
   for (const BlockIndex& block : changed_) add_with_neighbours(block);
   for (const BlockIndex& block : std::exchange(stale_, {})) add_with_neighbours(block);
   for (const BlockIndex& block : remade) remake(block);
-  std::set<BlockIndex> linked;
+  std::unordered_set<BlockIndex, BlockHash> linked;  // each by itself: in any order
   for (const BlockIndex& block : remade)
     for (int d = 0; d < 27; ++d) {
       const VoxelIndex& o = offset_of(d);
