@@ -22,7 +22,7 @@ using Json = BenchTable::Json;
 
 struct BenchExploreOptions {
   std::vector<std::string> worlds = {"maze", "hall", "house"};
-  std::vector<std::string> planners = {"ridgeway", "frontier", "nbvp"};
+  std::vector<std::string> planners = {"ridgeway", "frontier", "nbvp", "offline"};
   std::string output;
   int seeds = 5, cells = 10;
   ExploreSettings settings;
@@ -33,19 +33,34 @@ struct Place {
   Point start;
 };
 
-Place place_of(const std::string& name, std::uint64_t seed, int cells) {
+/// The first place with so much room, in metres, along the wall from a corner.
+Point start_with_room(const World& world, Point start, double room) {
+  constexpr double kStep = 0.5;
+  while (surface_distance(world, start).distance < room && start.x() < 100.0) start.x() += kStep;
+  return start;
+}
+
+Place place_of(const std::string& name, std::uint64_t seed, int cells, double room) {
   if (name == "maze") return {make_maze({.cells = cells, .seed = seed}), {1.5, 1.5, 1.25}};
-  if (name == "hall") return {make_hall({.seed = seed}), {1.5, 1.5, 1.5}};
+  if (name == "hall") {
+    const World hall = make_hall({.seed = seed});
+    return {hall, start_with_room(hall, {1.5, 1.5, 1.5}, room)};
+  }
   return {make_house(), {1.2, 1.2, 1.5}};
 }
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json row_of(const ExplorationFlight& flight) {
+/// Of one part of all decisions, or of the whole.
+Json milliseconds_of(const ExplorationFlight& flight, double ExplorationSeconds::*part) {
   std::vector<double> milliseconds;
   for (const ExplorationSample& sample : flight.samples)
-    milliseconds.push_back(1e3 * sample.decision_seconds);
-  const Spread decisions = spread_of(milliseconds);
+    milliseconds.push_back(1e3 * sample.seconds.*part);
+  const Spread spread = spread_of(milliseconds);
+  return {{"median", spread.median}, {"p95", spread.p95}, {"max", spread.max}};
+}
+
+Json row_of(const ExplorationFlight& flight) {
   Json seconds, lengths;
   for (const int percent : {90, 95, 99}) {
     seconds[std::to_string(percent)] = number_or_null(flight.seconds_to(0.01 * percent));
@@ -60,8 +75,11 @@ Json row_of(const ExplorationFlight& flight) {
           {"collisions", flight.collisions},
           {"nearest", flight.nearest},
           {"stops", flight.stops},
-          {"decision_milliseconds",
-           {{"median", decisions.median}, {"p95", decisions.p95}, {"max", decisions.max}}}};
+          {"decision_milliseconds", milliseconds_of(flight, &ExplorationSeconds::total)},
+          {"frontiers_milliseconds", milliseconds_of(flight, &ExplorationSeconds::frontiers)},
+          {"views_milliseconds", milliseconds_of(flight, &ExplorationSeconds::views)},
+          {"tour_milliseconds", milliseconds_of(flight, &ExplorationSeconds::tour)},
+          {"trajectory_milliseconds", milliseconds_of(flight, &ExplorationSeconds::trajectory)}};
 }
 
 void draw(const ExplorationFlight& flight, const std::string& folder, const std::string& name) {
@@ -83,8 +101,9 @@ int run(const BenchExploreOptions& options, const Globals& globals) {
         for (const std::string& planner : options.planners) {
           ExploreSettings settings = options.settings;
           settings.planner = planner;
-          const Place place = place_of(name, static_cast<std::uint64_t>(seed), options.cells);
           ExplorationFlightConfig config = settings.flight();
+          const Place place =
+              place_of(name, static_cast<std::uint64_t>(seed), options.cells, config.free_radius());
           config.start = place.start;
           config.seed = static_cast<std::uint64_t>(seed);
           const ExplorationFlight flight = explore(place.world, config, bar.callback());
@@ -113,8 +132,8 @@ void add_bench_explore(Command& bench) {
   Command command = bench.add(
       "explore", "A simulated drone maps worlds by itself: time, length and safety by planner");
   command.choices("--worlds", options->worlds, {"maze", "hall", "house"}, "Worlds to map");
-  command.choices("--planners", options->planners, {"ridgeway", "frontier", "nbvp"},
-                  "Who decides where to fly");
+  command.choices("--planners", options->planners, {"ridgeway", "frontier", "nbvp", "offline"},
+                  "Who decides where to fly; offline: a tour by one that knows the world");
   command.whole("--seeds", options->seeds, {1, 1000}, "Of worlds and noise: 1 up to this");
   command.whole("--cells", options->cells, {2, 100}, "Of the maze, along each side");
   ExploreSettings& settings = options->settings;

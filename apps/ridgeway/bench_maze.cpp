@@ -63,6 +63,7 @@ int run(const BenchMazeOptions& options, const Globals& globals) {
   const BenchTable table = table_of(result);
   const Json facts = {{"seed", config.seed},
                       {"voxel_size", config.voxel_size},
+                      {"explored", config.explored},
                       {"radius", config.min_clearance},
                       {"repeat", config.repeat},
                       {"vertices", result.roadmap.graph.vertices.size()},
@@ -89,6 +90,8 @@ void add_bench_maze(Command& bench) {
   command.number("--time-limit", config.time_limit, {.least = 0.0, .most = 1e9, .above = true},
                  "Of a planner that samples, seconds");
   command.number("--range", config.range, kLengths, "Longest motion of a tree, metres");
+  command.flag("--explored", config.explored,
+               "On the map of a drone that explored the maze, not on the ground truth");
   command.path("-o,--output", options->output,
                "Folder for maze.json, maze.csv and a picture of the paths (PNG, SVG)");
   command.seed(config.seed, "Of maze, starts, goals and samples");

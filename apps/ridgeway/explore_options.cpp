@@ -21,6 +21,7 @@ ExplorationFlightConfig ExploreSettings::flight() const {
   flight.explorer.limits.max_yaw_rate = max_yaw_rate * std::numbers::pi / 180.0;
   if (planner == "frontier") flight.planner = ExplorationPlanner::kFrontier;
   if (planner == "nbvp") flight.planner = ExplorationPlanner::kNextBest;
+  if (planner == "offline") flight.planner = ExplorationPlanner::kOffline;
   return flight;
 }
 
@@ -30,8 +31,9 @@ void add_explore_settings(Command& command, ExploreSettings& settings) {
   command.number("--radius", config.radius, kLengths, "Of the drone, metres");
   command.number("--margin", config.margin, kLengthsFromZero,
                  "Kept beyond the radius, metres; 0: a voxel");
-  command.number("--start-radius", config.start_radius, kLengthsFromZero,
-                 "Around the start, known to be free, metres; 0: radius, margin and two voxels");
+  command.number(
+      "--start-radius", config.start_radius, kLengthsFromZero,
+      "Around the start, known to be free, metres; 0: as much as it takes to fly out of it");
   command.number("--max-distance", config.max_distance, kLengths, "Distances stop here, metres");
   command.number("--max-speed", config.explorer.limits.max_speed, kMotions, "Metres a second");
   command.number("--max-acceleration", config.explorer.limits.max_acceleration, kMotions,

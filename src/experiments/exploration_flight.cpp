@@ -11,6 +11,7 @@
 #include "common/random.hpp"
 #include "common/require.hpp"
 #include "next_best_view.hpp"
+#include "offline_tour.hpp"
 #include "ridgeway/common/error.hpp"
 #include "sensing/poses.hpp"
 #include "viewable.hpp"
@@ -79,6 +80,10 @@ class ExplorationRun {
     stand.coefficients.col(0) << config.start, config.start_yaw;
     flying_.segments.push_back(stand);
     flight_.viewable_volume = viewable_.volume();
+    if (config.planner == ExplorationPlanner::kOffline)
+      offline_.emplace(world_at(world, 0.0), config.voxel_size, within_, config.clearance(),
+                       config.max_distance, config.start, field_of_view(config.sensor),
+                       config.explorer.limits, viewable_);
   }
 
   ExplorationFlight run(const Progress& progress, const OnImage& on_image) {
@@ -143,6 +148,12 @@ class ExplorationRun {
     flight_.samples.push_back(sample);
   }
 
+  ExplorationStep next_step(const std::shared_ptr<const Roadmap>& now, const FlightState& state) {
+    if (offline_) return offline_->decide(*now, state);
+    if (config_.planner == ExplorationPlanner::kNextBest) return next_best_.decide(now, state);
+    return explorer_.decide(now, state);
+  }
+
   void decide(const FlightState& state) {
     const std::shared_ptr<const Roadmap> now = live_.snapshot();
     ExplorationSample& sample = flight_.samples.back();
@@ -152,9 +163,7 @@ class ExplorationRun {
     }
     sample.mapped = static_cast<double>(viewable_.known_of(now)) /
                     std::max(1.0, static_cast<double>(viewable_.voxels()));
-    const ExplorationStep step = config_.planner == ExplorationPlanner::kNextBest
-                                     ? next_best_.decide(now, state)
-                                     : explorer_.decide(now, state);
+    const ExplorationStep step = next_step(now, state);
     ++flight_.decisions;
     sample.frontiers = step.frontiers;
     sample.seconds = step.seconds;
@@ -190,7 +199,9 @@ class ExplorationRun {
     flight_.seconds = flight_.samples.back().state.time;
     flight_.coverage = flight_.samples.back().mapped;
     flight_.is_complete = flight_.end == ExplorationStatus::kComplete;
-    if (config_.planner != ExplorationPlanner::kNextBest) flight_.unseen = explorer_.unseen();
+    if (config_.planner == ExplorationPlanner::kRidgeway ||
+        config_.planner == ExplorationPlanner::kFrontier)
+      flight_.unseen = explorer_.unseen();
     flight_.map = live_.map();
     flight_.roadmap = live_.settled();
   }
@@ -202,6 +213,7 @@ class ExplorationRun {
   ViewableVolume viewable_;
   Explorer explorer_;
   NextBestView next_best_;
+  std::optional<OfflineTour> offline_;
   Trajectory flying_;
   double since_ = 0.0;
   ExplorationFlight flight_;
@@ -232,6 +244,15 @@ void ExplorationFlightConfig::validate() const {
   require(budget >= turn, "budget", budget,
           "give at least the time that the drone takes to turn once around");
   if (bounds) validate_box(*bounds, "bounds");
+}
+
+double ExplorationFlightConfig::free_radius() const {
+  if (start_radius > 0.0) return start_radius;
+  const FieldOfView view = field_of_view(sensor);
+  const double half_angle = 0.5 * std::min({view.vertical, view.horizontal, std::numbers::pi});
+  // Where the edges of the view leave the ball the robot must fit between them.
+  return std::max(clearance() + 2.0 * voxel_size,
+                  clearance() / std::sin(half_angle) + 0.25 * voxel_size);
 }
 
 ExplorationFlight explore(const World& world, const ExplorationFlightConfig& config,

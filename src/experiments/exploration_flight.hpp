@@ -21,13 +21,15 @@ enum class ExplorationPlanner : std::uint8_t {
   kRidgeway,  ///< Explorer, by tours
   kFrontier,  ///< Explorer, nearest frontier
   kNextBest,  ///< receding horizon next best view (Bircher et al. 2016)
+  kOffline,   ///< a tour by one that knows the world; does not come back
 };
 
 /// A simulated drone maps a world by itself. Metres, seconds, radians.
 struct ExplorationFlightConfig {
   Point start = Point::Zero();
   double start_yaw = 0.0;
-  /// Around the start, taken as free: somebody has looked. 0: what the robot needs and two voxels.
+  /// Around the start, taken as free: somebody has looked. 0: what the robot needs and two voxels,
+  /// more where it would not fit from there into what the sensor has in view.
   double start_radius = 0.0;
   double radius = 0.3;  ///< of the drone
   /// Kept beyond the radius, from known obstacles and from the unknown: for surfaces that the map
@@ -46,9 +48,7 @@ struct ExplorationFlightConfig {
   std::uint64_t seed = 1;   ///< of the sensor's noise, and of planners that sample
 
   double clearance() const { return radius + (margin > 0.0 ? margin : voxel_size); }
-  double free_radius() const {
-    return start_radius > 0.0 ? start_radius : clearance() + 2.0 * voxel_size;
-  }
+  double free_radius() const;
 
   /// Throws InputError naming the bad field.
   void validate() const;

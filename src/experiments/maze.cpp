@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "maze.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -9,6 +10,7 @@
 #include "common/clock.hpp"
 #include "common/number_text.hpp"
 #include "common/random.hpp"
+#include "exploration_flight.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/mapping/world_map.hpp"
 #include "ridgeway/planning/plan.hpp"
@@ -69,6 +71,22 @@ std::vector<Contender> contenders(const Roadmap& roadmap, const MazeExperimentCo
           {"graph_raw", on_roadmap(roadmap, Planner::kGraph, false)},
           {"graph_quick", quickly(roadmap)},
           {"graph", on_roadmap(roadmap, Planner::kGraph, true)}};
+}
+
+/// What a drone has mapped that needs the clearance, a voxel of it margin, when it has seen all.
+OccupancyMap explored_map(const World& world, const MazeExperimentConfig& config,
+                          const Point& start, const Progress& progress) {
+  ExplorationFlightConfig flight;
+  flight.start = start;
+  flight.voxel_size = config.voxel_size;
+  flight.radius = std::max(0.5 * config.min_clearance, config.min_clearance - config.voxel_size);
+  flight.margin = config.min_clearance - flight.radius;
+  flight.come_back = false;
+  flight.sensor.camera = {
+      .width = 160, .height = 120, .fx = 80.0, .fy = 80.0, .cx = 79.5, .cy = 59.5};
+  flight.sensor.range_sigma = 0.01;
+  flight.seed = config.seed;
+  return explore(world, flight, progress).map;
 }
 
 /// The middles of the first and the last cell.
@@ -198,13 +216,15 @@ void run_maze(const MazeExperimentConfig& config, const Progress& progress, Maze
   const World world = make_maze(config.maze);
   const PoseSampling inside = sampling_inside(world);
   result = {};
-  result.roadmap = build_roadmap(occupancy_of(world, config.voxel_size, {inside.low, inside.high}),
-                                 {.min_clearance = config.min_clearance}, progress)
-                       .roadmap;
+  const Pair single = corners(config.maze);
+  OccupancyMap map = config.explored
+                         ? explored_map(world, config, single.start, progress)
+                         : occupancy_of(world, config.voxel_size, {inside.low, inside.high});
+  result.roadmap =
+      build_roadmap(std::move(map), {.min_clearance = config.min_clearance}, progress).roadmap;
   const std::vector<Pair> pairs = random_pairs(world, config);
   const std::vector<double> esdf_lengths = lengths_by_esdf(result.roadmap, pairs, progress);
   const std::vector<Contender> all = contenders(result.roadmap, config);
-  const Pair single = corners(config.maze);
   std::vector<Pair> few = pairs;
   few.resize(std::min(few.size(), config.long_pairs));
   std::vector<Trials> trials(all.size());

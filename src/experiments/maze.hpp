@@ -24,6 +24,7 @@ struct MazeExperimentConfig {
   double time_limit = 10.0;    ///< seconds of a planner that samples
   double range = 3.0;          ///< longest motion of a tree: about a cell, best in a maze
   std::uint64_t seed = 1;      ///< of starts, goals and samples
+  bool explored = false;       ///< on the map of a drone that explored the maze, not on the truth
 
   /// Throws InputError naming the bad field.
   void validate() const;
@@ -43,7 +44,7 @@ struct MazeRow {
 };
 
 struct MazeResult {
-  Roadmap roadmap;  ///< of the ground truth
+  Roadmap roadmap;  ///< of the ground truth, or of what was explored
   std::vector<MazeRow> rows;
 };
 

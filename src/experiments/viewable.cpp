@@ -113,6 +113,20 @@ ViewableVolume::ViewableVolume(const World& world, double voxel_size, const Voxe
       }
 }
 
+std::vector<VoxelIndex> ViewableVolume::some(std::size_t count) const {
+  std::vector<VoxelIndex> all;
+  all.reserve(voxels_);
+  for (const auto& [block, members] : members_)
+    for (int local = 0; local < kBlockVoxels; ++local)
+      if ((members[static_cast<std::size_t>(local) / 64] >> local % 64 & 1) != 0)
+        all.push_back(voxel_of(block, local));
+  std::sort(all.begin(), all.end());
+  if (all.size() <= count) return all;
+  std::vector<VoxelIndex> some;
+  for (std::size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
+  return some;
+}
+
 std::size_t ViewableVolume::known_in(const EsdfMap& esdf, std::uint32_t slot,
                                      const VoxelMask::Block& members) {
   const VoxelState* const states = esdf.state.block(slot);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <unordered_map>
+#include <vector>
 
 #include "ridgeway/exploration/explorer.hpp"
 #include "ridgeway/sensing/world.hpp"
@@ -20,6 +21,9 @@ class ViewableVolume {
 
   std::size_t voxels() const { return voxels_; }
   double volume() const { return static_cast<double>(voxels_) * voxel_volume_; }  ///< m^3
+
+  /// About so many of them, or all, evenly taken; voxels of the lattice, ascending.
+  std::vector<VoxelIndex> some(std::size_t count) const;
 
   /// Counts which of them a map knows; maps may share memory with the last one that was asked
   /// about. In time linear in blocks.

@@ -2,8 +2,10 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -21,7 +23,10 @@ struct Explorer::State {
   struct Goal {
     detail::Place place;
     int heading = 0;
-    double promised = 0.0;  ///< voxels of frontiers that were to be seen from there
+    double promised = 0.0;  ///< what was to be seen from there, as Stop::gain
+    /// When it is passed in flight, seconds of the state's clock; else the robot stops there.
+    double passed_at = std::numeric_limits<double>::infinity();
+    std::uint64_t next = 0;  ///< the place after it that the trajectory leads to, if it is passed
   };
   /// A stop of the tour with what it costs.
   struct TourStop {
@@ -42,7 +47,9 @@ struct Explorer::State {
   std::map<VoxelIndex, int> looks;                 ///< in vain, by unknown voxel
   std::optional<std::pair<Point, int>> last_look;  ///< in flight: where, and the heading
   std::vector<std::uint64_t> refused;              ///< places that no trajectory led to
-  Trajectory flying;                               ///< world
+  std::set<std::pair<std::uint64_t, int>>
+      passed;         ///< places and headings that were passed in flight
+  Trajectory flying;  ///< world
   double flying_since = 0.0;
   double last_tour = -1e9;  ///< seconds, of the state's clock
   bool is_returning = false;
@@ -54,6 +61,7 @@ struct Explorer::State {
                    const detail::Place* standing);
   void look_in_flight(const FlightState& state);
   std::vector<TourStop> cover(const detail::WaysFrom& ways, double least_gain) const;
+  void keep_best(std::vector<TourStop>& stops, const FlightState& state) const;
   std::vector<std::size_t> order(const std::vector<TourStop>& stops, const FlightState& state,
                                  double& seconds) const;
   void refine_first(std::vector<TourStop>& stops, const std::vector<std::size_t>& tour,
@@ -64,10 +72,13 @@ struct Explorer::State {
   bool fly_to(const Point& goal_local, double yaw, const FlightState& state,
               ExplorationStep& step) const;
   void go_home(const FlightState& state, bool arrived, ExplorationStep& step);
+  bool leaves_time_for_home(const FlightState& state, const Trajectory& trajectory) const;
   bool is_in_doubt(const FlightState& state) const;
   bool brake(const FlightState& state, ExplorationStep& step) const;
   void go_on(const FlightState& state, bool arrived, ExplorationStep& step);
   bool choose(const FlightState& state, bool thorough, ExplorationStep& step);
+  bool fly_tour(const std::vector<TourStop>& stops, const std::vector<std::size_t>& tour,
+                const FlightState& state, ExplorationStep& step);
   detail::Access access_at(const Point& local) const;
 };
 

@@ -3,9 +3,11 @@
 #include "ridgeway/exploration/frontiers.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <numeric>
 #include <set>
+#include <unordered_set>
 #include <utility>
 
 #include "ridgeway/voxel/neighbourhood.hpp"
@@ -19,6 +21,57 @@ bool is_same_block(const Roadmap& a, std::uint32_t slot_a, const Roadmap& b, std
   const VoxelState* const states_a = a.esdf.state.block(slot_a);
   const VoxelState* const states_b = b.esdf.state.block(slot_b);
   return states_a == states_b || std::memcmp(states_a, states_b, kBlockVoxels) == 0;
+}
+
+constexpr std::uint64_t kFirstColumn = 0x0101010101010101;  // x = 0 of all rows of a layer
+constexpr std::uint64_t kFirstRow = 0xff;                   // y = 0
+
+/// A bit for each voxel of a block that has a state; all of them are unknown where there is none.
+VoxelMask::Block mask_of(const EsdfMap& esdf, const BlockIndex& block, VoxelState state) {
+  VoxelMask::Block mask{};
+  const std::uint32_t slot = esdf.layout.find_block(block);
+  if (slot == BlockLayout::kNoBlock) {
+    if (state == VoxelState::kUnknown) mask.fill(~std::uint64_t{0});
+    return mask;
+  }
+  const VoxelState* const states = esdf.state.block(slot);
+  constexpr std::uint64_t kOnes = 0x0101010101010101;  // a row of eight states is one word
+  static_assert(kBlockSide == 8);
+  for (std::size_t row = 0; row < 64; ++row) {
+    std::uint64_t word = 0;
+    for (std::size_t x = 0; x < 8; ++x)
+      word |= std::uint64_t{static_cast<std::uint8_t>(states[8 * row + x])} << 8 * x;
+    word ^= kOnes * static_cast<std::uint8_t>(state);  // 0 where it is the state, else 1 to 3
+    const std::uint64_t is_state = ~(word | word >> 1) & kOnes;
+    mask[row / 8] |= is_state * 0x0102040810204080 >> 56 << 8 * (row % 8);  // eight bits in a byte
+  }
+  return mask;
+}
+
+/// A bit for each free voxel of a block with an unknown one across a face.
+VoxelMask::Block free_beside_unknown(const EsdfMap& esdf, const BlockIndex& block) {
+  const VoxelMask::Block free = mask_of(esdf, block, VoxelState::kFree);
+  VoxelMask::Block found{};
+  if (std::all_of(free.begin(), free.end(), [](std::uint64_t layer) { return layer == 0; }))
+    return found;
+  const auto unknown = [&](int x, int y, int z) {
+    return mask_of(esdf, block + BlockIndex{x, y, z}, VoxelState::kUnknown);
+  };
+  const VoxelMask::Block own = unknown(0, 0, 0), below = unknown(0, 0, -1),
+                         above = unknown(0, 0, 1), left = unknown(-1, 0, 0),
+                         right = unknown(1, 0, 0), front = unknown(0, -1, 0),
+                         back = unknown(0, 1, 0);
+  constexpr std::size_t kTop = kBlockSide - 1;
+  for (std::size_t z = 0; z < kBlockSide; ++z) {
+    const std::uint64_t u = own[z];
+    const std::uint64_t beside =
+        (z == 0 ? below[kTop] : own[z - 1]) | (z == kTop ? above[0] : own[z + 1]) |
+        (u << 1 & ~kFirstColumn) | (left[z] >> 7 & kFirstColumn) |          // unknown at x - 1
+        (u >> 1 & ~(kFirstColumn << 7)) | (right[z] & kFirstColumn) << 7 |  // at x + 1
+        u << 8 | front[z] >> 56 | u >> 8 | (back[z] & kFirstRow) << 56;     // at y - 1, y + 1
+    found[z] = free[z] & beside;
+  }
+  return found;
 }
 
 /// The first of a set that is joined with others.
@@ -65,7 +118,7 @@ void Frontiers::update(std::shared_ptr<const Roadmap> roadmap) {
   for (const BlockIndex& block : changed_) add_with_neighbours(block);
   for (const BlockIndex& block : std::exchange(stale_, {})) add_with_neighbours(block);
   for (const BlockIndex& block : remade) remake(block);
-  std::set<BlockIndex> linked;
+  std::unordered_set<BlockIndex, BlockHash> linked;  // each by itself: in any order
   for (const BlockIndex& block : remade)
     for (int d = 0; d < 27; ++d) {
       const VoxelIndex& o = offset_of(d);
@@ -120,12 +173,12 @@ void Frontiers::remake(const BlockIndex& block) {
   const EsdfMap& esdf = roadmap_->esdf;
   const std::uint32_t slot = esdf.layout.find_block(block);
   if (slot == BlockLayout::kNoBlock) return;
-  const VoxelState* const states = esdf.state.block(slot);
+  const VoxelMask::Block candidates = free_beside_unknown(esdf, block);  // within bounds or not
   Entry entry;
   std::vector<int> members;
   Eigen::Vector3d unused = Eigen::Vector3d::Zero();
   for (int local = 0; local < kBlockVoxels; ++local) {
-    if (states[local] != VoxelState::kFree) continue;
+    if ((candidates[static_cast<std::size_t>(local) / 64] >> local % 64 & 1) == 0) continue;
     const VoxelIndex voxel = voxel_of(block, local);
     if (!within_.contains(voxel + esdf.origin)) continue;
     if (is_frontier(slot * kBlockVoxels + static_cast<VoxelId>(local), voxel, unused, nullptr))

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "ray_walk.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -41,6 +42,31 @@ bool sees(const EsdfMap& esdf, const Point& from, const VoxelIndex& target) {
     t += free > 2.0 * s ? free : way_out(p, voxel, direction, s) + nudge;
   }
   return true;
+}
+
+double depth_behind(const EsdfMap& esdf, const VoxelRange& within, const FrontierPart& part,
+                    double most) {
+  constexpr std::size_t kSamples = 3;
+  constexpr double kUneven = 0.2;  // length of the normal of a part that faces all sides
+  const double s = esdf.voxel_size;
+  const double length = part.normal.norm();
+  const int deepest = static_cast<int>(most / s);
+  if (length < kUneven || deepest < 1) return 1.0;
+  const Eigen::Vector3d step = part.normal / length * s;
+  const std::size_t count = part.targets.size(), samples = std::min(count, kSamples);
+  VoxelFinder finder(esdf.layout);
+  int depth = 0;
+  for (std::size_t i = 0; i < samples; ++i) {
+    const Point from = centre_of(part.targets[(2 * i + 1) * count / (2 * samples)], s);
+    for (int k = 1; k < deepest; ++k) {
+      const VoxelIndex voxel = voxel_at(from + k * step, s);
+      if (!within.contains(voxel + esdf.origin)) break;
+      const VoxelId id = finder.find(voxel);
+      if (id != kNoVoxel && esdf.state[id] != VoxelState::kUnknown) break;
+      ++depth;
+    }
+  }
+  return 1.0 + static_cast<double>(depth) / static_cast<double>(samples);
 }
 
 }  // namespace ridgeway::detail

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
-#include "ridgeway/esdf/esdf.hpp"
+#include "ridgeway/exploration/frontiers.hpp"
 
 namespace ridgeway::detail {
 
@@ -10,5 +10,10 @@ namespace ridgeway::detail {
 /// that voxel itself apart. Local frame. Skips through free space by the distances of the field,
 /// whose obstacles must include unknown space.
 bool sees(const EsdfMap& esdf, const Point& from, const VoxelIndex& target);
+
+/// How many unknown voxels lie behind a part of the frontier, along its normal and up to so many
+/// metres, one at least: its volume is about as many times its voxels.
+double depth_behind(const EsdfMap& esdf, const VoxelRange& within, const FrontierPart& part,
+                    double most);
 
 }  // namespace ridgeway::detail

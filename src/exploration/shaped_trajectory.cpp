@@ -39,6 +39,18 @@ Trajectory tail_of(const Trajectory& trajectory, double from) {
   return tail;
 }
 
+Trajectory head_of(const Trajectory& trajectory, double until) {
+  Trajectory head;
+  double begin = 0.0;
+  for (const TrajectorySegment& segment : trajectory.segments) {
+    if (begin >= until) break;
+    head.segments.push_back(segment);
+    head.segments.back().duration = std::min(segment.duration, until - begin);
+    begin += segment.duration;
+  }
+  return head;
+}
+
 void turn_to(Trajectory& trajectory, double from_yaw, double to_yaw, double max_rate) {
   const double turn = turn_between(from_yaw, to_yaw);
   const double turning = std::abs(turn) / max_rate;

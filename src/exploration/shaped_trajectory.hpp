@@ -9,6 +9,9 @@ namespace ridgeway::detail {
 /// What is left of a trajectory from a time on, seconds.
 Trajectory tail_of(const Trajectory& trajectory, double from);
 
+/// The rest of it: up to a time.
+Trajectory head_of(const Trajectory& trajectory, double until);
+
 /// Gives a trajectory a yaw that turns from one angle to another the short way, at the largest rate
 /// from its beginning on; a stand at the end is added where turning takes longer.
 void turn_to(Trajectory& trajectory, double from_yaw, double to_yaw, double max_rate);

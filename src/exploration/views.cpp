@@ -27,9 +27,11 @@ Bounds bounds_of(const BlockIndex& block, double voxel_size) {
 
 }  // namespace
 
-Views::Views(const FieldOfView& view, int headings)
+Views::Views(const FieldOfView& view, int headings, const VoxelRange& within, double deepest)
     : view_(view),
       headings_(headings),
+      within_(within),
+      deepest_(deepest),
       steepest_(std::tan(0.5 * kEdge * view.vertical)),
       least_cosine_(std::cos(0.5 * kEdge * view.horizontal)) {
   for (int heading = 0; heading < headings; ++heading)
@@ -168,6 +170,7 @@ void Views::update(const Roadmap& roadmap, const Frontiers& frontiers, std::size
     views.version = part.version;
     views.thorough = thorough;
     views.is_live = true;
+    const double worth = depth_behind(roadmap.esdf, within_, part, deepest_);
     bool is_seen = false;
     std::size_t asked = 0;
     for (const std::size_t place : candidates(roadmap.esdf, part, places)) {
@@ -177,7 +180,7 @@ void Views::update(const Roadmap& roadmap, const Frontiers& frontiers, std::size
       const Cached* cached = look(roadmap, part, places[place], views, rays_left);
       if (cached == nullptr || cached->rays.empty()) continue;
       is_seen = true;
-      from_places_[place].push_back({i, cached->rays});
+      from_places_[place].push_back({i, cached->rays, worth});
     }
   }
   std::erase_if(of_part_, [](const auto& entry) { return !entry.second.is_live; });
@@ -195,13 +198,17 @@ double Views::gain_now(const Roadmap& roadmap, const Frontiers& frontiers, std::
     const double reach = view_.range + kBlockSide * roadmap.esdf.voxel_size;
     if ((part.centroid - place.position).squaredNorm() > reach * reach) continue;
     const std::size_t count = part.targets.size(), looks = std::min(count, kTargets);
+    std::size_t seen = 0;
     for (std::size_t i = 0; i < looks; ++i) {
       const VoxelIndex& target = part.targets[i * count / looks];
       const Point centre = centre_of(target, roadmap.esdf.voxel_size);
       if ((headings_to(place.position, centre) >> heading & 1) != 0 &&
           sees(roadmap.esdf, place.position, target))
-        gain += static_cast<double>(part.voxels) / static_cast<double>(looks);
+        ++seen;
     }
+    if (seen > 0)
+      gain += static_cast<double>(part.voxels * seen) / static_cast<double>(looks) *
+              depth_behind(roadmap.esdf, within_, part, deepest_);
   }
   return gain;
 }
@@ -212,7 +219,7 @@ Stop Views::best_heading(std::size_t place, std::span<const std::uint64_t> cover
     for (const Ray& ray : sight.rays) {
       if ((covered[sight.part] >> ray.target & 1) != 0) continue;
       for (std::uint32_t bits = ray.headings; bits != 0; bits &= bits - 1)
-        gains[static_cast<std::size_t>(std::countr_zero(bits))] += ray.weight;
+        gains[static_cast<std::size_t>(std::countr_zero(bits))] += ray.weight * sight.worth;
     }
   Stop best{place, 0, 0.0};
   for (int heading = 0; heading < headings_; ++heading)
@@ -227,7 +234,7 @@ double Views::gain_at(std::size_t place, int heading,
   for (const Sight& sight : from_places_[place])
     for (const Ray& ray : sight.rays)
       if ((covered[sight.part] >> ray.target & 1) == 0 && (ray.headings >> heading & 1) != 0)
-        gain += ray.weight;
+        gain += ray.weight * sight.worth;
   return gain;
 }
 

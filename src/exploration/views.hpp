@@ -42,20 +42,23 @@ struct Ray {
 struct Sight {
   std::size_t part = 0;
   std::span<const Ray> rays;
+  double worth = 1.0;  ///< unknown voxels behind each voxel of the part
 };
 
 /// A place with a heading, and what is to be seen from there.
 struct Stop {
   std::size_t place = 0;
   int heading = 0;
-  double gain = 0.0;  ///< voxels of frontiers that no stop before has in view
+  double gain = 0.0;  ///< unknown voxels that no stop before has in view, about
 };
 
 /// Which frontiers are seen from which places: rays are cast when they are first asked for, and
 /// again where the map has changed between a place and a part.
 class Views {
  public:
-  Views(const FieldOfView& view, int headings);
+  /// `within`: voxels of the lattice that are to be seen. `deepest`: metres of unknown space behind
+  /// a frontier that count at most; 0: frontiers count by their voxels alone.
+  Views(const FieldOfView& view, int headings, const VoxelRange& within, double deepest);
 
   /// Looks at the parts of clusters with `least` voxels or more from the nearest places, and from
   /// farther ones where none of these sees a part; at parts near to a point first, with no more
@@ -68,7 +71,7 @@ class Views {
   /// To be called after every update of the frontiers.
   void note_changes(const Roadmap& roadmap, const Frontiers& frontiers);
 
-  /// Voxels of frontiers in view of a place by rays cast now.
+  /// As gain_at() with nothing covered, by rays cast now.
   double gain_now(const Roadmap& roadmap, const Frontiers& frontiers, std::size_t least,
                   const Place& place, int heading) const;
 
@@ -78,8 +81,9 @@ class Views {
   /// From a place nothing more is expected of a part as it is now.
   void ban(const Place& place, const FrontierPart& part);
 
-  /// Voxels of frontiers in view at a place's best heading, or at a given one, where `covered` has
-  /// a bit for each target of a part that does not count.
+  /// Unknown voxels in view at a place's best heading, or at a given one, where `covered` has a bit
+  /// for each target of a part that does not count. About: the voxels of frontiers in view, times
+  /// how deep the unknown behind them is.
   Stop best_heading(std::size_t place, std::span<const std::uint64_t> covered) const;
   double gain_at(std::size_t place, int heading, std::span<const std::uint64_t> covered) const;
   void cover(std::size_t place, int heading, std::span<std::uint64_t> covered) const;
@@ -110,6 +114,8 @@ class Views {
 
   FieldOfView view_;
   int headings_;
+  VoxelRange within_;
+  double deepest_;
   double steepest_, least_cosine_;
   std::vector<Eigen::Vector2d> forward_;     ///< by heading
   std::map<VoxelIndex, PartViews> of_part_;  ///< by the part's first voxel

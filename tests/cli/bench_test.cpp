@@ -85,6 +85,19 @@ TEST_F(CliBench, MazeHasARowForEveryPlanner) {
   EXPECT_EQ(file_count(), 5u);  // one picture of all paths; and the folder
 }
 
+TEST_F(CliBench, MazeIsPlannedOnWhatADroneHasExplored) {
+  const Outcome outcome =
+      run({"bench", "maze", "--explored", "--cells", "2", "--voxel-size", "0.2", "--pairs", "4",
+           "--long-pairs", "0", "--repeat", "1", "--time-limit", "0.3", "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.json()["explored"], true);
+  for (const auto& row : outcome.json()["rows"])
+    if (row["planner"] == "esdf" || row["planner"] == "graph") {
+      EXPECT_EQ(row["solved"], 4) << row["planner"];
+      EXPECT_GT(row["single"]["length"], 3.0) << row["planner"];
+    }
+}
+
 TEST_F(CliBench, GridReproducesStoredOptimaAndReportsEveryRatio) {
   const Outcome outcome =
       run({"bench", "grid", kBenchmark, "--exact", "20", "-o", path("out"), "--json"});

@@ -156,7 +156,7 @@ TEST(Exploration, ATooNarrowDoorIsNamed) {
 }
 
 TEST(Exploration, IsBackWhenTheBudgetEnds) {
-  for (const double budget : {12.0, 20.0}) {
+  for (const double budget : {8.0, 17.0}) {
     ExplorationFlightConfig config = quick_config();
     config.budget = budget;
     const ExplorationFlight flight = explore(two_rooms(1.4), config);
@@ -168,7 +168,8 @@ TEST(Exploration, IsBackWhenTheBudgetEnds) {
 
 TEST(Exploration, BaselinesFlySafely) {
   for (const ExplorationPlanner planner :
-       {ExplorationPlanner::kFrontier, ExplorationPlanner::kNextBest}) {
+       {ExplorationPlanner::kFrontier, ExplorationPlanner::kNextBest,
+        ExplorationPlanner::kOffline}) {
     ExplorationFlightConfig config = quick_config();
     config.planner = planner;
     config.longest = 40.0;

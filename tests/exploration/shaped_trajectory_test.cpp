@@ -35,6 +35,18 @@ TEST(ShapedTrajectory, TailIsTheRest) {
   }
 }
 
+TEST(ShapedTrajectory, HeadAndTailAreTheWhole) {
+  const Trajectory whole = some_trajectory();
+  for (const double until : {0.3, 0.7, 1.9, 2.4}) {
+    const Trajectory head = detail::head_of(whole, until);
+    EXPECT_NEAR(head.duration(), std::min(until, whole.duration()), 1e-12);
+    for (double t = 0.01; t < head.duration(); t += 0.05)
+      EXPECT_LT((head.at(t).position - whole.at(t).position).norm(), 1e-9);
+    EXPECT_NEAR(head.duration() + detail::tail_of(whole, until).duration(), whole.duration(),
+                1e-12);
+  }
+}
+
 TEST(ShapedTrajectory, TurnsAtTheLimitAndLeavesPlacesAlone) {
   for (const double goal : {0.5, -2.0, 3.0, 6.0}) {
     const Trajectory before = some_trajectory();

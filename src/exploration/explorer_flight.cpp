@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <algorithm>
+#include <cmath>
+
+#include "explorer_state.hpp"
+#include "legs.hpp"
+#include "ridgeway/planning/plan.hpp"
+#include "ridgeway/trajectory/plan_trajectory.hpp"
+#include "shaped_trajectory.hpp"
+#include "thread_clock.hpp"
+
+namespace ridgeway {
+
+/// To a stop, and to rest there.
+bool Explorer::State::fly_to(const Point& goal_local, double yaw, const FlightState& state,
+                             ExplorationStep& step) const {
+  const double began = detail::thread_seconds_now();
+  auto flown = detail::fly_to_rest(*roadmap, config.limits,
+                                   {to_world(roadmap->esdf, goal_local), yaw}, state);
+  step.seconds.trajectory += detail::thread_seconds_now() - began;
+  if (flown) step.trajectory = std::move(*flown);
+  return flown.has_value();
+}
+
+/// Whether the robot is home in time if it flies a trajectory to its end and then, from rest, home:
+/// by a trajectory in the map as it is. No other flight is begun, so that there is always one.
+bool Explorer::State::leaves_time_for_home(const FlightState& state,
+                                           const Trajectory& trajectory) const {
+  if (!std::isfinite(config.until)) return true;
+  const TrajectoryState end = trajectory.at(trajectory.duration());
+  const FlightState rest = {
+      .time = state.time + trajectory.duration(), .position = end.position, .yaw = end.yaw};
+  const auto back = detail::fly_to_rest(*roadmap, config.limits, {*config.home, end.yaw}, rest);
+  return back && rest.time + back->duration() <= config.until;
+}
+
+/// Whether the rest of what is flown is free no longer, for all that is known now.
+bool Explorer::State::is_in_doubt(const FlightState& state) const {
+  const double radius =
+      config.kept_clearance > 0.0 ? config.kept_clearance : roadmap->min_clearance;
+  const Trajectory rest = detail::moved(detail::tail_of(flying, state.time - flying_since),
+                                        to_local(roadmap->esdf, Point::Zero()));
+  return !find_doubts(roadmap->esdf, rest, radius).empty();
+}
+
+/// To a stop, straight on.
+bool Explorer::State::brake(const FlightState& state, ExplorationStep& step) const {
+  constexpr double kSlack = 1.5;  // jerk is bounded, too
+  const double speed = state.velocity.norm();
+  if (speed < 1e-9) return false;
+  const double length = kSlack * speed * speed / (2.0 * config.limits.max_acceleration);
+  const Point end = state.position + length * state.velocity / speed;
+  return fly_to(to_local(roadmap->esdf, end), state.yaw, state, step);
+}
+
+void Explorer::State::go_home(const FlightState& state, bool arrived, ExplorationStep& step) {
+  const bool is_there = !config.home || (arrived && (state.position - *config.home).norm() < 1e-3);
+  if (is_there) {
+    step.status = is_out_of_time ? ExplorationStatus::kOutOfTime : ExplorationStatus::kComplete;
+    return;
+  }
+  if (is_returning && !arrived) return;  // on the way
+  if (fly_to(to_local(roadmap->esdf, *config.home), state.yaw, state, step)) {
+    const bool is_late = state.time + step.trajectory.duration() > config.until;
+    if (is_late && !arrived) {  // what is flown now, and from its end home, is in time
+      step.trajectory = {};
+      return;
+    }
+    is_returning = true;
+    step.status = ExplorationStatus::kReturn;
+  } else if (arrived) {
+    step.status = ExplorationStatus::kStuck;
+  }
+}
+
+}  // namespace ridgeway

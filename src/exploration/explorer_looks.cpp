@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <cmath>
+
+#include "explorer_state.hpp"
+#include "ray_walk.hpp"
+#include "shaped_trajectory.hpp"
+
+namespace ridgeway {
+
+using detail::Place;
+
+void Explorer::State::look_around(const Point& here, bool thorough) {
+  diagram.update(*roadmap);
+  places = diagram.places();
+  if (thorough) {
+    constexpr std::uint64_t kOffDiagram = std::uint64_t{1} << 62;
+    const std::vector<Place> more = detail::widest_places(*roadmap, config.spacing, kOffDiagram);
+    places.insert(places.end(), more.begin(), more.end());
+  }
+  views.update(*roadmap, frontiers, config.least_frontier, places, here,
+               thorough ? detail::Views::kAllRays : config.most_rays);
+}
+
+/// Unknown voxels that are in view from a place, within a share of the range, after what was seen
+/// from there is in the map: looks in vain. After several of them a voxel is left alone.
+void Explorer::State::count_looks(const Point& from, int heading, double share, int weight,
+                                  const Place* standing) {
+  const double s = roadmap->esdf.voxel_size;
+  const double reach = share * config.view.range;
+  std::vector<VoxelIndex> hopeless;
+  for (const FrontierPart& part : frontiers.parts()) {
+    if ((part.centroid - from).norm() > reach + kBlockSide * s) continue;
+    bool is_seen = false;
+    for (const VoxelIndex& target : part.targets) {
+      const Point centre = centre_of(target, s);
+      if ((centre - from).norm() > reach) continue;
+      if ((views.headings_to(from, centre) >> heading & 1) == 0) continue;
+      if (!detail::sees(roadmap->esdf, from, target)) continue;
+      is_seen = true;
+      int& count = looks[target];
+      count += weight;
+      if (count >= config.most_looks) hopeless.push_back(target);
+    }
+    if (is_seen && standing != nullptr) views.ban(*standing, part);
+  }
+  if (hopeless.empty()) return;
+  frontiers.ignore(hopeless);
+  frontiers.update(roadmap);
+}
+
+/// In flight a look counts where the robot is elsewhere, or turned, since the last one.
+void Explorer::State::look_in_flight(const FlightState& state) {
+  constexpr double kNear = 0.6;  // of the range: from farther off little may be measured
+  const int heading = views.heading_of(state.yaw);
+  const Point here = to_local(roadmap->esdf, state.position);
+  if (last_look && heading == last_look->second &&
+      (here - last_look->first).norm() < 0.5 * config.spacing)
+    return;
+  last_look.emplace(here, heading);
+  // At the heading next to the true one the sides of the view differ by half a step at most.
+  if (std::abs(detail::turn_between(state.yaw, views.yaw_of(heading))) <
+      0.25 * 2.0 * std::numbers::pi / config.headings)
+    count_looks(here, heading, kNear, 1, nullptr);
+}
+
+}  // namespace ridgeway

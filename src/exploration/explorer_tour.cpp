@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+#include "explorer_state.hpp"
+#include "shaped_trajectory.hpp"
+
+namespace ridgeway {
+namespace {
+
+using detail::Access;
+using detail::Place;
+using detail::Stop;
+
+constexpr double kBraking = 1.5;  // times the shortest way to rest: jerk is bounded, too
+constexpr double kLate = 0.3;     // seconds by which a turn may end after a stop is passed
+constexpr double kLook = 1.0;     // seconds that a stop takes at least
+constexpr double kAsGood = 0.8;   // of a stop's gain: a nearer place that sees as much takes it
+
+}  // namespace
+
+/// Of a flight that begins and ends slowly, while the robot turns.
+double Explorer::State::seconds_between(double length, double turn) const {
+  const double v = config.limits.max_speed, a = config.limits.max_acceleration;
+  const double flight = length < v * v / a ? 2.0 * std::sqrt(length / a) : length / v + v / a;
+  return std::max(flight, std::abs(turn) / config.limits.max_yaw_rate);
+}
+
+/// To a stop from the motion that the robot has now.
+double Explorer::State::seconds_from_robot(const TourStop& stop, const FlightState& state) const {
+  const Place& place = places[stop.stop.place];
+  const double v = config.limits.max_speed, a = config.limits.max_acceleration;
+  const double turn = detail::turn_between(state.yaw, views.yaw_of(stop.stop.heading));
+  double seconds = seconds_between(stop.from_robot, turn);
+  const Eigen::Vector3d way = place.position - to_local(roadmap->esdf, state.position);
+  const double speed = state.velocity.norm();
+  if (speed > 0.0 && way.norm() > 0.0) {
+    const double along = state.velocity.dot(way.normalized());
+    seconds += (speed - along) / a;  // what is to be braked and made good
+    // Where there is no time to turn until the stop is passed, the robot comes back to it.
+    const double braking = kBraking * speed * speed / (2.0 * a);
+    if (braking > stop.from_robot &&
+        std::abs(turn) / config.limits.max_yaw_rate > stop.from_robot / v + kLate)
+      seconds += speed / a + 2.0 * std::sqrt((braking - stop.from_robot) / a);
+  }
+  if (goal && (place.position - goal->place.position).norm() < config.spacing)
+    seconds -= config.persistence;
+  return std::max(seconds, 0.0);
+}
+
+/// More than it takes: as if the robot stopped every three metres.
+double Explorer::State::seconds_home(const Point& from_local, const Access& access) const {
+  if (!config.home) return 0.0;
+  const Point home = to_local(roadmap->esdf, *config.home);
+  const double length = detail::WaysFrom(*roadmap, home, access_at(home)).to(from_local, access);
+  const double v = config.limits.max_speed, a = config.limits.max_acceleration;
+  return 1.1 * (length / v + v / a * (1.0 + length / 3.0));
+}
+
+/// Stops that see all that can be seen, by what each adds; those out of reach are left out.
+std::vector<Explorer::State::TourStop> Explorer::State::cover(const detail::WaysFrom& ways,
+                                                              double least_gain) const {
+  std::vector<std::uint64_t> covered(views.parts(), 0);
+  const auto is_worse = [](const Stop& a, const Stop& b) {
+    return a.gain != b.gain ? a.gain < b.gain : a.place > b.place;
+  };
+  std::priority_queue<Stop, std::vector<Stop>, decltype(is_worse)> queue(is_worse);
+  std::vector<TourStop> reach(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (views.from_places()[i].empty()) continue;
+    if (std::find(refused.begin(), refused.end(), places[i].id) != refused.end()) continue;
+    const Access access = detail::access_of(*roadmap, roadmap->esdf.layout.find(places[i].voxel));
+    const double length = ways.to(places[i].position, access);
+    if (!std::isfinite(length)) continue;
+    reach[i] = {{}, access, length};
+    if (const Stop stop = views.best_heading(i, covered); stop.gain > 0.0) queue.push(stop);
+  }
+  std::vector<TourStop> stops;
+  while (!queue.empty()) {
+    const Stop top = queue.top();
+    queue.pop();
+    const Stop now = views.best_heading(top.place, covered);
+    if (now.gain < least_gain || now.gain <= 0.0) continue;
+    if (!queue.empty() && is_worse(now, queue.top())) {
+      queue.push(now);
+      continue;
+    }
+    views.cover(now.place, now.heading, covered);
+    stops.push_back({now, reach[now.place].access, reach[now.place].from_robot});
+    queue.push(now);
+  }
+  return stops;
+}
+
+/// Leaves the stops that a tour is made of, the nearest first: those that give most for the time
+/// that it takes to get there.
+void Explorer::State::keep_best(std::vector<TourStop>& stops, const FlightState& state) const {
+  if (config.strategy == ExplorationStrategy::kTour && stops.size() > config.most_stops) {
+    const auto rate = [&](const TourStop& stop) {
+      return stop.stop.gain / (kLook + seconds_from_robot(stop, state));
+    };
+    std::stable_sort(stops.begin(), stops.end(),
+                     [&](const TourStop& a, const TourStop& b) { return rate(a) > rate(b); });
+    stops.resize(config.most_stops);
+  }
+  std::stable_sort(stops.begin(), stops.end(), [](const TourStop& a, const TourStop& b) {
+    return a.from_robot < b.from_robot;
+  });
+  if (stops.size() > config.most_stops) stops.resize(config.most_stops);
+}
+
+std::vector<std::size_t> Explorer::State::order(const std::vector<TourStop>& stops,
+                                                const FlightState& state, double& seconds) const {
+  detail::TourCosts costs;
+  for (const TourStop& stop : stops) costs.first.push_back(seconds_from_robot(stop, state));
+  for (const TourStop& from : stops) {
+    const Point& at = places[from.stop.place].position;
+    const detail::WaysFrom ways(*roadmap, at, from.access);
+    std::vector<double> row;
+    for (const TourStop& to : stops)
+      row.push_back(seconds_between(
+          &from == &to ? 0.0 : std::min(1e6, ways.to(places[to.stop.place].position, to.access)),
+          detail::turn_between(views.yaw_of(from.stop.heading), views.yaw_of(to.stop.heading))));
+    costs.between.push_back(std::move(row));
+  }
+  for (const TourStop& stop : stops) costs.gain.push_back(stop.stop.gain);
+  const std::vector<std::size_t> tour = detail::best_tour(costs);
+  seconds = detail::seconds_of(costs, tour);
+  return tour;
+}
+
+/// Another place may see about as much as the first stop and lie better on the way to the second.
+void Explorer::State::refine_first(std::vector<TourStop>& stops,
+                                   const std::vector<std::size_t>& tour, const FlightState& state,
+                                   const detail::WaysFrom& ways) const {
+  TourStop& first = stops[tour[0]];
+  std::vector<std::uint64_t> others(views.parts(), 0);
+  for (std::size_t i = 0; i < stops.size(); ++i)
+    if (i != tour[0]) views.cover(stops[i].stop.place, stops[i].stop.heading, others);
+  const double wanted = kAsGood * views.gain_at(first.stop.place, first.stop.heading, others);
+  if (wanted <= 0.0) return;
+  std::optional<detail::WaysFrom> onward;
+  if (tour.size() > 1) {
+    const TourStop& second = stops[tour[1]];
+    onward.emplace(*roadmap, places[second.stop.place].position, second.access);
+  }
+  const auto cost_of = [&](const TourStop& stop) {
+    double cost = seconds_from_robot(stop, state);
+    if (onward)
+      cost +=
+          seconds_between(std::min(1e6, onward->to(places[stop.stop.place].position, stop.access)),
+                          detail::turn_between(views.yaw_of(stop.stop.heading),
+                                               views.yaw_of(stops[tour[1]].stop.heading)));
+    return cost;
+  };
+  TourStop best = first;
+  double best_cost = cost_of(first);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (views.from_places()[i].empty()) continue;
+    if ((places[i].position - places[first.stop.place].position).norm() > config.view.range)
+      continue;
+    const Stop stop = views.best_heading(i, others);
+    if (stop.gain < wanted) continue;
+    if (std::find(refused.begin(), refused.end(), places[i].id) != refused.end()) continue;
+    const Access access = detail::access_of(*roadmap, roadmap->esdf.layout.find(places[i].voxel));
+    const TourStop other = {stop, access, ways.to(places[i].position, access)};
+    if (!std::isfinite(other.from_robot)) continue;
+    if (const double cost = cost_of(other); cost < best_cost - 1e-6) {
+      best_cost = cost;
+      best = other;
+    }
+  }
+  first = best;
+}
+
+}  // namespace ridgeway
