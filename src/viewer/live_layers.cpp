@@ -27,8 +27,7 @@ BlockBits bits_of(const EsdfMap& esdf, std::uint32_t slot, VoxelState state) {
   if (slot == BlockLayout::kNoBlock) return bits;
   const VoxelState* states = esdf.state.block(slot);
   for (std::size_t z = 0; z < kLayers; ++z)
-    for (std::size_t i = 0; i < 64; ++i)
-      bits[z] |= std::uint64_t{states[64 * z + i] == state} << i;
+    for (std::size_t i = 0; i < 64; ++i) bits[z] |= std::uint64_t{states[64 * z + i] == state} << i;
   return bits;
 }
 
@@ -187,24 +186,22 @@ std::string surface_delta_layer(const EsdfMap& before, const EsdfMap& now) {
 std::string graph_delta_layer(const Roadmap& before, const Roadmap& now) {
   const GraphDelta delta = delta_between(before, now);
   const SparseGraph& graph = now.graph;
-  const auto name_of = [&](VertexId id) {
-    return now.esdf.origin + graph.vertices[number(id)].voxel;
-  };
+  const auto name = [&](VertexId id) { return now.esdf.origin + graph.vertices[number(id)].voxel; };
   std::map<VoxelIndex, double> vertices;
   for (const Vertex& v : graph.vertices) vertices[now.esdf.origin + v.voxel] = v.clearance;
   std::map<EdgeName, double> edges;
   for (const Edge& e : graph.edges) {
-    const VoxelIndex a = name_of(e.from), b = name_of(e.to);
+    const VoxelIndex a = name(e.from), b = name(e.to);
     edges[{std::min(a, b), std::max(a, b)}] = e.clearance;
   }
   std::string bytes;
   detail::append(bytes, now.esdf.voxel_size);
   append_names(bytes, delta.gone_vertices, delta.came_vertices, delta.changed_vertices, vertices,
-               [&](const VoxelIndex& name) { append_index(bytes, name); });
+               [&](const VoxelIndex& vertex) { append_index(bytes, vertex); });
   append_names(bytes, delta.gone_edges, delta.came_edges, delta.changed_edges, edges,
-               [&](const EdgeName& name) {
-                 append_index(bytes, name.from);
-                 append_index(bytes, name.to);
+               [&](const EdgeName& edge) {
+                 append_index(bytes, edge.from);
+                 append_index(bytes, edge.to);
                });
   return bytes;
 }
