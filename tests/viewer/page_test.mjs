@@ -106,7 +106,7 @@ test("typed places plan too, and there is a trajectory to fly along", async () =
 test("alternatives are those of the command line", async () => {
   await planned(page, () => set("alternatives", "3"));
   const routes = run_json("plan", map, "--from=-2,1,1", "--to=2,-1,1", "--alternatives", "3").routes;
-  assert.equal(await page.evaluate(() => window.ridgeway.app.shown_routes.length), routes.length);
+  assert.equal(await page.evaluate(() => window.ridgeway.app.query.shown.length), routes.length);
   await planned(page, () => set("alternatives", "1"));
 });
 

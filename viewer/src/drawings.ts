@@ -52,6 +52,13 @@ export class NetDrawing {
     this.colour_by("clearance");
   }
 
+  dispose(): void {
+    for (const part of [this.lines, this.points]) {
+      part?.geometry.dispose();
+      (part?.material as THREE.Material | undefined)?.dispose();
+    }
+  }
+
   colour_by(what: ColourBy): void {
     const { net, scale } = this;
     const place_colour = (v: number) => (what === "component" ? component_colour(net.component[v]!) : scale.colour(net.clearance[v]!));

@@ -19,7 +19,11 @@ export class RouteDrawing {
   constructor(private readonly stage: Stage, private readonly base: THREE.Vector3) {
     this.start.visible = this.goal.visible = this.flight_group.visible = false;
     this.flight_group.add(this.robot);
-    stage.scene.add(this.start, this.goal, this.paths, this.flight_group);
+    stage.overlay.add(this.start, this.goal, this.paths, this.flight_group);
+  }
+
+  get has_flight(): boolean {
+    return this.samples.length > 1;
   }
 
   local(place: Vector): THREE.Vector3 {
@@ -31,14 +35,14 @@ export class RouteDrawing {
 
   set_radius(radius: number): void {
     for (const part of [this.start, this.goal, this.robot]) part.scale.setScalar(radius);
-    this.stage.changed();
+    this.stage.changed_over();
   }
 
   set_end(which: "start" | "goal", place: Vector | undefined): void {
     const marker = this[which];
     marker.visible = !!place;
     if (place) marker.position.copy(this.local(place));
-    this.stage.changed();
+    this.stage.changed_over();
   }
 
   show_routes(routes: Route[]): void {
@@ -51,7 +55,7 @@ export class RouteDrawing {
       drawing.group.userData.drawing = drawing;
       this.paths.add(drawing.group);
     });
-    this.stage.changed();
+    this.stage.changed_over();
   }
 
   show_flight(flight: Flight | undefined): void {
@@ -67,7 +71,7 @@ export class RouteDrawing {
       this.flight_group.add(this.line.group);
       this.set_time(0);
     }
-    this.stage.changed();
+    this.stage.changed_over();
   }
 
   /** Puts the drone where it is at a time, and returns that state. */
@@ -87,7 +91,7 @@ export class RouteDrawing {
     const state = { t: time, position: mix(a.position, b.position), velocity: mix(a.velocity, b.velocity), yaw: a.yaw + (b.yaw - a.yaw) * share };
     this.robot.position.copy(this.local(state.position));
     this.robot.rotation.z = state.yaw;
-    this.stage.changed();
+    this.stage.changed_over();
     return state;
   }
 

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "json.hpp"
+
 namespace ridgeway::cli {
 
 void LiveView::show(LiveScene scene) {
@@ -37,6 +39,13 @@ std::shared_ptr<LiveView::Snapshot> LiveView::newest() {
 
 Reply LiveView::answer(const Question& question) {
   const std::shared_ptr<Snapshot> snapshot = newest();
+  if (question.path == "/api/info") {
+    using Json = nlohmann::ordered_json;
+    Json info = snapshot ? Json::parse(*snapshot->answers.answer(question).body)
+                         : Json{{"name", name_}, {"bounds", nullptr}};
+    info["live"] = true;
+    return json_reply(200, info);
+  }
   if (!snapshot)
     return json_reply(503, {{"error", "nothing is known yet of where the robot fits: wait"}});
   return snapshot->answers.answer(question);

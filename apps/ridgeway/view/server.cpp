@@ -127,7 +127,7 @@ struct PageServer::Running {
   Running(Served given, std::function<bool()> is_over)
       : served(std::move(given)),
         is_ending([this, is_over = std::move(is_over)] { return has_ended || is_over(); }),
-        server(is_ending) {}
+        server(std::make_unique<BoundedServer>(is_ending)) {}
 
   void respond(const httplib::Request& request, httplib::Response& response) {
     set_headers(response);
@@ -148,14 +148,14 @@ struct PageServer::Running {
   std::atomic<bool> has_ended = false;
   std::atomic<int> followers = 0;
   const std::function<bool()> is_ending;
-  BoundedServer server;
+  const std::unique_ptr<httplib::Server> server;
   int port = 0;
   std::thread listener;
 };
 
 PageServer::PageServer(Served served, int port, std::function<bool()> is_over)
     : running_(std::make_unique<Running>(std::move(served), std::move(is_over))) {
-  httplib::Server& server = running_->server;
+  httplib::Server& server = *running_->server;
   server.new_task_queue = [] { return new httplib::ThreadPool(kMostConnections); };
   server.set_payload_max_length(1024);
   // Two servers at one port would share its connections.
@@ -174,14 +174,14 @@ PageServer::PageServer(Served served, int port, std::function<bool()> is_over)
         return httplib::Server::HandlerResponse::Handled;
       });
   running_->listener = std::thread([running = running_.get()] {
-    running->server.listen_after_bind();
+    running->server->listen_after_bind();
     running->has_ended = true;
   });
 }
 
 PageServer::~PageServer() {
   running_->has_ended = true;
-  running_->server.stop();
+  running_->server->stop();
   running_->listener.join();
 }
 
