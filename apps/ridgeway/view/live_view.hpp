@@ -18,13 +18,13 @@ namespace ridgeway::cli {
 
 /// A map that grows, as it is after a scan.
 struct LiveScene {
-  std::shared_ptr<const Roadmap> roadmap;  ///< none as long as the robot fits nowhere
-  Point position = Point::Zero();          ///< of the sensor, or of the drone that carries it
-  double yaw = 0.0;                        ///< where it looks, radians
-  std::vector<Point> ahead;                ///< where it is going to fly; may be empty
-  std::size_t scan = 0;                    ///< counted from 1
-  std::optional<std::size_t> scans;        ///< how many there will be, if that is known
-  double seconds = 0.0;                    ///< from the first scan on: of the flight, or of the run
+  std::shared_ptr<const Roadmap> roadmap = {};  ///< none as long as the robot fits nowhere
+  Point position = Point::Zero();               ///< of the sensor, or of the drone that carries it
+  double yaw = 0.0;                             ///< where it looks, radians
+  std::vector<Point> ahead = {};                ///< where it is going to fly; may be empty
+  std::size_t scan = 0;                         ///< counted from 1
+  std::optional<std::size_t> scans = {};        ///< how many there will be, if that is known
+  double seconds = 0.0;  ///< from the first scan on: of the flight, or of the run
   bool is_last = false;
 };
 
