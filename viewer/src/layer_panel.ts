@@ -5,7 +5,7 @@ import { join_text } from "./answer_text";
 import { kClearances, kHeights, kNarrow } from "./colours";
 import { element, input } from "./dom";
 import { ball, cloud_drawing, LabelLayer, NetDrawing, type ColourBy, type SliceDrawing } from "./drawings";
-import { read_cloud, read_net, type Narrow, type Vector } from "./layers";
+import { read_cloud, read_net, type Narrow, type Net, type Vector } from "./layers";
 import type { Legend } from "./legend";
 import { metres } from "./numbers";
 import type { Page } from "./page";
@@ -24,26 +24,29 @@ interface Layer {
 export class LayerPanel {
   private readonly labels = new LabelLayer(element("labels"));
   private readonly layers: Record<string, Layer>;
-  private readonly nets = new Map<string, NetDrawing>();
+  private readonly diagram: NetDrawing;
+  private readonly graph: NetDrawing;
   private renewing = false;
 
   constructor(private readonly page: Page, slice: SliceDrawing, show_slice: () => void, private readonly fly_to: (place: Vector) => void) {
     const { source, base, scale, stage, surface, routes } = page;
+    this.diagram = new NetDrawing(base, scale, 1.5, 0);
+    this.graph = new NetDrawing(base, scale, 2, 5);
     stage.scene.add(slice.mesh);
     stage.before_frame.push(() => this.labels.place((p) => stage.on_canvas(p)));
     this.layers = {
       surface: { title: "Obstacles", shown: true, object: surface.mesh },
       slice: { title: "Distance slice", shown: false, object: slice.mesh, on_switch: show_slice },
       gvd: { title: "Voronoi diagram (GVD)", shown: false, load: async () => cloud_drawing(read_cloud(await source.ask("/api/gvd")), base, scale) },
-      diagram: { title: "Skeleton diagram", shown: false, load: async () => this.add_net("diagram", new NetDrawing(read_net(await source.ask("/api/diagram"), false), base, scale, 1.5, 0)) },
-      graph: { title: "Graph", shown: true, load: async () => this.add_net("graph", new NetDrawing(read_net(await source.ask("/api/graph"), true), base, scale, 2, 5)) },
+      diagram: { title: "Skeleton diagram", shown: false, load: async () => this.diagram.show(read_net(await source.ask("/api/diagram"), false)).group },
+      graph: { title: "Graph", shown: true, load: async () => this.graph.show(read_net(await source.ask("/api/graph"), true)).group },
       narrow: { title: "Narrow places", shown: false, load: () => this.load_narrow() },
       routes: { title: "Routes", shown: true, object: routes.paths },
       flight: { title: "Trajectory and drone", shown: true, object: routes.flight_group },
     };
     for (const name of Object.keys(this.layers)) this.add_switch(name);
     element("colour").addEventListener("change", () => {
-      for (const net of this.nets.values()) net.colour_by(this.colour_by);
+      for (const net of [this.diagram, this.graph]) net.colour_by(this.colour_by);
       page.update_legend();
       stage.changed();
     });
@@ -87,8 +90,8 @@ export class LayerPanel {
   }
 
   /** The graph as it is now, of a map that grows. */
-  put_graph(graph: NetDrawing): void {
-    this.put("graph", this.add_net("graph", graph));
+  show_graph(graph: Net): void {
+    this.put("graph", this.graph.show(graph).group);
   }
 
   /** The map has changed: asks again for what is shown of it, and forgets the rest. */
@@ -137,13 +140,6 @@ export class LayerPanel {
     box.addEventListener("change", () => void this.show(name, box.checked));
     label.append(box, layer.title);
     element("layers").append(label);
-  }
-
-  private add_net(name: string, net: NetDrawing): THREE.Object3D {
-    this.nets.get(name)?.dispose();
-    net.colour_by(this.colour_by);
-    this.nets.set(name, net);
-    return net.group;
   }
 
   private put(name: string, object: THREE.Object3D | undefined): void {

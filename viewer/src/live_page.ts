@@ -4,7 +4,7 @@ import * as THREE from "three";
 import { App } from "./app";
 import { kAhead, kDrone } from "./colours";
 import { element } from "./dom";
-import { drone, NetDrawing, PathDrawing } from "./drawings";
+import { drone, PathDrawing } from "./drawings";
 import type { Info, Vector } from "./layers";
 import type { Legend } from "./legend";
 import { LiveGraph } from "./live_graph";
@@ -40,7 +40,8 @@ export class LivePage {
   private readonly surface = new LiveSurface();
   private readonly trail: Vector[] = [];
   private readonly drone = drone(kDrone);
-  private readonly ways = new THREE.Group();
+  private readonly came = new PathDrawing(kDrone, 2.5);
+  private readonly ahead = new PathDrawing(kAhead, 2.5);
   private readonly group = new THREE.Group();
   private readonly events: EventSource;
   private last?: LiveEvent;
@@ -50,7 +51,7 @@ export class LivePage {
   readonly bytes: number[] = [];
 
   constructor(private readonly source: MapSource, private readonly stage: Stage, private readonly on_begin: (app: App) => void) {
-    this.group.add(this.drone, this.ways);
+    this.group.add(this.drone, this.came.group, this.ahead.group);
     stage.overlay.add(this.group);
     this.group.visible = false;
     this.tell("Waiting for the first scan");
@@ -121,7 +122,7 @@ export class LivePage {
     this.stage.set_box(low, high);
     app.surface.replace(this.surface.whole(), low.z, high.z);
     app.heights.follow();
-    app.layers.put_graph(new NetDrawing(this.graph.whole(app.base.toArray() as Vector), app.base, app.scale, 2, 5));
+    app.layers.show_graph(this.graph.whole(app.base.toArray() as Vector));
     Object.assign(app.info, { vertices, edges });
     app.tell_map();
     app.update_legend();
@@ -133,18 +134,8 @@ export class LivePage {
 
   private show_drone({ position, yaw, ahead }: LiveEvent): void {
     const { routes } = this.app!;
-    for (const old of [...this.ways.children]) {
-      this.ways.remove(old);
-      (old.userData.drawing as PathDrawing).dispose();
-    }
-    const add = (places: Vector[], colour: typeof kDrone) => {
-      if (places.length < 2) return;
-      const drawing = new PathDrawing(places.map((p) => routes.local(p)), colour, 2.5);
-      drawing.group.userData.drawing = drawing;
-      this.ways.add(drawing.group);
-    };
-    add(this.trail, kDrone);
-    add(ahead, kAhead);
+    this.came.show(this.trail.map((p) => routes.local(p)));
+    this.ahead.show(ahead.map((p) => routes.local(p)));
     this.drone.position.copy(routes.local(position));
     this.drone.rotation.z = yaw;
     this.stage.changed_over();

@@ -90,7 +90,7 @@ export class Pointing {
       return;
     }
     const from = this.measure_from;
-    this.measured.add(new PathDrawing([from, place], kMeasure, 3).group);
+    this.measured.add(new PathDrawing(kMeasure, 3).show([from, place]).group);
     const rise = place.z - from.z;
     const length = from.distanceTo(place);
     this.labels.add(from.clone().lerp(place, 0.5), `${metres(length, 2)} m`);

@@ -13,12 +13,13 @@ export class RouteDrawing {
   readonly paths = new THREE.Group();
   readonly flight_group = new THREE.Group();
   private readonly robot = drone(kFlight);
-  private line?: PathDrawing;
+  private readonly line = new PathDrawing(kFlight, 3);
+  private readonly drawings: PathDrawing[] = [];
   private samples: Sample[] = [];
 
   constructor(private readonly stage: Stage, private readonly base: THREE.Vector3) {
     this.start.visible = this.goal.visible = this.flight_group.visible = false;
-    this.flight_group.add(this.robot);
+    this.flight_group.add(this.robot, this.line.group);
     stage.overlay.add(this.start, this.goal, this.paths, this.flight_group);
   }
 
@@ -46,31 +47,20 @@ export class RouteDrawing {
   }
 
   show_routes(routes: Route[]): void {
-    for (const old of [...this.paths.children]) {
-      this.paths.remove(old);
-      (old.userData.drawing as PathDrawing).dispose();
+    while (this.drawings.length < routes.length) {
+      const i = this.drawings.length;
+      this.drawings.push(new PathDrawing(kRoutes[i % kRoutes.length]!, i === 0 ? 5 : 3.5));
+      this.paths.add(this.drawings[i]!.group);
     }
-    routes.forEach((route, i) => {
-      const drawing = new PathDrawing(route.waypoints.map((p) => this.local(p)), kRoutes[i % kRoutes.length]!, i === 0 ? 5 : 3.5);
-      drawing.group.userData.drawing = drawing;
-      this.paths.add(drawing.group);
-    });
+    this.drawings.forEach((drawing, i) => drawing.show((routes[i]?.waypoints ?? []).map((p) => this.local(p))));
     this.stage.changed_over();
   }
 
   show_flight(flight: Flight | undefined): void {
-    if (this.line) {
-      this.flight_group.remove(this.line.group);
-      this.line.dispose();
-      this.line = undefined;
-    }
     this.samples = flight?.samples ?? [];
-    this.flight_group.visible = this.samples.length > 1;
-    if (this.samples.length > 1) {
-      this.line = new PathDrawing(this.samples.map((s) => this.local(s.position)), kFlight, 3);
-      this.flight_group.add(this.line.group);
-      this.set_time(0);
-    }
+    this.flight_group.visible = this.has_flight;
+    this.line.show(this.samples.map((s) => this.local(s.position)));
+    if (this.has_flight) this.set_time(0);
     this.stage.changed_over();
   }
 

@@ -25,6 +25,8 @@ export class Stage {
   /** Called before a frame; it is coarse while the view moves and frames are slow. */
   readonly before_frame: ((is_coarse: boolean) => void)[] = [];
   frames = 0;
+  /** Frames for which all that stands was drawn. */
+  stills = 0;
 
   private readonly perspective = new THREE.PerspectiveCamera(50, 1, 0.05, 1000);
   private readonly orthographic = new THREE.OrthographicCamera(-1, 1, 1, -1, -1000, 1000);
@@ -108,6 +110,7 @@ export class Stage {
     if (this.is_still_old) {
       for (const act of this.before_frame) act(this.coarse);
       this.still.take(this.renderer, this.scene, this.camera_now);
+      ++this.stills;
     }
     this.still.put(this.renderer);
     this.renderer.render(this.overlay, this.camera_now);
