@@ -30,6 +30,11 @@ const set = (id, value) =>
     }
   }, [id, value]);
 
+async function switch_layer(name) {
+  await page.locator(`#layer-${name}`).click();
+  await page.evaluate(() => window.ridgeway.app.layers.switched);
+}
+
 test("loads without errors, and asks nobody else", () => {
   assert.deepEqual(page.complaints, []);
   assert.ok(page.asked.length > 3);
@@ -45,12 +50,10 @@ test("draws the map", async () => {
 test("every layer changes the picture, and can be taken away again", async () => {
   for (const name of ["surface", "slice", "gvd", "diagram", "graph"]) {
     const before = await pixels(page);
-    await page.locator(`#layer-${name}`).click();
-    await page.waitForTimeout(1500);
+    await switch_layer(name);
     const switched = await pixels(page);
     assert.ok(difference(before, switched) > 50, `${name}: ${difference(before, switched)} pixels differ`);
-    await page.locator(`#layer-${name}`).click();
-    await page.waitForTimeout(1500);
+    await switch_layer(name);
     assert.equal(difference(before, await pixels(page)), 0, name);
   }
 });

@@ -38,7 +38,7 @@ export class App implements Page {
       element("canvas").focus();
     };
     this.heights = new HeightPanel(this);
-    this.layers = new LayerPanel(this, this.heights.slice, () => void this.heights.show_slice(), fly_to);
+    this.layers = new LayerPanel(this, this.heights.slice, () => this.heights.show_slice(), fly_to);
     this.heights.is_slice_shown = () => this.layers.is_shown("slice");
     this.heights.show_slice_layer = () => void this.layers.show("slice", true);
     this.flight = new FlightPanel(this);

@@ -17,7 +17,7 @@ interface Layer {
   /** Makes what is drawn, when it is first shown. */
   load?: () => Promise<THREE.Object3D>;
   object?: THREE.Object3D;
-  on_switch?: () => void;
+  on_switch?: () => Promise<void>;
 }
 
 /** What is drawn of the map, switched on and off. */
@@ -27,8 +27,10 @@ export class LayerPanel {
   private readonly diagram: NetDrawing;
   private readonly graph: NetDrawing;
   private renewing = false;
+  /** Of the last switch: when what it shows is there. */
+  switched: Promise<void> = Promise.resolve();
 
-  constructor(private readonly page: Page, slice: SliceDrawing, show_slice: () => void, private readonly fly_to: (place: Vector) => void) {
+  constructor(private readonly page: Page, slice: SliceDrawing, show_slice: () => Promise<void>, private readonly fly_to: (place: Vector) => void) {
     const { source, base, scale, stage, surface, routes } = page;
     this.diagram = new NetDrawing(base, scale, 1.5, 0);
     this.graph = new NetDrawing(base, scale, 2, 5);
@@ -74,7 +76,7 @@ export class LayerPanel {
       }
     }
     if (layer.object) layer.object.visible = layer.shown && (name !== "flight" || this.page.routes.has_flight);
-    layer.on_switch?.();
+    await layer.on_switch?.();
     if (name === "narrow") {
       this.labels.visible = layer.shown;
       element("narrow-section").hidden = !layer.shown;
@@ -108,7 +110,7 @@ export class LayerPanel {
         this.page.hint(`${layer.title}: ${(error as Error).message}`);
       }
     }
-    if (this.is_shown("slice")) this.layers.slice!.on_switch?.();
+    if (this.is_shown("slice")) await this.layers.slice!.on_switch?.();
     this.renewing = false;
     this.page.stage.changed();
   }
@@ -137,7 +139,7 @@ export class LayerPanel {
     box.type = "checkbox";
     box.id = `layer-${name}`;
     box.checked = layer.shown;
-    box.addEventListener("change", () => void this.show(name, box.checked));
+    box.addEventListener("change", () => (this.switched = this.show(name, box.checked)));
     label.append(box, layer.title);
     element("layers").append(label);
   }
