@@ -202,6 +202,7 @@ void draw_limits(Canvas& canvas, const FlightLimits& limits, const MapFrame& fra
         draw_no_fly(canvas, x, y, width, height, frame.unit);
       });
   within(limits.keep_in, [&](double x, double y, double width, double height) {
+    if (width >= frame.width && height >= frame.height) return;  // no limit within the map
     cairo_rectangle(canvas.cairo(), x, y, width, height);
     canvas.set_colour(ink::kNoFly);
     canvas.set_line(2.0 * frame.unit, {9.0 * frame.unit, 6.0 * frame.unit});
@@ -213,16 +214,18 @@ void draw_limits(Canvas& canvas, const FlightLimits& limits, const MapFrame& fra
 void draw_narrow_places(Canvas& canvas, const MapMarks& marks, const MapFrame& frame) {
   constexpr double kWide = 58.0, kHigh = 22.0;  // of a text, units
   const double u = frame.unit;
+  for (const ComponentJoin& join : marks.narrow)
+    if (frame.shows(join.place))
+      draw_narrow(canvas, frame.x(join.place), frame.y(join.place),
+                  std::max(join.radius * frame.scale, 5.0 * u), u);
   std::vector<std::pair<double, double>> texts;
   for (const ComponentJoin& join : marks.narrow) {
-    if (!frame.shows(join.place)) continue;
     const double x = frame.x(join.place), y = frame.y(join.place);
-    draw_narrow(canvas, x, y, std::max(join.radius * frame.scale, 5.0 * u), u);
     // Where texts would cover each other, that of the widest is read.
     const bool is_covered = std::any_of(texts.begin(), texts.end(), [&](const auto& text) {
       return std::abs(text.first - x) < kWide * u && std::abs(text.second - y) < kHigh * u;
     });
-    if (is_covered) continue;
+    if (is_covered || !frame.shows(join.place)) continue;
     texts.emplace_back(x, y);
     const std::string label = short_number(join.radius, 2) + " m";
     canvas.set_font(14.0 * u, true);

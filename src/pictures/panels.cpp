@@ -21,13 +21,14 @@ std::string between(const HeightBand& band) {
 
 void add_plans(const Roadmap& roadmap, const PictureConfig& config, std::vector<Panel>& panels) {
   const EsdfMap& esdf = roadmap.esdf;
-  if (!config.floors) {
+  const std::vector<Storey> storeys =
+      config.floors ? find_storeys(esdf, 2.0 * roadmap.min_clearance) : std::vector<Storey>{};
+  if (storeys.size() < 2) {
     Panel plan{make_floor_raster(esdf, kFromAbove, config.band, config.width), kAll, {}, {}};
     plan.caption = "From above, walls at heights " + between(plan.raster.band);
     panels.push_back(std::move(plan));
     return;
   }
-  const std::vector<Storey> storeys = find_storeys(esdf, 2.0 * roadmap.min_clearance);
   for (std::size_t i = 0; i < storeys.size(); ++i)
     panels.push_back({make_floor_raster(esdf, kFromAbove, storeys[i].band, config.width),
                       storeys[i].heights,

@@ -117,7 +117,7 @@ std::vector<LegendItem> legend_items(const MapMarks& marks, const std::vector<Pa
   std::vector<LegendItem> items = {
       {Mark::kFree, "free"}, {Mark::kWall, "occupied"}, {Mark::kUnknown, "unknown"}};
   if (config.graph && !marks.by_component()) items.push_back({Mark::kGraph, "graph"});
-  if (!marks.dots.empty())
+  if (!marks.dots.empty() || marks.by_component())
     items.push_back({marks.by_component() ? Mark::kComponents : Mark::kDiagram,
                      diagram_text(marks.range, config)});
   if (!marks.limits.keep_out.empty()) items.push_back({Mark::kNoFly, "no flights"});

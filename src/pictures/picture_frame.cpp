@@ -117,7 +117,7 @@ void draw_no_fly(Canvas& canvas, double x, double y, double width, double height
   cairo_restore(cairo);
   cairo_rectangle(cairo, x, y, width, height);
   canvas.set_colour(ink::kNoFly);
-  canvas.set_line(1.8 * unit);
+  canvas.set_line(2.6 * unit);
   cairo_stroke(cairo);
 }
 

@@ -13,8 +13,8 @@
 
 #include "pictures/colour_map.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/mapping/occupancy_builder.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
+#include "support/random_maps.hpp"
 #include "support/synthetic_roadmap.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -169,22 +169,21 @@ TEST(Picture, BandsChooseTheHeights) {
 /// Two storeys of two rooms each, 6 x 3 x 5 m, a hole in the slab between them, and in the lower
 /// storey a door of 0.5 m, which is too narrow.
 Roadmap two_storeys(const FlightLimits& limits = {}) {
-  OccupancyBuilder voxels(0.1);
-  voxels.fill({{0, 0, 0}, {59, 29, 49}}, VoxelState::kOccupied);
-  for (const int floor : {0, 25})
-    voxels.fill({{1, 1, floor + 1}, {58, 28, floor + 22}}, VoxelState::kFree);
-  for (const int floor : {0, 25})
-    voxels.fill({{30, 1, floor + 1}, {30, 28, floor + 22}}, VoxelState::kOccupied);
-  voxels.fill({{30, 12, 1}, {30, 16, 22}}, VoxelState::kFree);
-  voxels.fill({{40, 5, 20}, {52, 22, 28}}, VoxelState::kFree);
-  return build_roadmap(std::move(voxels).finish(),
-                       {.min_clearance = 0.3, .tangent_pairs = 100, .limits = limits})
-      .roadmap;
+  const OccupancyMap map = testing::make_map(0.1, {0, 0, 0}, {59, 29, 49}, [](const VoxelIndex& v) {
+    const int height = v.z % 25;
+    const bool is_hull = v.x == 0 || v.y == 0 || v.x == 59 || v.y == 29 || v.z == 49;
+    const bool is_slab = height == 0 || height > 22, is_wall = v.x == 30;
+    const bool is_hole = v.x >= 40 && v.x <= 52 && v.y >= 5 && v.y <= 22 && v.z > 1 && v.z < 40;
+    const bool is_door = is_wall && v.y >= 12 && v.y <= 16 && v.z < 23 && !is_slab;
+    return (is_hull || is_slab || is_wall) && !is_hole && !is_door ? VoxelState::kOccupied
+                                                                   : VoxelState::kFree;
+  });
+  return build_roadmap(map, {.min_clearance = 0.3, .limits = limits, .tangent_pairs = 100}).roadmap;
 }
 
-PictureConfig small_plan(bool with_graph) {
+PictureConfig small_plan(bool with_graph, int width = 800) {
   PictureConfig config;
-  config.width = 800;
+  config.width = width;
   config.diagram = config.graph = with_graph;
   return config;
 }
@@ -255,7 +254,7 @@ TEST(Picture, SidesAndSectionsGoBelowThePlan) {
 
 TEST(Picture, NarrowPlacesHaveARingAndTheirRadius) {
   const Roadmap roadmap = two_storeys();
-  PictureConfig config = small_plan(true);
+  PictureConfig config = small_plan(true, 1600);
   EXPECT_EQ(draw(roadmap, {}, config, kOrange).pixels, 0u);
   config.narrow_places = true;
   EXPECT_GT(draw(roadmap, {}, config, kOrange).pixels, 100u);
@@ -263,7 +262,7 @@ TEST(Picture, NarrowPlacesHaveARingAndTheirRadius) {
 
 TEST(Picture, ComponentsHaveColoursOfTheirOwn) {
   const Roadmap roadmap = two_storeys();
-  PictureConfig config = small_plan(true);
+  PictureConfig config = small_plan(true, 1600);
   const std::uint32_t graph = 0x295c94;
   EXPECT_GT(draw(roadmap, {}, config, graph).pixels, 50u);
   config.diagram_colour = DiagramColour::kComponent;
@@ -279,7 +278,7 @@ TEST(Picture, ComponentsHaveColoursOfTheirOwn) {
 }
 
 TEST(Picture, BoxesWithoutFlightsAreNoWalls) {
-  PictureConfig config = small_plan(false);
+  PictureConfig config = small_plan(false, 1600);
   EXPECT_EQ(draw(two_storeys(), {}, config, kMagenta).pixels, 0u);
   FlightLimits limits;
   limits.keep_out.push_back({{1, 1, 3}, {2, 2, 4}});  // in the upper storey

@@ -177,15 +177,30 @@ export class Stage {
     cancelAnimationFrame(this.flight);
     this.use(this.perspective);
     this.preset = () => this.look_from_side();
-    const { size } = this;
     const middle = this.box.getCenter(new THREE.Vector3());
-    const aspect = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
-    const wide = Math.max(size.x / Math.max(aspect, 0.5), size.y, size.z);
-    const from = new THREE.Vector3(-0.25, -0.75, 0.85).normalize().multiplyScalar(0.96 * wide + 1);
+    const back = new THREE.Vector3(-0.25, -0.75, 0.85).normalize();
+    const from = back.clone().multiplyScalar(this.distance_to_see_all(middle, back));
     this.controls.target.copy(middle);
     this.perspective.position.copy(middle).add(from);
     this.controls.update();
     this.changed();
+  }
+
+  /** How far back from a place all of the box can be seen. */
+  private distance_to_see_all(place: THREE.Vector3, back: THREE.Vector3): number {
+    const kRoom = 1.03;
+    const aspect = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
+    const slope = Math.tan(THREE.MathUtils.degToRad(this.perspective.fov / 2)) / kRoom;
+    const right = new THREE.Vector3().crossVectors(this.perspective.up, back).normalize();
+    const up = new THREE.Vector3().crossVectors(back, right);
+    let distance = 1;
+    for (let corner = 0; corner < 8; ++corner) {
+      const { min, max } = this.box;
+      const from = new THREE.Vector3(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y, corner & 4 ? max.z : min.z).sub(place);
+      const beside = Math.max(Math.abs(from.dot(right)) / (slope * aspect), Math.abs(from.dot(up)) / slope);
+      distance = Math.max(distance, beside + from.dot(back));
+    }
+    return distance;
   }
 
   look_from_above(): void {
