@@ -132,6 +132,7 @@ test("dragging the goal plans as it moves, and draws the route anew, not the map
   const drawn = () => page.evaluate(() => { const { stage } = window.ridgeway; return { frames: stage.frames, stills: stage.stills }; });
   await page.mouse.move(at.x, at.y);
   await page.mouse.down();
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   const first = await drawn();
   const lengths = new Set();
   for (let i = 1; i <= 6; ++i) {

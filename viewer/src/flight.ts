@@ -70,6 +70,7 @@ export class FlightPanel {
     const at = input("time").valueAsNumber;
     const from = at >= this.flight.duration - 0.05 ? 0 : at;
     const started = performance.now();
+    this.page.stage.moves_over(true);
     element("play").setAttribute("aria-pressed", "true");
     element("play").textContent = "Stop";
     const step = () => {
@@ -82,6 +83,7 @@ export class FlightPanel {
   }
 
   private stop(): void {
+    if (this.playing) this.page.stage.moves_over(false);
     cancelAnimationFrame(this.playing);
     this.playing = 0;
     element("play").setAttribute("aria-pressed", "false");

@@ -111,6 +111,7 @@ export class Pointing {
     this.dragged = { which, plane, offset: marker.position.clone().sub(at) };
     this.query.is_dragging = true;
     stage.controls.enabled = false;
+    stage.moves_over(true);
     element("canvas").setPointerCapture(event.pointerId);
     element("canvas").style.cursor = "grabbing";
   }
@@ -130,6 +131,7 @@ export class Pointing {
     this.dragged = undefined;
     this.query.is_dragging = false;
     this.page.stage.controls.enabled = true;
+    this.page.stage.moves_over(false);
     element("canvas").style.cursor = "";
     void this.query.plan(); // once more, with what takes longer
   }

@@ -17,8 +17,8 @@ export class QueryPanel {
   /** While an end is dragged there are neither reasons nor trajectories, which take longer. */
   is_dragging = false;
   shown: Route[] = [];
-  /** For measurements: of the last plan, milliseconds from the question to the answer, and to its picture's last command. */
-  timing = { answer: 0, picture: 0 };
+  /** For measurements: of the last plan, milliseconds from the question to the answer. */
+  answer_time = 0;
   private asking = false; // a plan is under way
   private wanted: "nothing" | "route" | "all" = "nothing"; // of the next
   private blocked_place?: Vector;
@@ -86,10 +86,8 @@ export class QueryPanel {
     const parameters = this.parameters();
     try {
       const answer = await ask_json<PlanAnswer>(this.page.source, "/api/plan", is_quick ? { ...parameters, explain: "0" } : parameters);
-      this.timing.answer = performance.now() - started;
+      this.answer_time = performance.now() - started;
       this.show(answer);
-      this.page.stage.draw();
-      this.timing.picture = performance.now() - started;
       if (answer.status === "ok" && !is_quick && this.wanted === "nothing") await this.flight.fly(parameters);
     } catch (error) {
       this.show_failure((error as Error).message);

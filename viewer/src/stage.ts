@@ -35,6 +35,7 @@ export class Stage {
   private is_still_old = true;
   private asked = false;
   private coarse = false;
+  private is_moving_over = false;
   /** The view that was last asked for, until the user turns it. */
   private preset?: () => void;
   private frame_time = 0;
@@ -86,6 +87,12 @@ export class Stage {
     }, kStill);
   }
 
+  /** Something begins or ends to move over the map: where frames are slow, with fewer pixels meanwhile. */
+  moves_over(is_moving: boolean): void {
+    this.is_moving_over = is_moving;
+    this.changed_over();
+  }
+
   /** Asks for a frame in which anything may be another. */
   changed(): void {
     this.is_still_old = true;
@@ -114,7 +121,7 @@ export class Stage {
     }
     this.still.put(this.renderer);
     this.renderer.render(this.overlay, this.camera_now);
-    if (this.is_still_old && !this.coarse) this.frame_time = this.wait_for_picture() - started;
+    if (this.is_still_old && !this.coarse && !this.is_moving_over) this.frame_time = this.wait_for_picture() - started;
     this.is_still_old = false;
     ++this.frames;
   }
@@ -128,7 +135,8 @@ export class Stage {
 
   /** Setting a size empties the canvas, so it is set only where it is another. */
   private fit_canvas(width: number, height: number): void {
-    const ratio = this.coarse ? 0.5 : Math.min(devicePixelRatio, 2);
+    const has_few_pixels = this.coarse || (this.is_moving_over && this.frame_time > kSlowFrame);
+    const ratio = has_few_pixels ? 0.5 : Math.min(devicePixelRatio, 2);
     const now = this.renderer.getSize(new THREE.Vector2());
     if (this.renderer.getPixelRatio() === ratio && now.x === width && now.y === height) return;
     this.is_still_old = true;
