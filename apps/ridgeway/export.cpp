@@ -169,7 +169,9 @@ int run_fused(const ExportOptions& options, const Globals& globals) {
 int run(const ExportOptions& options, const Globals& globals) {
   if (!options.mesh.empty()) return run_mesh(options, globals);
   if (!options.outputs.empty() && is_tsdf_file(options.file)) return run_fused(options, globals);
-  const std::vector<std::filesystem::path> files = list_outputs(options);
+  std::vector<std::filesystem::path> files = list_outputs(options);
+  // A section may lie outside the map: then nothing has been written.
+  std::stable_partition(files.begin(), files.end(), is_picture);
   const Picture picture = read_picture(options);
   const Roadmap roadmap = load_roadmap(options.file);
   for (const auto& file : files) {

@@ -127,8 +127,9 @@ TEST_F(CliExport, RefusesWhatItCannotWriteBeforeAnyFile) {
   expect_refused({"export", map, "--what", "diagram", "-o", path("a.json")}, {"a.json", ".ply"});
   expect_refused({"export", map, "--picture", path("a.ply")}, {"a.ply", ".png"});
   expect_refused({"export", map, "-o", path("a.json"), "--floors"}, {"--floors", "--picture"});
-  expect_refused({"export", map, "--picture", path("a.png"), "--section-y", "20"},
-                 {"--section-y", "20 is outside the map", "give one from -2 to 2"});
+  expect_refused(
+      {"export", map, "-o", path("a.json"), "--picture", path("a.png"), "--section-y", "20"},
+      {"--section-y", "20 is outside the map", "give one from -2 to 2"});
   expect_refused({"export", map, "--picture", path("a.png"), "--path", path("none.json")},
                  {"none.json"});
 }

@@ -20,6 +20,15 @@ interface Layer {
   on_switch?: () => Promise<void>;
 }
 
+/** Lets go of what the graphics card holds of a drawing; it is made again where it is drawn again. */
+function dispose(drawing: THREE.Object3D): void {
+  drawing.traverse((part) => {
+    if (!(part instanceof THREE.Mesh || part instanceof THREE.Points)) return;
+    part.geometry.dispose();
+    part.material.dispose();
+  });
+}
+
 /** What is drawn of the map, switched on and off. */
 export class LayerPanel {
   private readonly labels = new LabelLayer(element("labels"));
@@ -146,7 +155,7 @@ export class LayerPanel {
 
   private put(name: string, object: THREE.Object3D | undefined): void {
     const layer = this.layers[name]!;
-    layer.object?.removeFromParent();
+    if (layer.object && layer.object !== object) dispose(layer.object.removeFromParent());
     layer.object = object;
     if (!object) return;
     object.visible = layer.shown;

@@ -7,7 +7,6 @@
 
 #include "console.hpp"
 #include "json.hpp"
-#include "roadmap_facts.hpp"
 #include "view/base64.hpp"
 #include "viewer/live_layers.hpp"
 
@@ -29,8 +28,10 @@ Json json_of_points(const std::vector<Point>& points) {
 
 /// Of the map as a whole.
 void add_facts(const Roadmap& roadmap, Json& json) {
-  const OccupancyMap occupancy = occupancy_of(roadmap.esdf);
-  const double size = roadmap.esdf.voxel_size;
+  const EsdfMap& esdf = roadmap.esdf;
+  const double size = esdf.voxel_size;
+  // In the same memory: it is only looked at.
+  const OccupancyMap occupancy = {size, esdf.origin, esdf.layout, esdf.state.shared(), esdf.planar};
   json["voxel_size"] = size;
   json["mapped"] = static_cast<double>(count_voxels(occupancy).known()) * size * size * size;
   json["vertices"] = roadmap.graph.vertices.size();
