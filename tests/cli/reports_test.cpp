@@ -108,10 +108,8 @@ TEST_F(CliExport, DrawsSeveralPathsAndViews) {
   std::vector<std::string> pictures = {draw({})};
   const std::vector<std::vector<std::string>> all = {
       {"--path", path("to0.5.csv"), "--path", path("to-0.5.csv")},
-      {"--path", path("to0.5.csv")},
       {"--sides"},
-      {"--section-y", "-0.3"},
-      {"--section-x", "1", "--narrow"},
+      {"--section-y", "-0.3", "--narrow"},
       {"--colour", "component"}};
   for (const auto& options : all) {
     pictures.push_back(draw(options));

@@ -92,8 +92,16 @@ test("plans by click on the newest map, and again when it has changed", async ()
   await page.fill("#to", to);
   await planned(page, () => page.locator("#go").click());
   assert.equal(await page.locator("#length").count(), 1, await text_of(page, "#result"));
+  // What is asked for is asked for again, of the newest map.
+  await page.locator("#layer-diagram").click();
+  await page.evaluate(() => window.ridgeway.app.layers.switched);
+  const asked = () => page.asked.filter((address) => address.endsWith("/api/diagram")).length;
+  const before = asked();
   await planned(page, write_scan);
   await shown_scan(5);
+  for (let i = 0; i < 100 && asked() === before; ++i) await sleep(100);
+  assert.ok(asked() > before, "the diagram is that of an older map");
+  assert.deepEqual(page.complaints, []);
 });
 
 test("two pages see the same, also one that comes later, and one that leaves disturbs nobody", async () => {
