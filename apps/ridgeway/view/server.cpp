@@ -76,9 +76,9 @@ void set_headers(httplib::Response& response) {
 /// A body that is shared, not copied.
 void set_body(httplib::Response& response, const Reply& reply) {
   response.status = reply.status;
-  if (reply.body->empty()) return response.set_content("", reply.type.c_str());
+  if (reply.body->empty()) return response.set_content("", reply.type);
   response.set_content_provider(
-      reply.body->size(), reply.type.c_str(),
+      reply.body->size(), reply.type,
       [body = reply.body](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
         return sink.write(body->data() + offset, length);
       });
@@ -137,8 +137,7 @@ struct PageServer::Running {
     if (request.method != "GET" && request.method != "HEAD")
       return set_body(response, json_reply(405, {{"error", "only GET and HEAD are answered"}}));
     if (const auto file = find_page_file(request.path))
-      return response.set_content(file->body.data(), file->body.size(),
-                                  std::string(file->type).c_str());
+      return response.set_content(file->body.data(), file->body.size(), std::string(file->type));
     if (request.path == kLivePath) return follow(served.live, followers, response);
     const Question question{request.path, {request.params.begin(), request.params.end()}};
     set_body(response, served.answer(question));
