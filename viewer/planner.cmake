@@ -43,7 +43,7 @@ endfunction()
 
 foreach(module voxel esdf paths skeleton roadmap planning trajectory viewer)
   get_target_property(sources ridgeway_${module} SOURCES)
-  list(REMOVE_ITEM sources optimise_spline.cpp)
+  list(REMOVE_ITEM sources optimise_spline.cpp live_layers.cpp)
   list(TRANSFORM sources PREPEND "${PROJECT_SOURCE_DIR}/src/${module}/")
   wasm_objects_of(${module} ${sources})
 endforeach()

@@ -18,6 +18,7 @@
 #include "ridgeway/planning/check.hpp"
 #include "ridgeway/recordings/depth_sequence.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
+#include "view/follow.hpp"
 
 namespace ridgeway::cli {
 namespace {
@@ -30,6 +31,7 @@ struct ExploreOptions {
   std::optional<double> budget;
   double yaw = 0.0;  // degrees
   ExploreSettings settings;
+  FollowOptions follow;
 };
 
 std::string number(double value) { return Json(value).dump(); }
@@ -141,6 +143,16 @@ void print(const ExplorationFlight& flight, const std::string& output, const Glo
   print_row("file", output);
 }
 
+LiveScene scene_of(const ExplorationMoment& moment) {
+  const FlightState& state = moment.sample.state;
+  return {.roadmap = moment.roadmap,
+          .position = state.position,
+          .yaw = state.yaw,
+          .ahead = moment.ahead,
+          .scan = moment.scan,
+          .seconds = state.time};
+}
+
 int run(const ExploreOptions& options, const Globals& globals) {
   ExplorationFlightConfig config = options.settings.flight();
   config.start = *options.start;
@@ -156,14 +168,18 @@ int run(const ExploreOptions& options, const Globals& globals) {
     if (!file.empty()) require_extension(file, "a table", {".csv"});
   const World world = load_world(options.world);
   config.validate();
+  FollowedRun followed(options.follow, options.output, globals);
   std::optional<SequenceWriter> writer;
   if (!options.record.empty()) writer.emplace(options.record, config.sensor.camera);
   ProgressBar bar(globals);
-  const ExplorationFlight flight =
-      explore(world, config, bar.callback(),
-              [&](const DepthImage& image, const Eigen::Isometry3d& T_world_camera) {
-                if (writer) writer->add(image, T_world_camera);
-              });
+  const ExplorationFlight flight = explore(
+      world, config, bar.callback(),
+      [&](const DepthImage& image, const Eigen::Isometry3d& T_world_camera) {
+        if (writer) writer->add(image, T_world_camera);
+      },
+      followed.is_followed()
+          ? [&](const ExplorationMoment& moment) { followed.show(scene_of(moment)); }
+          : OnMoment{});
   bar.clear();
   if (!flight.roadmap)
     throw InputError(options.world, "shows no place that the drone fits",
@@ -174,6 +190,8 @@ int run(const ExploreOptions& options, const Globals& globals) {
   if (!options.volume.empty()) write_text_file(options.volume, volume_csv(flight));
   if (!options.picture.empty()) draw(flight, world.name, options.picture);
   print(flight, options.output, globals);
+  followed.show_last(flight.roadmap);
+  followed.stay();
   return kExitDone;
 }
 
@@ -197,6 +215,7 @@ void add_explore_command(Command& program) {
                "Map, flight and graph from above, and mapped volume over time, .png or .svg");
   command.path("--record", options->record,
                "Folder, new or empty, for the depth images and poses, as `ridgeway live` takes it");
+  add_follow_options(command, options->follow);
   command.footer(
       "Example:\n"
       "  ridgeway explore worlds/house.yaml -o house.ridge --start 1.2,1.2,1.5 --picture "

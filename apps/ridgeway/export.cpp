@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "arguments.hpp"
@@ -22,9 +24,13 @@
 namespace ridgeway::cli {
 namespace {
 
+constexpr Range kCoordinates = {-1e9, 1e9};  // metres
+
 struct ExportOptions {
-  std::string file, json_graph, picture, path, mesh, what = "graph";
-  std::vector<std::string> outputs;
+  std::string file, json_graph, picture, mesh, what = "graph", colour = "clearance";
+  std::vector<std::string> outputs, paths;
+  PictureConfig drawn;
+  std::vector<Option> of_pictures;
 };
 
 bool is_page(const std::filesystem::path& file) { return file.extension() == ".html"; }
@@ -65,15 +71,41 @@ std::vector<std::filesystem::path> list_outputs(const ExportOptions& options) {
   if (files.empty())
     throw InputError("export", "nothing to write was asked for",
                      "give -o FILE, --json-graph FILE, --picture FILE or --mesh FILE");
+  if (std::none_of(files.begin(), files.end(), is_picture))
+    for (const Option& option : options.of_pictures)
+      if (option.is_given())
+        throw InputError(option.name(), "is of pictures, and none is written",
+                         "give --picture FILE too, or leave it out");
   std::vector<std::filesystem::path> inputs = {options.file};
-  if (!options.path.empty()) inputs.emplace_back(options.path);
+  inputs.insert(inputs.end(), options.paths.begin(), options.paths.end());
   require_writable(files, inputs);
   if (!options.json_graph.empty())
     require_extension(options.json_graph, "a graph as JSON", {".json"});
   return files;
 }
 
-void write(const Roadmap& roadmap, const std::vector<Point>& path, const ExportOptions& options,
+/// What is drawn of pictures. One path is the path; several are compared, named as their files.
+struct Picture {
+  PictureConfig config;
+  std::vector<Point> path;
+};
+
+Picture read_picture(const ExportOptions& options) {
+  Picture picture{options.drawn, {}};
+  PictureConfig& config = picture.config;
+  if (options.colour == "height") config.diagram_colour = DiagramColour::kHeight;
+  if (options.colour == "component") config.diagram_colour = DiagramColour::kComponent;
+  for (const std::string& file : options.paths)
+    config.paths.push_back({std::filesystem::path(file).stem().string(), read_path(file)});
+  config.validate();
+  if (config.paths.size() == 1) {
+    picture.path = std::move(config.paths.front().waypoints);
+    config.paths.clear();
+  }
+  return picture;
+}
+
+void write(const Roadmap& roadmap, const Picture& picture, const ExportOptions& options,
            const std::filesystem::path& file) {
   if (file == options.json_graph)
     write_graph_json(roadmap, file);
@@ -81,7 +113,7 @@ void write(const Roadmap& roadmap, const std::vector<Point>& path, const ExportO
     write_text_file(file, page_with_map(std::filesystem::path(options.file).filename().string(),
                                         read_file(options.file)));
   else if (is_picture(file))
-    draw_floor_plan(roadmap, path, file);
+    draw_floor_plan(roadmap, picture.path, file, picture.config);
   else if (is_voxblox_name(file))
     write_voxblox(roadmap, file);
   else if (options.what == "diagram")
@@ -137,15 +169,36 @@ int run_fused(const ExportOptions& options, const Globals& globals) {
 int run(const ExportOptions& options, const Globals& globals) {
   if (!options.mesh.empty()) return run_mesh(options, globals);
   if (!options.outputs.empty() && is_tsdf_file(options.file)) return run_fused(options, globals);
-  const std::vector<std::filesystem::path> files = list_outputs(options);
-  const std::vector<Point> path =
-      options.path.empty() ? std::vector<Point>{} : read_path(options.path);
+  std::vector<std::filesystem::path> files = list_outputs(options);
+  // A section may lie outside the map: then nothing has been written.
+  std::stable_partition(files.begin(), files.end(), is_picture);
+  const Picture picture = read_picture(options);
   const Roadmap roadmap = load_roadmap(options.file);
   for (const auto& file : files) {
     stop_if_interrupted();
-    write(roadmap, path, options, file);
+    write(roadmap, picture, options, file);
   }
   return report(files, globals);
+}
+
+void add_picture_options(Command& command, ExportOptions& options) {
+  PictureConfig& drawn = options.drawn;
+  options.of_pictures = {
+      command.paths(
+          "--path", options.paths,
+          "Path to draw over pictures, .json or .csv of plan; may be repeated, to compare "
+          "up to eight"),
+      command.flag("--floors", drawn.floors, "Draw a plan for each storey"),
+      command.flag("--sides", drawn.sides, "Draw the map from the front and from a side too"),
+      command.number("--section-x", drawn.section_x, kCoordinates,
+                     "Draw a section along y at this x, metres"),
+      command.number("--section-y", drawn.section_y, kCoordinates,
+                     "Draw a section along x at this y, metres"),
+      command.choice("--colour", options.colour, {"clearance", "height", "component"},
+                     "What the diagram's colours say in pictures; component: what is connected, in "
+                     "colours of the graph too"),
+      command.flag("--narrow", drawn.narrow_places,
+                   "Mark narrow places in pictures, with the radius that fits")};
 }
 
 }  // namespace
@@ -163,11 +216,14 @@ void add_export_command(Command& program) {
   command.choice("--what", options->what, {"graph", "diagram"}, "What a .ply file is to hold");
   command.path("--json-graph", options->json_graph, "Graph as JSON, for networkx");
   command.path("--picture", options->picture, "Map, graph and path from above, .png or .svg");
-  command.path("--path", options->path, "Path to draw over pictures, .json or .csv of plan");
+  add_picture_options(command, *options);
   command.path("--mesh", options->mesh, "Surface of a fused map, .ply");
   command.footer(
       "Examples:\n"
       "  ridgeway export office.ridge --picture office.png --path path.json\n"
+      "  ridgeway export office.ridge --picture routes.png --path route-1.json --path "
+      "route-2.json\n"
+      "  ridgeway export house.ridge --picture house.png --floors --section-y 3 --narrow\n"
       "  ridgeway export office.ridge -o graph.graphml -o graph.ply\n"
       "  ridgeway export office.ridge -o office.html\n"
       "  ridgeway export house.ridge --mesh house.ply");

@@ -23,6 +23,7 @@
 #include "ridgeway/recordings/depth_sequence.hpp"
 #include "ridgeway/recordings/scan_sequence.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
+#include "view/follow.hpp"
 
 namespace ridgeway::cli {
 namespace {
@@ -34,6 +35,7 @@ struct LiveOptions {
   double follow = 0.0;  // seconds
   std::string until;
   LiveConfig live;
+  FollowOptions follow_by_page;
 };
 
 struct Replay {
@@ -41,6 +43,7 @@ struct Replay {
   std::size_t unreadable = 0, without_pose = 0;
   std::size_t verified = 0;
   std::vector<double> batch_seconds;  // of the builds that verified
+  Stopwatch watch;
 };
 
 /// Whether two roadmaps have the same file, made beside the output.
@@ -66,21 +69,31 @@ void verify_by_batch(LiveRoadmap& live, const LiveOptions& options, const std::s
     throw std::logic_error("after " + frame + " a batch build gives another roadmap");
 }
 
-/// Runs one update; complaints name the file.
+/// Where a sensor is that looks along an axis of its own.
+LiveScene scene_at(const Eigen::Isometry3d& T_world_sensor, const Eigen::Vector3d& looks_along) {
+  const Eigen::Vector3d towards = T_world_sensor.linear() * looks_along;
+  return {.position = T_world_sensor.translation(), .yaw = std::atan2(towards.y(), towards.x())};
+}
+
+/// Runs one update, and shows what it has made; complaints name the file.
 template <typename Update>
 void replay_frame(LiveRoadmap& live, const LiveOptions& options, const std::filesystem::path& frame,
-                  Replay& replay, const Update& update) {
+                  Replay& replay, FollowedRun& followed, LiveScene scene, const Update& update) {
   try {
     replay.updates.push_back(update());
   } catch (const InputError& error) {
     throw error.within(frame.string());
   }
+  scene.roadmap = live.snapshot();
+  scene.scan = replay.updates.size();
+  scene.seconds = replay.watch.seconds();
+  followed.show(std::move(scene));
   if (options.verify > 0 && replay.updates.size() % static_cast<std::size_t>(options.verify) == 0)
     verify_by_batch(live, options, frame.string(), replay);
 }
 
 void replay_images(const LiveOptions& options, const Globals& globals, LiveRoadmap& live,
-                   Replay& replay) {
+                   Replay& replay, FollowedRun& followed) {
   DepthSequence sequence;
   std::vector<DepthFrame> next;
   GrowingRecording frames(options.folder, options.follow, options.until);
@@ -92,9 +105,12 @@ void replay_images(const LiveOptions& options, const Globals& globals, LiveRoadm
       bar.show("live", static_cast<double>(replay.updates.size()) /
                            static_cast<double>(sequence.frames.size()));
       const std::optional<DepthImage> image = read_when_whole(sequence, frame, options.follow);
-      if (image)
-        replay_frame(live, options, frame.image, replay,
+      if (image) {
+        LiveScene scene = scene_at(frame.T_world_camera, Eigen::Vector3d::UnitZ());
+        if (options.follow == 0.0) scene.scans = sequence.frames.size();
+        replay_frame(live, options, frame.image, replay, followed, std::move(scene),
                      [&] { return live.integrate(*image, sequence.camera, frame.T_world_camera); });
+      }
       replay.unreadable += !image;
       if (frames.is_last(frame)) return;
     }
@@ -103,7 +119,7 @@ void replay_images(const LiveOptions& options, const Globals& globals, LiveRoadm
 }
 
 void replay_scans(const LiveOptions& options, const Globals& globals, LiveRoadmap& live,
-                  Replay& replay) {
+                  Replay& replay, FollowedRun& followed) {
   const ScanSequence sequence = open_scans(options.folder);
   replay.without_pose = sequence.without_pose;
   ProgressBar bar(globals);
@@ -111,7 +127,9 @@ void replay_scans(const LiveOptions& options, const Globals& globals, LiveRoadma
     bar.show("live", static_cast<double>(replay.updates.size()) /
                          static_cast<double>(sequence.scans.size()));
     const PointCloud cloud = read_scan(scan);
-    replay_frame(live, options, scan.cloud, replay,
+    LiveScene scene = scene_at(scan.T_world_sensor, Eigen::Vector3d::UnitX());
+    scene.scans = sequence.scans.size();
+    replay_frame(live, options, scan.cloud, replay, followed, std::move(scene),
                  [&] { return live.integrate(cloud.points, scan.T_world_sensor); });
   }
 }
@@ -199,11 +217,12 @@ int run(const LiveOptions& options, const Globals& globals) {
   LiveOptions all = options;
   all.live = config;
   LiveRoadmap live(config);
+  FollowedRun followed(options.follow_by_page, options.output, globals);
   Replay replay;
   if (kind == RecordingKind::kScans)
-    replay_scans(all, globals, live, replay);
+    replay_scans(all, globals, live, replay, followed);
   else
-    replay_images(all, globals, live, replay);
+    replay_images(all, globals, live, replay, followed);
   if (std::isfinite(config.window)) live.catch_up();
   const std::shared_ptr<const Roadmap> snapshot = live.settled();
   if (!snapshot)
@@ -214,6 +233,8 @@ int run(const LiveOptions& options, const Globals& globals) {
   save_roadmap(*snapshot, options.output);
   if (!options.csv.empty()) write_text_file(options.csv, csv_of(replay));
   print(options, replay, *snapshot, globals);
+  followed.show_last(snapshot);
+  followed.stay();
   return kExitDone;
 }
 
@@ -251,9 +272,11 @@ void add_live_command(Command& program) {
   command.whole("--verify", options->verify, {0, 1'000'000},
                 "Build in batch after every so many scans and compare the bytes; 0: never");
   command.path("--csv", options->csv, "Table to write, a row a scan");
+  add_follow_options(command, options->follow_by_page);
   command.footer(
-      "Example:\n"
-      "  ridgeway live data/house_depth -o house.ridge --min-clearance 0.3 --max-distance 4");
+      "Examples:\n"
+      "  ridgeway live data/house_depth -o house.ridge --min-clearance 0.3 --max-distance 4\n"
+      "  ridgeway live data/house_depth -o house.ridge --view --open");
   command.runs(options, run);
 }
 

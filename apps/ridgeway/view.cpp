@@ -9,11 +9,9 @@
 #include "console.hpp"
 #include "interruption.hpp"
 #include "json.hpp"
-#include "ridgeway/common/error.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
 #include "view/browser.hpp"
 #include "view/map_answers.hpp"
-#include "view/page.hpp"
 #include "view/server.hpp"
 
 namespace ridgeway::cli {
@@ -27,21 +25,20 @@ struct ViewOptions {
 
 int run(const ViewOptions& options, const Globals& globals) {
   const Roadmap roadmap = load_roadmap(options.file);
-  if (!has_page())
-    throw InputError("view", "has no page: this program was built without one", kNoPage);
+  require_page("view");
   stop_if_interrupted();
   MapAnswers answers(roadmap, std::filesystem::path(options.file).filename().string());
-  const auto tell = [&](int port) {
-    const std::string address = "http://127.0.0.1:" + std::to_string(port) + "/";
-    if (globals.json)
-      print_json({{"address", address}});
-    else
-      print_row("open", address + " (Ctrl-C ends it)");
-    std::fflush(stdout);
-    if (options.open && !open_in_browser(address))
-      warn(globals, "no browser could be started: open " + address + " in one");
-  };
-  serve(answers, options.port, tell, is_interrupted);
+  const PageServer server(
+      {.answer = [&](const Question& question) { return answers.answer(question); }}, options.port,
+      is_interrupted);
+  const std::string address = address_of(server.port());
+  if (globals.json)
+    print_json({{"address", address}});
+  else
+    print_row("open", address + " (Ctrl-C ends it)");
+  std::fflush(stdout);
+  if (options.open) open_page(address, globals);
+  server.wait();
   return kExitDone;
 }
 

@@ -20,6 +20,7 @@ namespace ridgeway {
 namespace {
 
 constexpr double kPathStep = 0.02;  // seconds between places that are held against the world
+constexpr double kAheadStep = 0.2;  // seconds between places that are shown
 
 /// Voxels whose centres are in a ball.
 std::vector<VoxelChange> free_ball(const Point& centre, double radius, double voxel_size) {
@@ -86,7 +87,8 @@ class ExplorationRun {
                        config.explorer.limits, viewable_);
   }
 
-  ExplorationFlight run(const Progress& progress, const OnImage& on_image) {
+  ExplorationFlight run(const Progress& progress, const OnImage& on_image,
+                        const OnMoment& on_moment) {
     const double step = 1.0 / config_.scan_rate;
     for (std::size_t scan = 0; flight_.end == ExplorationStatus::kKeep; ++scan) {
       const double time = static_cast<double>(scan) * step;
@@ -94,6 +96,8 @@ class ExplorationRun {
       const FlightState state = state_at(time);
       look(state, scan, on_image);
       decide(state);
+      if (on_moment)
+        on_moment({live_.snapshot(), scan + 1, flight_.samples.back(), places_ahead(time)});
       if (progress && !progress(label(), flight_.samples.back().mapped)) throw Cancelled();
       if (flight_.end == ExplorationStatus::kKeep) follow(time, time + step);
     }
@@ -126,6 +130,14 @@ class ExplorationRun {
   FlightState state_at(double time) const {
     const TrajectoryState at = flying_.at(time - since_);
     return {time, at.position, at.velocity, at.acceleration, at.yaw};
+  }
+
+  std::vector<Point> places_ahead(double time) const {
+    std::vector<Point> places;
+    const double end = since_ + flying_.duration();
+    for (double t = time; t < end; t += kAheadStep) places.push_back(state_at(t).position);
+    places.push_back(state_at(std::max(time, end)).position);
+    return places;
   }
 
   std::string label() const {
@@ -256,13 +268,14 @@ double ExplorationFlightConfig::free_radius() const {
 }
 
 ExplorationFlight explore(const World& world, const ExplorationFlightConfig& config,
-                          const Progress& progress, const OnImage& on_image) {
+                          const Progress& progress, const OnImage& on_image,
+                          const OnMoment& on_moment) {
   config.validate();
   const Box bounds = bounds_of(world, config);
   if (!bounds.min.allFinite() || !bounds.max.allFinite())
     throw InputError(world.name, "has no enclosure", "give bounds");
   require_start(world, config, bounds);
-  return ExplorationRun(world, config, bounds).run(progress, on_image);
+  return ExplorationRun(world, config, bounds).run(progress, on_image, on_moment);
 }
 
 double ExplorationFlight::seconds_to(double share) const {

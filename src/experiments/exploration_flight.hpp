@@ -88,11 +88,21 @@ struct ExplorationFlight {
 /// Each image as it is fused, with its pose (camera to world).
 using OnImage = std::function<void(const DepthImage&, const Eigen::Isometry3d&)>;
 
+/// A scan, and what was decided after it.
+struct ExplorationMoment {
+  std::shared_ptr<const Roadmap> roadmap;  ///< none where the robot fits nowhere
+  std::size_t scan = 0;                    ///< counted from 1
+  const ExplorationSample& sample;
+  std::vector<Point> ahead;  ///< places of the trajectory that is flown, a few a second
+};
+using OnMoment = std::function<void(const ExplorationMoment&)>;
+
 /// Flies until all is seen, or the time is up. Seeded: the same world and configuration give the
 /// same flight and the same map. Throws InputError, before the flight, for a start that is no place
 /// for the drone, a world without an enclosure and no bounds, a sensor that reaches less than two
 /// voxels, a budget in which nothing can be done.
 ExplorationFlight explore(const World& world, const ExplorationFlightConfig& config,
-                          const Progress& progress = {}, const OnImage& on_image = {});
+                          const Progress& progress = {}, const OnImage& on_image = {},
+                          const OnMoment& on_moment = {});
 
 }  // namespace ridgeway

@@ -39,6 +39,20 @@ inline Colour ramp_colour(double share) {
   return {a.r + t * (b.r - a.r), a.g + t * (b.g - a.g), a.b + t * (b.b - a.b)};
 }
 
+/// Of connected components, largest first: neighbouring numbers get hues far apart (steps of the
+/// golden angle); they repeat after kComponentColours.
+inline constexpr std::size_t kComponentColours = 24;
+inline Colour component_colour(std::size_t component) {
+  const double number = static_cast<double>(component % kComponentColours);
+  const double hue = std::fmod(number * 137.508 + 210.0, 360.0);
+  const double lightness = component / 3 % 2 == 0 ? 0.45 : 0.36;
+  const auto channel = [&](double n) {
+    const double k = std::fmod(n + hue / 30.0, 12.0);
+    return lightness - 0.8 * lightness * std::max(-1.0, std::min({k - 3.0, 9.0 - k, 1.0}));
+  };
+  return {channel(0.0), channel(8.0), channel(4.0)};
+}
+
 inline std::array<std::uint8_t, 3> bytes_of(const Colour& c) {
   const auto byte = [](double v) { return static_cast<std::uint8_t>(std::lround(v * 255.0)); };
   return {byte(c.r), byte(c.g), byte(c.b)};

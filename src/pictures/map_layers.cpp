@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <utility>
 
 namespace ridgeway {
 namespace {
@@ -35,19 +37,7 @@ double vertex_size(const SparseGraph& graph, const MapFrame& frame) {
   return std::clamp(0.2 * *middle * frame.scale, 1.4 * frame.unit, 6.0 * frame.unit);
 }
 
-}  // namespace
-
-std::vector<DiagramDot> diagram_dots(const Roadmap& roadmap, DiagramColour colour) {
-  std::vector<DiagramDot> dots;
-  for (const VoxelId id : roadmap.diagram.voxels.members(roadmap.esdf.layout)) {
-    const EsdfMap& esdf = roadmap.esdf;
-    const Point centre = to_world(esdf, centre_of(esdf.layout.index_of(id), esdf.voxel_size));
-    const bool height = colour == DiagramColour::kHeight;
-    dots.push_back({centre, height ? centre.z() : roadmap.esdf.distance(id)});
-  }
-  return dots;
-}
-
+/// From the 2nd to the 98th percentile, so that a few outliers do not take the colours.
 Range middle_range(const std::vector<DiagramDot>& dots) {
   std::vector<double> values;
   for (const DiagramDot& dot : dots)
@@ -55,6 +45,54 @@ Range middle_range(const std::vector<DiagramDot>& dots) {
   if (values.empty()) return {};
   std::sort(values.begin(), values.end());
   return {values[values.size() / 50], values[values.size() - 1 - values.size() / 50]};
+}
+
+std::vector<DiagramDot> diagram_dots(const Roadmap& roadmap, const std::vector<VoxelId>& voxels,
+                                     DiagramColour colour) {
+  const EsdfMap& esdf = roadmap.esdf;
+  std::vector<DiagramDot> dots;
+  for (const VoxelId id : voxels) {
+    const Point centre = to_world(esdf, centre_of(esdf.layout.index_of(id), esdf.voxel_size));
+    dots.push_back({centre, colour == DiagramColour::kHeight ? centre.z() : esdf.distance(id)});
+  }
+  return dots;
+}
+
+/// Calls stroke(colour) after the lines, or dots, of each of a few colours: small and fast in SVG
+/// too.
+template <typename Stroke>
+void stroke_by_component(const std::vector<std::size_t>& components, const Stroke& stroke) {
+  std::array<std::vector<std::size_t>, kComponentColours> buckets;
+  for (std::size_t i = 0; i < components.size(); ++i)
+    buckets[components[i] % kComponentColours].push_back(i);
+  for (std::size_t colour = 0; colour < kComponentColours; ++colour)
+    if (!buckets[colour].empty()) stroke(component_colour(colour), buckets[colour]);
+}
+
+}  // namespace
+
+MapMarks marks_of(const Roadmap& roadmap, const PictureConfig& config) {
+  const EsdfMap& esdf = roadmap.esdf;
+  const std::vector<VoxelId> voxels = roadmap.diagram.voxels.members(esdf.layout);
+  MapMarks marks;
+  marks.limits = limits_in_world(esdf);
+  marks.dots = diagram_dots(roadmap, voxels, config.diagram_colour);
+  const bool by_component = config.diagram_colour == DiagramColour::kComponent;
+  if (by_component || config.narrow_places) {
+    std::vector<VoxelId> asked = voxels;
+    for (const Vertex& v : roadmap.graph.vertices) asked.push_back(esdf.layout.find(v.voxel));
+    const ComponentReport report = SpaceParts(esdf).report(roadmap.min_clearance, asked);
+    for (std::size_t i = 0; by_component && i < voxels.size(); ++i)
+      marks.dots[i].value = static_cast<double>(report.asked[i]);
+    if (by_component)
+      marks.of_vertices.assign(report.asked.begin() + static_cast<std::ptrdiff_t>(voxels.size()),
+                               report.asked.end());
+    for (const ComponentJoin& join : report.joins)
+      if (config.narrow_places && join.radius > 0.5 * esdf.voxel_size) marks.narrow.push_back(join);
+  }
+  marks.range = middle_range(marks.dots);
+  if (!config.diagram) marks.dots.clear();
+  return marks;
 }
 
 void draw_raster(Canvas& canvas, const FloorRaster& raster, const MapFrame& frame) {
@@ -86,42 +124,116 @@ void draw_raster(Canvas& canvas, const FloorRaster& raster, const MapFrame& fram
 }
 
 /// One stroke for each of 24 colours: small and fast in SVG too.
-void draw_diagram(Canvas& canvas, const std::vector<DiagramDot>& dots, const Range& range,
-                  double voxel_size, const MapFrame& frame) {
-  constexpr int kColours = 24;
+void draw_diagram(Canvas& canvas, const MapMarks& marks, double voxel_size, const MapFrame& frame) {
+  constexpr std::size_t kColours = kComponentColours;
   std::array<std::vector<const DiagramDot*>, kColours> buckets;
-  for (const DiagramDot& dot : dots) {
-    const double share = std::clamp(range.share(dot.value), 0.0, 0.999);
-    buckets[static_cast<std::size_t>(share * kColours)].push_back(&dot);
+  for (const DiagramDot& dot : marks.dots) {
+    if (!frame.shows(dot.centre)) continue;
+    const double share = std::clamp(marks.range.share(dot.value), 0.0, 0.999);
+    const auto bucket = marks.by_component() ? static_cast<std::size_t>(dot.value) % kColours
+                                             : static_cast<std::size_t>(share * kColours);
+    buckets[bucket].push_back(&dot);
   }
   canvas.set_line(std::clamp(0.75 * voxel_size * frame.scale, 2.2 * frame.unit, 5.0 * frame.unit));
   for (std::size_t i = 0; i < kColours; ++i) {
-    for (const DiagramDot* dot : buckets[i]) {
+    for (const DiagramDot* dot : buckets[i])
       add_dot(canvas, frame.x(dot->centre), frame.y(dot->centre));
-    }
-    canvas.set_colour(ramp_colour((static_cast<double>(i) + 0.5) / kColours), 0.6);
+    canvas.set_colour(marks.by_component() ? component_colour(i)
+                                           : ramp_colour((static_cast<double>(i) + 0.5) / kColours),
+                      0.6);
     cairo_stroke(canvas.cairo());
   }
 }
 
-void draw_graph(Canvas& canvas, const Roadmap& roadmap, const MapFrame& frame) {
+void draw_graph(Canvas& canvas, const Roadmap& roadmap, const MapMarks& marks,
+                const MapFrame& frame) {
   const SparseGraph& graph = roadmap.graph;
   std::vector<Point> places;
   for (const Vertex& v : graph.vertices) places.push_back(to_world(roadmap.esdf, v.position));
   cairo_t* cairo = canvas.cairo();
   const double dot = vertex_size(graph, frame);
-  for (const Edge& edge : graph.edges) {
-    const Point &a = places[number(edge.from)], &b = places[number(edge.to)];
+  const auto add_edge = [&](const Edge& edge) {
+    Point a = places[number(edge.from)], b = places[number(edge.to)];
+    if (!frame.clip(a, b)) return;
     cairo_move_to(cairo, frame.x(a), frame.y(a));
     cairo_line_to(cairo, frame.x(b), frame.y(b));
+  };
+  const auto stroke = [&](const Colour& colour, double width, double opacity) {
+    canvas.set_colour(colour, opacity);
+    canvas.set_line(width);
+    cairo_stroke(cairo);
+  };
+  const double line = std::min(1.2 * frame.unit, 0.3 * dot);
+  if (marks.by_component()) {
+    std::vector<std::size_t> of_edges;
+    for (const Edge& edge : graph.edges) of_edges.push_back(marks.of_vertices[number(edge.from)]);
+    stroke_by_component(of_edges, [&](const Colour& colour, const auto& members) {
+      for (const std::size_t i : members) add_edge(graph.edges[i]);
+      stroke(colour, line, 0.7);
+    });
+    stroke_by_component(marks.of_vertices, [&](const Colour& colour, const auto& members) {
+      for (const std::size_t i : members)
+        if (frame.shows(places[i])) add_dot(canvas, frame.x(places[i]), frame.y(places[i]));
+      stroke(colour, dot, 1.0);
+    });
+    return;
   }
-  canvas.set_colour(ink::kGraph, 0.7);
-  canvas.set_line(std::min(1.2 * frame.unit, 0.3 * dot));
-  cairo_stroke(cairo);
-  for (const Point& p : places) add_dot(canvas, frame.x(p), frame.y(p));
-  canvas.set_line(dot);
-  canvas.set_colour(ink::kGraph);
-  cairo_stroke(cairo);
+  for (const Edge& edge : graph.edges) add_edge(edge);
+  stroke(ink::kGraph, line, 0.7);
+  for (const Point& p : places)
+    if (frame.shows(p)) add_dot(canvas, frame.x(p), frame.y(p));
+  stroke(ink::kGraph, dot, 1.0);
+}
+
+void draw_limits(Canvas& canvas, const FlightLimits& limits, const MapFrame& frame) {
+  if (!limits.any()) return;
+  const double right = frame.left + frame.width, bottom = frame.top + frame.height;
+  const auto within = [&](const Box& box, const auto& draw) {
+    const double x0 = std::clamp(frame.x(box.min), frame.left, right),
+                 x1 = std::clamp(frame.x(box.max), frame.left, right),
+                 y0 = std::clamp(frame.y(box.max), frame.top, bottom),
+                 y1 = std::clamp(frame.y(box.min), frame.top, bottom);
+    if (x1 > x0 && y1 > y0) draw(x0, y0, x1 - x0, y1 - y0);
+  };
+  const int along = frame.projection.along;
+  for (const Box& box : limits.keep_out)
+    if (box.max[along] >= frame.range.low && box.min[along] <= frame.range.high)
+      within(box, [&](double x, double y, double width, double height) {
+        draw_no_fly(canvas, x, y, width, height, frame.unit);
+      });
+  within(limits.keep_in, [&](double x, double y, double width, double height) {
+    if (width >= frame.width && height >= frame.height) return;  // no limit within the map
+    cairo_rectangle(canvas.cairo(), x, y, width, height);
+    canvas.set_colour(ink::kNoFly);
+    canvas.set_line(2.0 * frame.unit, {9.0 * frame.unit, 6.0 * frame.unit});
+    cairo_stroke(canvas.cairo());
+    canvas.set_line(frame.unit);
+  });
+}
+
+void draw_narrow_places(Canvas& canvas, const MapMarks& marks, const MapFrame& frame) {
+  constexpr double kWide = 58.0, kHigh = 22.0;  // of a text, units
+  const double u = frame.unit;
+  for (const ComponentJoin& join : marks.narrow)
+    if (frame.shows(join.place))
+      draw_narrow(canvas, frame.x(join.place), frame.y(join.place),
+                  std::max(join.radius * frame.scale, 5.0 * u), u);
+  std::vector<std::pair<double, double>> texts;
+  for (const ComponentJoin& join : marks.narrow) {
+    const double x = frame.x(join.place), y = frame.y(join.place);
+    // Where texts would cover each other, that of the widest is read.
+    const bool is_covered = std::any_of(texts.begin(), texts.end(), [&](const auto& text) {
+      return std::abs(text.first - x) < kWide * u && std::abs(text.second - y) < kHigh * u;
+    });
+    if (is_covered || !frame.shows(join.place)) continue;
+    texts.emplace_back(x, y);
+    const std::string label = short_number(join.radius, 2) + " m";
+    canvas.set_font(14.0 * u, true);
+    const double width = canvas.text_width(label), top = y - 30.0 * u;
+    canvas.fill_rectangle(x - 0.5 * width - 3.0 * u, top, width + 6.0 * u, 18.0 * u, ink::kHalo);
+    canvas.set_colour(ink::kNarrow);
+    canvas.draw_text(x, top + 14.0 * u, label, Canvas::Align::kMiddle);
+  }
 }
 
 }  // namespace ridgeway

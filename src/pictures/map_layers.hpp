@@ -8,6 +8,7 @@
 #include "floor_raster.hpp"
 #include "picture_frame.hpp"
 #include "ridgeway/pictures/picture.hpp"
+#include "ridgeway/roadmap/components.hpp"
 
 namespace ridgeway {
 
@@ -20,21 +21,34 @@ struct Range {
 
 /// A diagram voxel with the value that gives its colour.
 struct DiagramDot {
-  Point centre;  ///< world
-  double value = 0.0;
+  Point centre;        ///< world
+  double value = 0.0;  ///< metres, or the number of its component
 };
 
-std::vector<DiagramDot> diagram_dots(const Roadmap& roadmap, DiagramColour colour);
+/// What is drawn over the map, with what gives its colours.
+struct MapMarks {
+  std::vector<DiagramDot> dots;
+  Range range;                           ///< of the dots' values
+  std::vector<std::size_t> of_vertices;  ///< their components; empty: the graph has one colour
+  std::vector<ComponentJoin> narrow;     ///< widest first
+  FlightLimits limits;                   ///< world
+  bool by_component() const { return !of_vertices.empty(); }
+};
 
-/// From the 2nd to the 98th percentile, so that a few outliers do not take the colours.
-Range middle_range(const std::vector<DiagramDot>& dots);
+MapMarks marks_of(const Roadmap& roadmap, const PictureConfig& config);
 
 /// Free space, walls and unknown space.
 void draw_raster(Canvas& canvas, const FloorRaster& raster, const MapFrame& frame);
 
-void draw_diagram(Canvas& canvas, const std::vector<DiagramDot>& dots, const Range& range,
-                  double voxel_size, const MapFrame& frame);
+void draw_diagram(Canvas& canvas, const MapMarks& marks, double voxel_size, const MapFrame& frame);
 
-void draw_graph(Canvas& canvas, const Roadmap& roadmap, const MapFrame& frame);
+void draw_graph(Canvas& canvas, const Roadmap& roadmap, const MapMarks& marks,
+                const MapFrame& frame);
+
+/// Boxes that nobody may fly through, and the border of the one that flights stay in.
+void draw_limits(Canvas& canvas, const FlightLimits& limits, const MapFrame& frame);
+
+/// Rings of the size of what they let through, and that radius, where there is room for it.
+void draw_narrow_places(Canvas& canvas, const MapMarks& marks, const MapFrame& frame);
 
 }  // namespace ridgeway

@@ -20,7 +20,7 @@ void draw_map_sheet(std::span<const SheetMap> maps, int columns, const std::stri
   double widest = 0.0, highest = 0.0;  // metres
   for (const SheetMap& map : maps) {
     const EsdfMap& esdf = map.roadmap->esdf;
-    rasters.push_back(make_floor_raster(esdf, config.band, static_cast<int>(cell)));
+    rasters.push_back(make_floor_raster(esdf, kFromAbove, config.band, static_cast<int>(cell)));
     widest = std::max(widest, rasters.back().width(esdf.voxel_size));
     highest = std::max(highest, rasters.back().height(esdf.voxel_size));
   }
@@ -47,9 +47,9 @@ void draw_map_sheet(std::span<const SheetMap> maps, int columns, const std::stri
     frame.min = rasters[i].min_corner(s);
     frame.unit = 0.7 * u;
     draw_raster(canvas, rasters[i], frame);
-    const std::vector<DiagramDot> dots = diagram_dots(roadmap, config.diagram_colour);
-    if (config.diagram) draw_diagram(canvas, dots, middle_range(dots), s, frame);
-    if (config.graph) draw_graph(canvas, roadmap, frame);
+    const MapMarks marks = marks_of(roadmap, config);
+    draw_diagram(canvas, marks, s, frame);
+    if (config.graph) draw_graph(canvas, roadmap, marks, frame);
     canvas.set_colour(ink::kText);
     canvas.set_font(17.0 * u);
     canvas.draw_text(frame.left, frame.top - 10.0 * u, canvas.fitted(maps[i].caption, cell));

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "canvas.hpp"
 #include "chart.hpp"
-#include "floor_raster.hpp"
 #include "map_layers.hpp"
+#include "panels.hpp"
 #include "picture_frame.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/voxel/index.hpp"
@@ -16,8 +18,16 @@
 namespace ridgeway {
 namespace {
 
+/// What a frame shows of a path, in one line for as long as it does not leave it.
 void trace(Canvas& canvas, std::span<const Point> path, const MapFrame& frame) {
-  for (const Point& p : path) cairo_line_to(canvas.cairo(), frame.x(p), frame.y(p));
+  std::optional<Point> last;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    Point a = path[i], b = path[std::min(i + 1, path.size() - 1)];
+    if (!frame.clip(a, b)) continue;
+    if (!last || *last != a) cairo_move_to(canvas.cairo(), frame.x(a), frame.y(a));
+    cairo_line_to(canvas.cairo(), frame.x(b), frame.y(b));
+    last = b;
+  }
 }
 
 /// A path as it is drawn.
@@ -69,8 +79,9 @@ std::span<const Point> marked_path(std::span<const Point> path, const PictureCon
 
 void draw_ends(Canvas& canvas, std::span<const Point> path, const MapFrame& frame) {
   if (path.empty()) return;
-  draw_start(canvas, frame.x(path.front()), frame.y(path.front()), frame.unit);
-  draw_goal(canvas, frame.x(path.back()), frame.y(path.back()), frame.unit);
+  const Point &start = path.front(), &goal = path.back();
+  if (frame.shows(start)) draw_start(canvas, frame.x(start), frame.y(start), frame.unit);
+  if (frame.shows(goal)) draw_goal(canvas, frame.x(goal), frame.y(goal), frame.unit);
 }
 
 std::string title_of(const Roadmap& roadmap, const PictureConfig& config) {
@@ -80,29 +91,37 @@ std::string title_of(const Roadmap& roadmap, const PictureConfig& config) {
 }
 
 std::string subtitle_of(const Roadmap& roadmap, std::span<const Point> path,
-                        const FloorRaster& raster) {
+                        const std::vector<Panel>& panels) {
   const std::string gap = "  \u00b7  ";
   std::string text = "voxels of " + short_number(roadmap.esdf.voxel_size, 4) + " m" + gap +
                      grouped(roadmap.graph.vertices.size()) + " vertices, " +
                      grouped(roadmap.graph.edges.size()) + " edges";
   if (!path.empty()) text += gap + "path of " + short_number(length_of(path), 2) + " m";
-  return text + gap + "walls at heights " + short_number(raster.band.low, 2) + " to " +
-         short_number(raster.band.high, 2) + " m";
+  if (panels.size() > 1) return text;  // their captions tell
+  const HeightBand& band = panels.front().raster.band;
+  return text + gap + "walls at heights " + short_number(band.low, 2) + " to " +
+         short_number(band.high, 2) + " m";
 }
 
-std::vector<LegendItem> legend_items(bool diagram, const Range& range,
-                                     const std::vector<PathLayer>& layers, bool ends,
-                                     const PictureConfig& config) {
+std::string diagram_text(const Range& range, const PictureConfig& config) {
+  if (config.diagram_colour == DiagramColour::kComponent)
+    return "diagram and graph, a colour for each connected component";
+  const bool height = config.diagram_colour == DiagramColour::kHeight;
+  return std::string("diagram, ") + (height ? "height " : "clearance ") +
+         short_number(range.low, 1) + " to " + short_number(range.high, 1) + " m";
+}
+
+std::vector<LegendItem> legend_items(const MapMarks& marks, const std::vector<PathLayer>& layers,
+                                     bool ends, const PictureConfig& config) {
   using Mark = LegendItem::Mark;
   std::vector<LegendItem> items = {
       {Mark::kFree, "free"}, {Mark::kWall, "occupied"}, {Mark::kUnknown, "unknown"}};
-  if (config.graph) items.push_back({Mark::kGraph, "graph"});
-  if (diagram) {
-    const bool height = config.diagram_colour == DiagramColour::kHeight;
-    items.push_back({Mark::kDiagram,
-                     std::string("diagram, ") + (height ? "height " : "clearance ") +
-                         short_number(range.low, 1) + " to " + short_number(range.high, 1) + " m"});
-  }
+  if (config.graph && !marks.by_component()) items.push_back({Mark::kGraph, "graph"});
+  if (!marks.dots.empty() || marks.by_component())
+    items.push_back({marks.by_component() ? Mark::kComponents : Mark::kDiagram,
+                     diagram_text(marks.range, config)});
+  if (!marks.limits.keep_out.empty()) items.push_back({Mark::kNoFly, "no flights"});
+  if (!marks.narrow.empty()) items.push_back({Mark::kNarrow, "narrow: the radius that fits"});
   for (auto layer = layers.rbegin(); layer != layers.rend(); ++layer)
     items.push_back({Mark::kPath, layer->label, layer->stroke});
   if (ends) {
@@ -112,35 +131,26 @@ std::vector<LegendItem> legend_items(bool diagram, const Range& range,
   return items;
 }
 
-/// The page: title above, map, then scale bar and legend side by side.
+/// The page: title above, maps, then scale bar and legend side by side.
 struct Page {
-  MapFrame frame;
   LegendLayout legend;
+  double unit = 1.0;
   double legend_left = 0.0, legend_top = 0.0, charts_top = 0.0;
   int height = 0;
 };
 
-constexpr double kMargin = 36.0, kLeft = 78.0, kTitle = 96.0, kAxis = 46.0, kScaleBar = 300.0;
+constexpr double kMargin = 36.0, kLeft = 78.0, kTitle = 96.0, kScaleBar = 300.0;
 
-Page lay_out_page(const FloorRaster& raster, double voxel_size, std::span<const LegendItem> items,
+Page lay_out_page(std::vector<Panel>& panels, double voxel_size, std::span<const LegendItem> items,
                   const PictureConfig& config) {
   Page page;
-  MapFrame& frame = page.frame;
-  frame.unit = config.width / 1600.0;
-  const double u = frame.unit;
-  const double across = raster.width(voxel_size), down = raster.height(voxel_size);
-  const double room = config.width - (kLeft + kMargin) * u;
-  frame.scale = std::min(room / across, 1.2 * config.width / down);
-  frame.width = across * frame.scale;
-  frame.height = std::max(down * frame.scale, u);
-  frame.left = kLeft * u + 0.5 * (room - frame.width);
-  frame.top = kTitle * u;
-  frame.min = raster.min_corner(voxel_size);
-
+  page.unit = config.width / 1600.0;
+  const double u = page.unit;
+  page.legend_top = lay_out_panels(panels, voxel_size, kLeft * u, kTitle * u,
+                                   config.width - (kLeft + kMargin) * u, u);
   Canvas measure("page.svg", 8, 8);
   page.legend_left = (kLeft + kScaleBar) * u;
   page.legend = lay_out_legend(measure, items, config.width - page.legend_left - kMargin * u, u);
-  page.legend_top = frame.top + frame.height + kAxis * u;
   const double rows = std::max(1.6, static_cast<double>(page.legend.rows.size()));
   page.charts_top = page.legend_top + (rows + 0.2) * legend_row_height(u);
   page.height =
@@ -160,6 +170,14 @@ void draw_title(Canvas& canvas, const std::string& title, const std::string& sub
   canvas.draw_text(kLeft * unit, 76.0 * unit, canvas.fitted(subtitle, room));
 }
 
+void draw_caption(Canvas& canvas, const Panel& panel) {
+  if (panel.caption.empty()) return;
+  const MapFrame& frame = panel.frame;
+  canvas.set_colour(ink::kText);
+  canvas.set_font(18.0 * frame.unit, true);
+  canvas.draw_text(frame.left, frame.top - 12.0 * frame.unit, panel.caption);
+}
+
 }  // namespace
 
 void PictureConfig::validate() const {
@@ -174,6 +192,9 @@ void PictureConfig::validate() const {
     throw InputError("paths", "are " + std::to_string(paths.size()),
                      "draw at most eight into one picture");
   }
+  for (const auto& [name, cut] : {std::pair{"section_x", section_x}, {"section_y", section_y}})
+    if (cut && !std::isfinite(*cut))
+      throw InputError(name, "is no coordinate", "give metres in the map's frame");
   validate_charts(charts);
 }
 
@@ -182,31 +203,32 @@ void draw_floor_plan(const Roadmap& roadmap, std::span<const Point> path,
   config.validate();
   check_picture_extension(out);
   const double voxel_size = roadmap.esdf.voxel_size;
-  const FloorRaster raster = make_floor_raster(roadmap.esdf, config.band, config.width);
-  std::vector<DiagramDot> dots;
-  if (config.diagram) dots = diagram_dots(roadmap, config.diagram_colour);
-  const Range range = middle_range(dots);
+  std::vector<Panel> panels = make_panels(roadmap, config);
+  const MapMarks marks = marks_of(roadmap, config);
   const std::vector<PathLayer> layers = path_layers(path, config);
   const std::span<const Point> marked = marked_path(path, config);
-  const std::vector<LegendItem> items =
-      legend_items(!dots.empty(), range, layers, !marked.empty(), config);
-  const Page page = lay_out_page(raster, voxel_size, items, config);
-  const MapFrame& frame = page.frame;
+  const std::vector<LegendItem> items = legend_items(marks, layers, !marked.empty(), config);
+  const Page page = lay_out_page(panels, voxel_size, items, config);
+  const double u = page.unit;
 
   Canvas canvas(out, config.width, page.height);
-  draw_raster(canvas, raster, frame);
-  draw_diagram(canvas, dots, range, voxel_size, frame);
-  if (config.graph) draw_graph(canvas, roadmap, frame);
-  draw_border(canvas, frame);
-  draw_paths(canvas, layers, frame);
-  draw_ends(canvas, marked, frame);
-  draw_title(canvas, title_of(roadmap, config), subtitle_of(roadmap, path, raster), config,
-             frame.unit);
-  draw_scale_bar(canvas, frame, kLeft * frame.unit, page.legend_top,
-                 (kScaleBar - 80.0) * frame.unit);
-  draw_legend(canvas, items, page.legend, page.legend_left, page.legend_top, frame.unit);
-  draw_charts(canvas, config.charts, kLeft * frame.unit, page.charts_top,
-              config.width - (kLeft + kMargin) * frame.unit, frame.unit);
+  for (const Panel& panel : panels) {
+    const MapFrame& frame = panel.frame;
+    draw_raster(canvas, panel.raster, frame);
+    draw_limits(canvas, marks.limits, frame);
+    draw_diagram(canvas, marks, voxel_size, frame);
+    if (config.graph) draw_graph(canvas, roadmap, marks, frame);
+    draw_border(canvas, frame);
+    draw_paths(canvas, layers, frame);
+    draw_narrow_places(canvas, marks, frame);
+    draw_ends(canvas, marked, frame);
+    draw_caption(canvas, panel);
+  }
+  draw_title(canvas, title_of(roadmap, config), subtitle_of(roadmap, path, panels), config, u);
+  draw_scale_bar(canvas, panels.front().frame, kLeft * u, page.legend_top, (kScaleBar - 80.0) * u);
+  draw_legend(canvas, items, page.legend, page.legend_left, page.legend_top, u);
+  draw_charts(canvas, config.charts, kLeft * u, page.charts_top,
+              config.width - (kLeft + kMargin) * u, u);
   canvas.finish();
 }
 

@@ -15,9 +15,11 @@ constexpr double kSwatch = 34.0;   // width of a mark in the legend, units
 constexpr double kMarkGap = 9.0;   // between a mark and its text
 constexpr double kItemGap = 25.0;  // between items
 constexpr double kLegendFont = 16.0;
+constexpr const char* kAxisNames[] = {"x (m)", "y (m)", "z (m)"};
 
 double mark_width(LegendItem::Mark mark, double unit) {
-  return (mark == LegendItem::Mark::kDiagram ? 2.6 : 1.0) * kSwatch * unit;
+  using Mark = LegendItem::Mark;
+  return (mark == Mark::kDiagram || mark == Mark::kComponents ? 2.6 : 1.0) * kSwatch * unit;
 }
 
 void draw_swatch(Canvas& canvas, double x, double y, double unit, const Colour& colour) {
@@ -43,6 +45,13 @@ void draw_ramp(Canvas& canvas, double x, double y, double width, double unit) {
   }
 }
 
+void draw_component_marks(Canvas& canvas, double x, double y, double width, double unit) {
+  constexpr std::size_t kShown = 6;
+  for (std::size_t i = 0; i < kShown; ++i)
+    canvas.fill_rectangle(x + width * static_cast<double>(i) / kShown, y - 6.0 * unit,
+                          width / kShown - unit, 12.0 * unit, component_colour(i));
+}
+
 void draw_mark(Canvas& canvas, const LegendItem& item, double x, double y, double unit) {
   using Mark = LegendItem::Mark;
   const double width = mark_width(item.mark, unit), middle = x + 0.5 * width;
@@ -66,6 +75,12 @@ void draw_mark(Canvas& canvas, const LegendItem& item, double x, double y, doubl
       set_stroke(canvas, item.stroke, unit);
       draw_line(canvas, x, y, x + width, y);
       return canvas.set_line(unit);
+    case Mark::kComponents:
+      return draw_component_marks(canvas, x, y, width, unit);
+    case Mark::kNoFly:
+      return draw_no_fly(canvas, x, y - 8.0 * unit, width, 16.0 * unit, unit);
+    case Mark::kNarrow:
+      return draw_narrow(canvas, middle, y, 7.0 * unit, unit);
     case Mark::kStart:
       return draw_start(canvas, middle, y, 0.8 * unit);
     case Mark::kGoal:
@@ -74,6 +89,46 @@ void draw_mark(Canvas& canvas, const LegendItem& item, double x, double y, doubl
 }
 
 }  // namespace
+
+bool MapFrame::clip(Point& a, Point& b) const {
+  const double from = a[projection.along], to = b[projection.along];
+  if (std::max(from, to) < range.low || std::min(from, to) > range.high) return false;
+  const Point start = a, way = b - a;
+  const auto share = [&](double at) { return std::clamp((at - from) / (to - from), 0.0, 1.0); };
+  if (from == to) return true;
+  const double first = share(from < to ? range.low : range.high),
+               last = share(from < to ? range.high : range.low);
+  a = start + first * way;
+  b = start + last * way;
+  return true;
+}
+
+void draw_no_fly(Canvas& canvas, double x, double y, double width, double height, double unit) {
+  cairo_t* cairo = canvas.cairo();
+  cairo_save(cairo);
+  cairo_rectangle(cairo, x, y, width, height);
+  canvas.set_colour(ink::kNoFly, 0.10);
+  cairo_fill_preserve(cairo);
+  cairo_clip(cairo);
+  canvas.set_colour(ink::kNoFly, 0.75);
+  canvas.set_line(1.4 * unit);
+  for (double at = -height; at < width; at += 9.0 * unit)
+    draw_line(canvas, x + at, y + height, x + at + height, y);
+  cairo_restore(cairo);
+  cairo_rectangle(cairo, x, y, width, height);
+  canvas.set_colour(ink::kNoFly);
+  canvas.set_line(2.6 * unit);
+  cairo_stroke(cairo);
+}
+
+void draw_narrow(Canvas& canvas, double x, double y, double radius, double unit) {
+  for (const bool is_rim : {true, false}) {
+    cairo_arc(canvas.cairo(), x, y, radius, 0.0, 2.0 * std::numbers::pi);
+    canvas.set_colour(is_rim ? ink::kHalo : ink::kNarrow, is_rim ? 0.9 : 1.0);
+    canvas.set_line((is_rim ? 5.0 : 2.6) * unit);
+    cairo_stroke(canvas.cairo());
+  }
+}
 
 double round_step(double most) {
   const double power = std::pow(10.0, std::floor(std::log10(most)));
@@ -198,9 +253,11 @@ void draw_border(Canvas& canvas, const MapFrame& frame) {
 
   double step = round_step(200.0 * u / frame.scale);  // from 80 to 200 units apart
   canvas.set_font(14.0 * u);
-  const double first_x = std::ceil(frame.min.x() / step);
-  for (double k = first_x; k * step <= frame.min.x() + frame.width / frame.scale; ++k) {
-    const double x = frame.left + (k * step - frame.min.x()) * frame.scale;
+  const auto [across, up, along] = frame.projection;
+  const double low_x = frame.min[across], low_y = frame.min[up];
+  const double first_x = std::ceil(low_x / step);
+  for (double k = first_x; k * step <= low_x + frame.width / frame.scale; ++k) {
+    const double x = frame.left + (k * step - low_x) * frame.scale;
     canvas.set_colour(ink::kFrame);
     draw_line(canvas, x, bottom, x, bottom + tick);
     canvas.set_colour(ink::kFaint);
@@ -208,9 +265,9 @@ void draw_border(Canvas& canvas, const MapFrame& frame) {
     canvas.draw_text(x, bottom + tick + 15.0 * u, short_number(k * step, 6),
                      Canvas::Align::kMiddle);
   }
-  const double first_y = std::ceil(frame.min.y() / step);
-  for (double k = first_y; k * step <= frame.min.y() + frame.height / frame.scale; ++k) {
-    const double y = bottom - (k * step - frame.min.y()) * frame.scale;
+  const double first_y = std::ceil(low_y / step);
+  for (double k = first_y; k * step <= low_y + frame.height / frame.scale; ++k) {
+    const double y = bottom - (k * step - low_y) * frame.scale;
     canvas.set_colour(ink::kFrame);
     draw_line(canvas, frame.left - tick, y, frame.left, y);
     canvas.set_colour(ink::kFaint);
@@ -218,8 +275,8 @@ void draw_border(Canvas& canvas, const MapFrame& frame) {
     canvas.draw_text(frame.left - tick - 5.0 * u, y + 5.0 * u, short_number(k * step, 6),
                      Canvas::Align::kRight);
   }
-  canvas.draw_text(right, bottom + tick + 15.0 * u, "x (m)", Canvas::Align::kRight);
-  canvas.draw_text(frame.left - tick - 5.0 * u, frame.top + 11.0 * u, "y (m)",
+  canvas.draw_text(right, bottom + tick + 15.0 * u, kAxisNames[across], Canvas::Align::kRight);
+  canvas.draw_text(frame.left - tick - 5.0 * u, frame.top + 11.0 * u, kAxisNames[up],
                    Canvas::Align::kRight);
 }
 

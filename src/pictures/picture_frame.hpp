@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,18 +25,39 @@ inline constexpr Colour kPath{0.84, 0.15, 0.16};
 inline constexpr Colour kRawPath{0.91, 0.49, 0.18};
 inline constexpr Colour kStart{0.10, 0.55, 0.27};
 inline constexpr Colour kHalo{1.0, 1.0, 1.0};
+inline constexpr Colour kNoFly{0.66, 0.10, 0.52};
+inline constexpr Colour kNarrow{0.76, 0.33, 0.02};
 }  // namespace ink
 
-/// Where the map lies on the page, pixels. Points are in the world.
+/// Where the map lies on the page, pixels, and from where it is seen. Points are in the world.
 struct MapFrame {
+  Projection projection;
   double left = 0.0, top = 0.0, width = 0.0, height = 0.0;
   double scale = 1.0;         ///< pixels a metre
   Point min = Point::Zero();  ///< map corner at the frame's left and bottom
-  double unit = 1.0;          ///< a pixel on a page of 1600
+  /// What of graph, diagram and paths is drawn: between these coordinates along the line of sight.
+  HeightBand range{-std::numeric_limits<double>::infinity(),
+                   std::numeric_limits<double>::infinity()};
+  double unit = 1.0;  ///< a pixel on a page of 1600
 
-  double x(const Point& p) const { return left + (p.x() - min.x()) * scale; }
-  double y(const Point& p) const { return top + height - (p.y() - min.y()) * scale; }
+  double x(const Point& p) const {
+    return left + (p[projection.across] - min[projection.across]) * scale;
+  }
+  double y(const Point& p) const {
+    return top + height - (p[projection.up] - min[projection.up]) * scale;
+  }
+  bool shows(const Point& p) const {
+    return p[projection.along] >= range.low && p[projection.along] <= range.high;
+  }
+  /// The piece of a segment that is shown; false where none is.
+  bool clip(Point& a, Point& b) const;
 };
+
+/// A box that nobody may fly through: hatched, so that it is no wall.
+void draw_no_fly(Canvas& canvas, double x, double y, double width, double height, double unit);
+
+/// Where it is narrow: a ring.
+void draw_narrow(Canvas& canvas, double x, double y, double radius, double unit);
 
 /// Start of a path: a disc. Goal: a star. Both with a white rim.
 void draw_start(Canvas& canvas, double x, double y, double unit);
@@ -51,7 +73,19 @@ void set_stroke(Canvas& canvas, const PathStroke& stroke, double unit);
 
 /// An entry of the legend: what is drawn and what it means.
 struct LegendItem {
-  enum class Mark { kFree, kWall, kUnknown, kDiagram, kGraph, kPath, kStart, kGoal };
+  enum class Mark {
+    kFree,
+    kWall,
+    kUnknown,
+    kDiagram,
+    kComponents,
+    kGraph,
+    kPath,
+    kStart,
+    kGoal,
+    kNoFly,
+    kNarrow
+  };
   Mark mark;
   std::string text;
   PathStroke stroke = {};  ///< of a path

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <type_traits>
 
+#include "layer_bytes.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/voxel/neighbourhood.hpp"
 #include "surface_quads.hpp"
@@ -14,15 +14,10 @@
 namespace ridgeway {
 namespace {
 
-template <typename Number>
-void append(std::string& bytes, Number value) {
-  static_assert(std::is_arithmetic_v<Number>);
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-void append_origin(std::string& bytes, const Point& world) {
-  for (const double x : world) append(bytes, x);
-}
+using detail::append;
+using detail::append_origin;
+using detail::count_of;
+using detail::map_origin;
 
 /// Metres from the map's own zero.
 void append_position(std::string& bytes, const Point& local) {
@@ -32,10 +27,6 @@ void append_position(std::string& bytes, const Point& local) {
 float clearance_of_voxel(const EsdfMap& esdf, VoxelId id) {
   return static_cast<float>(esdf.distance(id));
 }
-
-std::uint32_t count_of(std::size_t count) { return static_cast<std::uint32_t>(count); }
-
-Point map_origin(const EsdfMap& esdf) { return to_world(esdf, Point::Zero()); }
 
 }  // namespace
 

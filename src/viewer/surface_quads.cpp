@@ -7,6 +7,7 @@
 #include <bit>
 #include <climits>
 
+#include "merge_faces.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 
@@ -15,8 +16,7 @@ namespace {
 
 constexpr int kSide = SurfaceQuads::kMostCells;
 using CubeIndex = Index3<struct CubeTag>;
-/// Faces of one plane: a bit each, rows of them.
-using Plane = std::array<std::uint32_t, kSide>;
+using Plane = detail::FacePlane<kSide>;
 
 /// The cells of a cube and those beside it: bit x + 1 of row (z + 1, y + 1).
 class CubeCells {
@@ -80,22 +80,6 @@ class CubeCells {
   Bits solid_{}, open_{};
 };
 
-/// Takes rectangles out of a plane until no face is left: calls take(bit, row, width, height).
-template <typename Take>
-void merge(Plane& plane, const Take& take) {
-  for (int row = 0; row < kSide; ++row) {
-    std::uint32_t& bits = plane[static_cast<std::size_t>(row)];
-    while (bits != 0) {
-      const int bit = std::countr_zero(bits), width = std::countr_one(bits >> bit);
-      const std::uint32_t run = (width == 32 ? ~0u : (1u << width) - 1) << bit;
-      int end = row;
-      while (end < kSide && (plane[static_cast<std::size_t>(end)] & run) == run)
-        plane[static_cast<std::size_t>(end++)] &= ~run;
-      take(bit, row, width, end - row);
-    }
-  }
-}
-
 /// Quads of a cube; `corner`: its lowest cell, from that of all.
 std::vector<SurfaceQuad> quads_of(const CubeCells& cells, const CubeIndex& corner) {
   std::vector<SurfaceQuad> quads;
@@ -104,7 +88,7 @@ std::vector<SurfaceQuad> quads_of(const CubeCells& cells, const CubeIndex& corne
     for (const bool upper : {false, true})
       for (int at = 0; at < kSide; ++at) {
         Plane plane = cells.faces(axis, upper, at);
-        merge(plane, [&](int bit, int row, int width, int height) {
+        detail::merge_faces(plane, [&](int bit, int row, int width, int height) {
           std::array<int, 3> cell = low;
           cell[static_cast<std::size_t>(axis)] += at;
           cell[axis == 0 ? 1 : 0] += bit;

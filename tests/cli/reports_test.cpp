@@ -92,12 +92,42 @@ TEST_F(CliExport, WritesEveryFormat) {
   EXPECT_NE(read_whole(folder_ / "d.ply"), read_whole(folder_ / "g.ply"));
 }
 
+TEST_F(CliExport, DrawsSeveralPathsAndViews) {
+  const std::string map = rooms();
+  for (const char* end : {"0.5", "-0.5"})
+    ASSERT_EQ(run({"plan", map, "--from=-2,0,1", std::string("--to=2,") + end + ",1", "-o",
+                   path(std::string("to") + end + ".csv")})
+                  .code,
+              0);
+  const auto draw = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> words = {"export", map, "--picture", path("p.png")};
+    words.insert(words.end(), options.begin(), options.end());
+    EXPECT_EQ(run(words).code, 0);
+    return read_whole(folder_ / "p.png");
+  };
+  std::vector<std::string> pictures = {draw({})};
+  const std::vector<std::vector<std::string>> all = {
+      {"--path", path("to0.5.csv"), "--path", path("to-0.5.csv")},
+      {"--sides"},
+      {"--section-y", "-0.3", "--narrow"},
+      {"--colour", "component"}};
+  for (const auto& options : all) {
+    pictures.push_back(draw(options));
+    for (std::size_t i = 0; i + 1 < pictures.size(); ++i)
+      EXPECT_FALSE(pictures[i] == pictures.back()) << options.front() << " and picture " << i;
+  }
+}
+
 TEST_F(CliExport, RefusesWhatItCannotWriteBeforeAnyFile) {
   const std::string map = rooms();
   expect_refused({"export", map}, {"--picture"});
   expect_refused({"export", map, "-o", path("a.ply"), "-o", path("b.obj")}, {"b.obj", ".graphml"});
   expect_refused({"export", map, "--what", "diagram", "-o", path("a.json")}, {"a.json", ".ply"});
   expect_refused({"export", map, "--picture", path("a.ply")}, {"a.ply", ".png"});
+  expect_refused({"export", map, "-o", path("a.json"), "--floors"}, {"--floors", "--picture"});
+  expect_refused(
+      {"export", map, "-o", path("a.json"), "--picture", path("a.png"), "--section-y", "20"},
+      {"--section-y", "20 is outside the map", "give one from -2 to 2"});
   expect_refused({"export", map, "--picture", path("a.png"), "--path", path("none.json")},
                  {"none.json"});
 }

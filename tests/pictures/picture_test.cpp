@@ -9,8 +9,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <set>
 
+#include "pictures/colour_map.hpp"
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/roadmap/build_roadmap.hpp"
+#include "support/random_maps.hpp"
 #include "support/synthetic_roadmap.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -160,6 +164,129 @@ TEST(Picture, BandsChooseTheHeights) {
   draw_floor_plan(roadmap, {}, folder / "rooms.png", rooms);
   EXPECT_GT(count_pixels(open_png(folder / "floor.png").get(), 0x292e36),
             5 * count_pixels(open_png(folder / "rooms.png").get(), 0x292e36));
+}
+
+/// Two storeys of two rooms each, 6 x 3 x 5 m, a hole in the slab between them, and in the lower
+/// storey a door of 0.5 m, which is too narrow.
+Roadmap two_storeys(const FlightLimits& limits = {}) {
+  const OccupancyMap map = testing::make_map(0.1, {0, 0, 0}, {59, 29, 49}, [](const VoxelIndex& v) {
+    const int height = v.z % 25;
+    const bool is_hull = v.x == 0 || v.y == 0 || v.x == 59 || v.y == 29 || v.z == 49;
+    const bool is_slab = height == 0 || height > 22, is_wall = v.x == 30;
+    const bool is_hole = v.x >= 40 && v.x <= 52 && v.y >= 5 && v.y <= 22 && v.z > 1 && v.z < 40;
+    const bool is_door = is_wall && v.y >= 12 && v.y <= 16 && v.z < 23 && !is_slab;
+    return (is_hull || is_slab || is_wall) && !is_hole && !is_door ? VoxelState::kOccupied
+                                                                   : VoxelState::kFree;
+  });
+  return build_roadmap(map, {.min_clearance = 0.3, .limits = limits, .tangent_pairs = 100}).roadmap;
+}
+
+PictureConfig small_plan(bool with_graph, int width = 800) {
+  PictureConfig config;
+  config.width = width;
+  config.diagram = config.graph = with_graph;
+  return config;
+}
+
+/// Height of the picture, and its pixels of a colour.
+struct Drawn {
+  int height = 0;
+  std::size_t pixels = 0;
+};
+Drawn draw(const Roadmap& roadmap, std::span<const Point> path, const PictureConfig& config,
+           std::uint32_t colour) {
+  const TemporaryFolder folder;
+  draw_floor_plan(roadmap, path, folder / "plan.png", config);
+  const Surface image = open_png(folder / "plan.png");
+  return {cairo_image_surface_get_height(image.get()), count_pixels(image.get(), colour)};
+}
+
+constexpr std::uint32_t kRed = 0xd62628, kMagenta = 0xa81a85, kOrange = 0xc25405;
+
+TEST(Picture, EveryStoreyHasAPlanWithThePathsThatAreInIt) {
+  const Roadmap roadmap = two_storeys();
+  const std::vector<Point> path = {{4.5, 1.4, 1.0}, {4.5, 1.4, 3.8}, {0.5, 1.4, 3.8}};
+  PictureConfig config = small_plan(false);
+  const Drawn one = draw(roadmap, path, config, kRed);
+  config.floors = true;
+  const Drawn two = draw(roadmap, path, config, kRed);
+  EXPECT_GT(two.height, one.height + 300);  // 3 of 6 m at the scale of the page
+  // A path below the slab is in one of the plans alone.
+  const std::vector<Point> below = {{3.5, 0.5, 1.0}, {5.5, 2.5, 1.0}};
+  config.floors = false;
+  const Drawn plan = draw(roadmap, below, config, kRed);
+  config.floors = true;
+  const Drawn plans = draw(roadmap, below, config, kRed);
+  EXPECT_GT(plans.pixels, plan.pixels / 2);
+  EXPECT_LT(plans.pixels, plan.pixels * 3 / 2);
+}
+
+TEST(Picture, OneStoreyIsOnePlan) {
+  const Roadmap roadmap = synthetic_roadmap();
+  PictureConfig config = small_plan(true);
+  const int height = draw(roadmap, {}, config, kRed).height;
+  config.floors = true;
+  EXPECT_EQ(draw(roadmap, {}, config, kRed).height, height);
+}
+
+TEST(Picture, SidesAndSectionsGoBelowThePlan) {
+  const Roadmap roadmap = two_storeys();
+  const std::uint32_t wall = 0x292e36;
+  PictureConfig config = small_plan(false);
+  const Drawn plan = draw(roadmap, {}, config, wall);
+  config.section_y = 1.5;
+  const Drawn section = draw(roadmap, {}, config, wall);
+  EXPECT_GT(section.height, plan.height + 400);  // 5 of 6 m
+  config.section_y = 0.05;                       // inside the wall: all of it is dark
+  const Drawn in_wall = draw(roadmap, {}, config, wall);
+  EXPECT_EQ(in_wall.height, section.height);
+  EXPECT_GT(in_wall.pixels, section.pixels + 100'000);
+  config.section_x = 1.0;
+  EXPECT_GT(draw(roadmap, {}, config, wall).height, section.height + 200);
+  config.section_y = config.section_x = std::nullopt;
+  config.sides = true;
+  EXPECT_GT(draw(roadmap, {}, config, wall).height, section.height + 200);
+  for (const double outside : {-1.0, 3.1, HUGE_VAL, std::nan("")}) {
+    config.section_y = outside;
+    EXPECT_THROW(draw(roadmap, {}, config, wall), InputError) << outside;
+  }
+}
+
+TEST(Picture, NarrowPlacesHaveARingAndTheirRadius) {
+  const Roadmap roadmap = two_storeys();
+  PictureConfig config = small_plan(true, 1600);
+  EXPECT_EQ(draw(roadmap, {}, config, kOrange).pixels, 0u);
+  config.narrow_places = true;
+  EXPECT_GT(draw(roadmap, {}, config, kOrange).pixels, 100u);
+}
+
+TEST(Picture, ComponentsHaveColoursOfTheirOwn) {
+  const Roadmap roadmap = two_storeys();
+  PictureConfig config = small_plan(true, 1600);
+  const std::uint32_t graph = 0x295c94;
+  EXPECT_GT(draw(roadmap, {}, config, graph).pixels, 50u);
+  config.diagram_colour = DiagramColour::kComponent;
+  EXPECT_EQ(draw(roadmap, {}, config, graph).pixels, 0u);
+  std::set<std::uint32_t> colours;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto [r, g, b] = bytes_of(component_colour(i));
+    const std::uint32_t colour = static_cast<std::uint32_t>(r << 16 | g << 8 | b);
+    colours.insert(colour);
+    EXPECT_GT(draw(roadmap, {}, config, colour).pixels, 30u) << "component " << i;
+  }
+  EXPECT_EQ(colours.size(), 3u);
+}
+
+TEST(Picture, BoxesWithoutFlightsAreNoWalls) {
+  PictureConfig config = small_plan(false, 1600);
+  EXPECT_EQ(draw(two_storeys(), {}, config, kMagenta).pixels, 0u);
+  FlightLimits limits;
+  limits.keep_out.push_back({{1, 1, 3}, {2, 2, 4}});  // in the upper storey
+  const Roadmap roadmap = two_storeys(limits);
+  const Drawn plan = draw(roadmap, {}, config, kMagenta);
+  EXPECT_GT(plan.pixels, 300u);
+  config.floors = true;
+  EXPECT_LT(draw(roadmap, {}, config, kMagenta).pixels, plan.pixels * 3 / 2);  // not in the lower
 }
 
 TEST(Picture, BadRequestsAreRefused) {

@@ -31,8 +31,8 @@ export function launch() {
   });
 }
 
-/** A page that has been loaded; `complaints` and `asked` grow as it is used. */
-export async function open(browser, address, options = {}) {
+/** A page that has been loaded, or, without `wait`, is about to be; `complaints` and `asked` grow as it is used. */
+export async function open(browser, address, { wait = true, ...options } = {}) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 720 }, ...options });
   page.complaints = [];
   page.asked = [];
@@ -43,7 +43,7 @@ export async function open(browser, address, options = {}) {
   page.on("pageerror", (error) => page.complaints.push(error.message));
   page.on("request", (request) => page.asked.push(request.url()));
   await page.goto(address);
-  await page.waitForFunction(() => document.body.dataset.ready, null, { timeout: 90_000 });
+  if (wait) await page.waitForFunction(() => document.body.dataset.ready, null, { timeout: 90_000 });
   return page;
 }
 

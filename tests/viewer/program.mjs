@@ -41,6 +41,27 @@ export function office() {
   return map;
 }
 
+/** Starts a run that is followed by a page; skips all tests (77) where the program has no page. */
+export async function follow(...words) {
+  const server = spawn(program, words, { stdio: ["ignore", "ignore", "pipe"] });
+  let err = "";
+  const address = await new Promise((resolve, reject) => {
+    server.stderr.on("data", (text) => {
+      err += text;
+      const found = /open (http:\S+)/.exec(err);
+      if (found) resolve(found[1]);
+    });
+    server.on("exit", () => (err.includes("has no page") ? process.exit(77) : reject(new Error(err))));
+  });
+  return running(server, address);
+}
+
+function running(server, address) {
+  server.removeAllListeners("exit");
+  const ended = new Promise((resolve) => server.on("exit", (code, signal) => resolve({ code, signal })));
+  return { server, address, port: Number(new URL(address).port), ended, stop: () => server.kill("SIGINT") && ended };
+}
+
 /** Serves a map; skips all tests (77) where the program has no page. */
 export async function view(map) {
   const server = spawn(program, ["view", map, "--json"], { stdio: ["ignore", "pipe", "pipe"] });
@@ -54,7 +75,5 @@ export async function view(map) {
     });
     server.on("exit", () => (err.includes("has no page") ? process.exit(77) : reject(new Error(err))));
   });
-  server.removeAllListeners("exit");
-  const ended = new Promise((resolve) => server.on("exit", (code, signal) => resolve({ code, signal })));
-  return { server, address, port: Number(new URL(address).port), ended, stop: () => server.kill("SIGINT") && ended };
+  return running(server, address);
 }

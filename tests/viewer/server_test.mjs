@@ -77,6 +77,12 @@ test("serves nothing but its page and its answers", async () => {
   await still_answers();
 });
 
+test("streams nothing of a map that does not change", async () => {
+  const { status: code, body } = await ask("api/live");
+  assert.equal(code, 404);
+  assert.match(body.error, /does not change.*live --view/);
+});
+
 test("answers its own page alone", async () => {
   const at = `127.0.0.1:${served.port}`;
   const cases = [

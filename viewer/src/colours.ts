@@ -49,3 +49,6 @@ export const kGoal: Rgb = hex("c8102e");
 export const kFlight: Rgb = hex("ffb000");
 export const kNarrow: Rgb = hex("e02b20");
 export const kMeasure: Rgb = hex("0b63c5");
+/** Of a drone that maps, the way that it came, and the way that it flies next. */
+export const kDrone: Rgb = hex("d94801");
+export const kAhead: Rgb = hex("12a36b");

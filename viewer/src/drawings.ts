@@ -21,13 +21,22 @@ export function three_colour(rgb: Rgb): THREE.Color {
   return new THREE.Color().setRGB(...rgb, THREE.LinearSRGBColorSpace);
 }
 
-/** Lines so many pixels wide. */
-function wide_lines(positions: Float32Array, width: number): LineSegments2 {
-  const geometry = new LineSegmentsGeometry();
-  geometry.setPositions(positions);
-  const lines = new LineSegments2(geometry, new LineMaterial({ linewidth: width, vertexColors: true }));
+/**
+ * Lines so many pixels wide. Their geometry changes, their material stays: three.js would compile its
+ * shaders again for a new one.
+ */
+function wide_lines(width: number): LineSegments2 {
+  const lines = new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ linewidth: width, vertexColors: true }));
   lines.frustumCulled = false;
   return lines;
+}
+
+function set_lines(lines: LineSegments2, positions: Float32Array, colours: Float32Array): void {
+  lines.geometry.dispose();
+  const geometry = new LineSegmentsGeometry();
+  lines.visible = positions.length > 0;
+  if (lines.visible) geometry.setPositions(positions).setColors(colours);
+  lines.geometry = geometry;
 }
 
 /** A diagram or a graph: lines between places, and places as points. */
@@ -35,32 +44,40 @@ export class NetDrawing {
   readonly group = new THREE.Group();
   private readonly lines: LineSegments2;
   private readonly points?: THREE.Points;
+  private net?: Net;
+  private by: ColourBy = "clearance";
 
-  constructor(private readonly net: Net, base: THREE.Vector3, private readonly scale: ClearanceScale, width: number, point_size: number) {
-    const at = new Float32Array(6 * (net.pairs.length / 2));
-    for (let i = 0; i < net.pairs.length; ++i) at.set(net.positions.subarray(3 * net.pairs[i]!, 3 * net.pairs[i]! + 3), 3 * i);
-    this.lines = wide_lines(at, width);
+  constructor(private readonly base: THREE.Vector3, private readonly scale: ClearanceScale, width: number, point_size: number) {
+    this.lines = wide_lines(width);
     this.group.add(this.lines);
-    if (point_size > 0) {
-      const geometry = new THREE.BufferGeometry();
-      geometry.setAttribute("position", new THREE.BufferAttribute(net.positions, 3));
-      this.points = new THREE.Points(geometry, new THREE.PointsMaterial({ size: point_size, sizeAttenuation: false, vertexColors: true }));
-      this.points.frustumCulled = false;
-      this.group.add(this.points);
-    }
-    this.group.position.set(...net.origin).sub(base);
-    this.colour_by("clearance");
+    if (point_size === 0) return;
+    this.points = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ size: point_size, sizeAttenuation: false, vertexColors: true }));
+    this.points.frustumCulled = false;
+    this.group.add(this.points);
+  }
+
+  show(net: Net): this {
+    this.net = net;
+    this.group.position.set(...net.origin).sub(this.base);
+    this.points?.geometry.dispose();
+    if (this.points) this.points.geometry = new THREE.BufferGeometry().setAttribute("position", new THREE.BufferAttribute(net.positions, 3));
+    this.colour_by(this.by);
+    return this;
   }
 
   colour_by(what: ColourBy): void {
+    this.by = what;
     const { net, scale } = this;
+    if (!net) return;
     const place_colour = (v: number) => (what === "component" ? component_colour(net.component[v]!) : scale.colour(net.clearance[v]!));
+    const at = new Float32Array(3 * net.pairs.length);
     const colours = new Float32Array(3 * net.pairs.length);
     for (let i = 0; i < net.pairs.length; ++i) {
+      at.set(net.positions.subarray(3 * net.pairs[i]!, 3 * net.pairs[i]! + 3), 3 * i);
       const narrowest = net.pair_clearance?.[i >> 1];
       colours.set(what === "clearance" && narrowest !== undefined ? scale.colour(narrowest) : place_colour(net.pairs[i]!), 3 * i);
     }
-    (this.lines.geometry as LineSegmentsGeometry).setColors(colours);
+    set_lines(this.lines, at, colours);
     if (!this.points) return;
     const points = new Float32Array(net.positions.length);
     for (let v = 0; v < net.clearance.length; ++v) points.set(place_colour(v), 3 * v);
@@ -116,31 +133,31 @@ export class SliceDrawing {
 /** A path as a band so many pixels wide, drawn over what hides it too, fainter. */
 export class PathDrawing {
   readonly group = new THREE.Group();
+  private readonly lines: LineSegments2[];
 
-  constructor(path: THREE.Vector3[], colour: Rgb, width: number) {
+  constructor(private readonly colour: Rgb, width: number) {
+    this.lines = [true, false].map((hidden) => {
+      const lines = wide_lines(width);
+      lines.material.transparent = hidden;
+      lines.material.depthTest = !hidden;
+      if (hidden) lines.material.opacity = 0.35;
+      lines.renderOrder = hidden ? 2 : 3;
+      return lines;
+    });
+    this.group.add(...this.lines);
+  }
+
+  /** Fewer than two places are no path: nothing is drawn. */
+  show(path: THREE.Vector3[]): this {
     const at = new Float32Array(6 * Math.max(0, path.length - 1));
     const colours = new Float32Array(at.length);
     for (let i = 0; i + 1 < path.length; ++i) {
       path[i]!.toArray(at, 6 * i);
       path[i + 1]!.toArray(at, 6 * i + 3);
-      colours.set([...colour, ...colour], 6 * i);
+      colours.set([...this.colour, ...this.colour], 6 * i);
     }
-    for (const hidden of [true, false]) {
-      const lines = wide_lines(at, width);
-      (lines.geometry as LineSegmentsGeometry).setColors(colours);
-      lines.material.transparent = hidden;
-      lines.material.depthTest = !hidden;
-      if (hidden) lines.material.opacity = 0.35;
-      lines.renderOrder = hidden ? 2 : 3;
-      this.group.add(lines);
-    }
-  }
-
-  dispose(): void {
-    for (const lines of this.group.children as LineSegments2[]) {
-      lines.geometry.dispose();
-      lines.material.dispose();
-    }
+    for (const lines of this.lines) set_lines(lines, at, colours);
+    return this;
   }
 }
 

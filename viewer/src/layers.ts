@@ -6,7 +6,7 @@
 export type Vector = [number, number, number];
 
 /** Reads one array after another. */
-class Reader {
+export class Reader {
   private at = 0;
   constructor(private readonly bytes: ArrayBuffer) {}
 
@@ -19,7 +19,7 @@ class Reader {
   u32(): number {
     return this.take(Uint32Array, 1)[0]!;
   }
-  take<T extends Float64Array | Float32Array | Uint32Array | Uint16Array | Uint8Array>(
+  take<T extends Float64Array | Float32Array | Int32Array | Uint32Array | Uint16Array | Uint8Array>(
     type: { new (bytes: ArrayBuffer, offset: number, length: number): T; BYTES_PER_ELEMENT: number }, length: number): T {
     const at = this.at;
     this.at += length * type.BYTES_PER_ELEMENT;
@@ -109,6 +109,7 @@ export function read_slice(bytes: ArrayBuffer): Slice {
 
 export interface Info {
   name: string;
+  live?: boolean; // it grows: /api/live tells how
   source: string;
   voxel_size: number;
   min_clearance: number;

@@ -13,13 +13,18 @@ export class RouteDrawing {
   readonly paths = new THREE.Group();
   readonly flight_group = new THREE.Group();
   private readonly robot = drone(kFlight);
-  private line?: PathDrawing;
+  private readonly line = new PathDrawing(kFlight, 3);
+  private readonly drawings: PathDrawing[] = [];
   private samples: Sample[] = [];
 
   constructor(private readonly stage: Stage, private readonly base: THREE.Vector3) {
     this.start.visible = this.goal.visible = this.flight_group.visible = false;
-    this.flight_group.add(this.robot);
-    stage.scene.add(this.start, this.goal, this.paths, this.flight_group);
+    this.flight_group.add(this.robot, this.line.group);
+    stage.overlay.add(this.start, this.goal, this.paths, this.flight_group);
+  }
+
+  get has_flight(): boolean {
+    return this.samples.length > 1;
   }
 
   local(place: Vector): THREE.Vector3 {
@@ -31,43 +36,32 @@ export class RouteDrawing {
 
   set_radius(radius: number): void {
     for (const part of [this.start, this.goal, this.robot]) part.scale.setScalar(radius);
-    this.stage.changed();
+    this.stage.changed_over();
   }
 
   set_end(which: "start" | "goal", place: Vector | undefined): void {
     const marker = this[which];
     marker.visible = !!place;
     if (place) marker.position.copy(this.local(place));
-    this.stage.changed();
+    this.stage.changed_over();
   }
 
   show_routes(routes: Route[]): void {
-    for (const old of [...this.paths.children]) {
-      this.paths.remove(old);
-      (old.userData.drawing as PathDrawing).dispose();
+    while (this.drawings.length < routes.length) {
+      const i = this.drawings.length;
+      this.drawings.push(new PathDrawing(kRoutes[i % kRoutes.length]!, i === 0 ? 5 : 3.5));
+      this.paths.add(this.drawings[i]!.group);
     }
-    routes.forEach((route, i) => {
-      const drawing = new PathDrawing(route.waypoints.map((p) => this.local(p)), kRoutes[i % kRoutes.length]!, i === 0 ? 5 : 3.5);
-      drawing.group.userData.drawing = drawing;
-      this.paths.add(drawing.group);
-    });
-    this.stage.changed();
+    this.drawings.forEach((drawing, i) => drawing.show((routes[i]?.waypoints ?? []).map((p) => this.local(p))));
+    this.stage.changed_over();
   }
 
   show_flight(flight: Flight | undefined): void {
-    if (this.line) {
-      this.flight_group.remove(this.line.group);
-      this.line.dispose();
-      this.line = undefined;
-    }
     this.samples = flight?.samples ?? [];
-    this.flight_group.visible = this.samples.length > 1;
-    if (this.samples.length > 1) {
-      this.line = new PathDrawing(this.samples.map((s) => this.local(s.position)), kFlight, 3);
-      this.flight_group.add(this.line.group);
-      this.set_time(0);
-    }
-    this.stage.changed();
+    this.flight_group.visible = this.has_flight;
+    this.line.show(this.samples.map((s) => this.local(s.position)));
+    if (this.has_flight) this.set_time(0);
+    this.stage.changed_over();
   }
 
   /** Puts the drone where it is at a time, and returns that state. */
@@ -87,7 +81,7 @@ export class RouteDrawing {
     const state = { t: time, position: mix(a.position, b.position), velocity: mix(a.velocity, b.velocity), yaw: a.yaw + (b.yaw - a.yaw) * share };
     this.robot.position.copy(this.local(state.position));
     this.robot.rotation.z = state.yaw;
-    this.stage.changed();
+    this.stage.changed_over();
     return state;
   }
 

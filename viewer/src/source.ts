@@ -65,7 +65,7 @@ export class PlannerSource implements MapSource {
   }
 }
 
-function bytes_of(base64: string): Uint8Array<ArrayBuffer> {
+export function bytes_of(base64: string): Uint8Array<ArrayBuffer> {
   const text = atob(base64);
   const bytes = new Uint8Array(text.length);
   for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { StillPicture } from "./still_picture";
 
 /** Turns are slow in software: then less is drawn of each frame while the view moves. */
 const kSlowFrame = 50; // milliseconds
@@ -9,39 +10,54 @@ const kStill = 250;
 
 /**
  * The picture: camera, lights and a frame when something has changed, none otherwise. Positions are
- * metres from the map's lowest corner, z up.
+ * metres from the map's lowest corner, z up. What stands is drawn once and kept for as long as the
+ * view stands, so that what moves over it costs a frame no more than itself.
  */
 export class Stage {
+  /** What stands. */
   readonly scene = new THREE.Scene();
+  /** What moves over it, and is hidden by it: routes and drones. */
+  readonly overlay = new THREE.Scene();
   readonly renderer: THREE.WebGLRenderer;
   readonly controls: OrbitControls;
-  readonly size = new THREE.Vector3(1, 1, 1);
+  /** Space that is worth looking at. */
+  readonly box = new THREE.Box3(new THREE.Vector3(), new THREE.Vector3(1, 1, 1));
   /** Called before a frame; it is coarse while the view moves and frames are slow. */
   readonly before_frame: ((is_coarse: boolean) => void)[] = [];
   frames = 0;
+  /** Frames for which all that stands was drawn. */
+  stills = 0;
 
   private readonly perspective = new THREE.PerspectiveCamera(50, 1, 0.05, 1000);
   private readonly orthographic = new THREE.OrthographicCamera(-1, 1, 1, -1, -1000, 1000);
   private camera_now: THREE.PerspectiveCamera | THREE.OrthographicCamera = this.perspective;
+  private readonly still = new StillPicture();
+  private is_still_old = true;
   private asked = false;
   private coarse = false;
+  private is_moving_over = false;
+  /** The view that was last asked for, until the user turns it. */
+  private preset?: () => void;
   private frame_time = 0;
   private still_timer = 0;
   private flight = 0;
 
   constructor(private readonly canvas: HTMLCanvasElement) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: false, preserveDrawingBuffer: true, powerPreference: "high-performance" });
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: false, powerPreference: "high-performance" });
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace; // colours are drawn as given
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x777777, 2.5));
-    const sun = new THREE.DirectionalLight(0xffffff, 1.5);
-    sun.position.set(1, -2, 3);
-    this.scene.add(sun);
+    this.renderer.autoClear = false;
+    for (const scene of [this.scene, this.overlay]) {
+      const sun = new THREE.DirectionalLight(0xffffff, 1.5);
+      sun.position.set(1, -2, 3);
+      scene.add(new THREE.HemisphereLight(0xffffff, 0x777777, 2.5), sun);
+    }
     for (const camera of [this.perspective, this.orthographic]) camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.perspective, canvas);
     this.controls.enableDamping = false;
     this.controls.zoomToCursor = true;
     this.controls.screenSpacePanning = false;
     this.controls.addEventListener("change", () => this.moves());
+    this.controls.addEventListener("start", () => (this.preset = undefined));
     new ResizeObserver(() => this.changed()).observe(canvas);
     const dark = matchMedia("(prefers-color-scheme: dark)");
     const paint = () => {
@@ -71,8 +87,20 @@ export class Stage {
     }, kStill);
   }
 
-  /** Asks for a frame. */
+  /** Something begins or ends to move over the map: where frames are slow, with fewer pixels meanwhile. */
+  moves_over(is_moving: boolean): void {
+    this.is_moving_over = is_moving;
+    this.changed_over();
+  }
+
+  /** Asks for a frame in which anything may be another. */
   changed(): void {
+    this.is_still_old = true;
+    this.changed_over();
+  }
+
+  /** Asks for a frame in which only what moves over the map is another. */
+  changed_over(): void {
     if (this.asked) return;
     this.asked = true;
     requestAnimationFrame(() => {
@@ -82,39 +110,68 @@ export class Stage {
   }
 
   draw(): void {
-    const started = performance.now();
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0 || height === 0) return;
-    const ratio = this.coarse ? 0.5 : Math.min(devicePixelRatio, 2);
-    if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
-    this.renderer.setSize(width, height, false);
-    this.perspective.aspect = width / height;
-    this.perspective.updateProjectionMatrix();
-    const half = (this.orthographic.top * width) / height;
-    this.orthographic.left = -half;
-    this.orthographic.right = half;
-    this.orthographic.updateProjectionMatrix();
-    for (const act of this.before_frame) act(this.coarse);
-    this.renderer.render(this.scene, this.camera_now);
-    if (!this.coarse) this.measure_frame(started);
+    const started = performance.now();
+    this.fit_canvas(width, height);
+    if (this.is_still_old) {
+      for (const act of this.before_frame) act(this.coarse);
+      this.still.take(this.renderer, this.scene, this.camera_now);
+      ++this.stills;
+    }
+    this.still.put(this.renderer);
+    this.renderer.render(this.overlay, this.camera_now);
+    if (this.is_still_old && !this.coarse && !this.is_moving_over) this.frame_time = this.wait_for_picture() - started;
+    this.is_still_old = false;
     ++this.frames;
   }
 
-  /** Drawing ends after the call: a pixel that is read back waits for it. Not while things move. */
-  private measure_frame(started: number): void {
+  /** Drawing ends after its commands: a pixel that is read back waits for it. Not while things move. */
+  wait_for_picture(): number {
     const gl = this.renderer.getContext();
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
-    this.frame_time = performance.now() - started;
+    return performance.now();
   }
 
-  /** Space that is worth looking at, from (0, 0, 0) on. */
-  set_size(size: THREE.Vector3): void {
-    this.size.copy(size);
-    const reach = size.length();
+  /** Setting a size empties the canvas, so it is set only where it is another. */
+  private fit_canvas(width: number, height: number): void {
+    const has_few_pixels = this.coarse || (this.is_moving_over && this.frame_time > kSlowFrame);
+    const ratio = has_few_pixels ? 0.5 : Math.min(devicePixelRatio, 2);
+    const now = this.renderer.getSize(new THREE.Vector2());
+    if (this.renderer.getPixelRatio() === ratio && now.x === width && now.y === height) return;
+    this.is_still_old = true;
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(width, height, false);
+    this.perspective.aspect = width / height;
+    this.perspective.updateProjectionMatrix();
+    this.fit_orthographic();
+  }
+
+  private fit_orthographic(): void {
+    const half = (this.orthographic.top * this.canvas.clientWidth) / Math.max(1, this.canvas.clientHeight);
+    this.orthographic.left = -half;
+    this.orthographic.right = half;
+    this.orthographic.updateProjectionMatrix();
+  }
+
+  /** Space that is worth looking at. */
+  set_box(low: THREE.Vector3, high: THREE.Vector3): void {
+    this.box.set(low, high);
+    const reach = this.size.length();
     this.perspective.far = 6 * reach;
     this.perspective.near = Math.max(0.02, reach / 5000);
     this.orthographic.near = -3 * reach;
     this.orthographic.far = 3 * reach;
+    this.perspective.updateProjectionMatrix();
+    this.fit_orthographic();
+  }
+  get size(): THREE.Vector3 {
+    return this.box.getSize(new THREE.Vector3());
+  }
+
+  /** Follows the box with the view, unless the user has turned it. */
+  look_again(): void {
+    this.preset?.();
   }
 
   private use(camera: THREE.PerspectiveCamera | THREE.OrthographicCamera): void {
@@ -127,25 +184,45 @@ export class Stage {
   look_from_side(): void {
     cancelAnimationFrame(this.flight);
     this.use(this.perspective);
-    const middle = this.size.clone().multiplyScalar(0.5);
-    const aspect = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
-    const wide = Math.max(this.size.x / Math.max(aspect, 0.5), this.size.y, this.size.z);
-    const from = new THREE.Vector3(-0.25, -0.75, 0.85).normalize().multiplyScalar(0.96 * wide + 1);
+    this.preset = () => this.look_from_side();
+    const middle = this.box.getCenter(new THREE.Vector3());
+    const back = new THREE.Vector3(-0.25, -0.75, 0.85).normalize();
+    const from = back.clone().multiplyScalar(this.distance_to_see_all(middle, back));
     this.controls.target.copy(middle);
     this.perspective.position.copy(middle).add(from);
     this.controls.update();
     this.changed();
   }
 
+  /** How far back from a place all of the box can be seen. */
+  private distance_to_see_all(place: THREE.Vector3, back: THREE.Vector3): number {
+    const kRoom = 1.03;
+    const aspect = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
+    const slope = Math.tan(THREE.MathUtils.degToRad(this.perspective.fov / 2)) / kRoom;
+    const right = new THREE.Vector3().crossVectors(this.perspective.up, back).normalize();
+    const up = new THREE.Vector3().crossVectors(back, right);
+    let distance = 1;
+    for (let corner = 0; corner < 8; ++corner) {
+      const { min, max } = this.box;
+      const from = new THREE.Vector3(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y, corner & 4 ? max.z : min.z).sub(place);
+      const beside = Math.max(Math.abs(from.dot(right)) / (slope * aspect), Math.abs(from.dot(up)) / slope);
+      distance = Math.max(distance, beside + from.dot(back));
+    }
+    return distance;
+  }
+
   look_from_above(): void {
     cancelAnimationFrame(this.flight);
     this.use(this.orthographic);
-    const middle = this.size.clone().multiplyScalar(0.5);
+    this.preset = () => this.look_from_above();
+    const { size } = this;
+    const middle = this.box.getCenter(new THREE.Vector3());
     const aspect = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
-    this.orthographic.top = 0.54 * Math.max(this.size.y, this.size.x / aspect);
+    this.orthographic.top = 0.54 * Math.max(size.y, size.x / aspect);
     this.orthographic.bottom = -this.orthographic.top;
     this.orthographic.zoom = 1;
-    this.orthographic.position.set(middle.x, middle.y - 1e-3, middle.z + this.size.length());
+    this.orthographic.position.set(middle.x, middle.y - 1e-3, middle.z + size.length());
+    this.fit_orthographic();
     this.controls.target.copy(middle);
     this.controls.update();
     this.changed();
@@ -155,6 +232,7 @@ export class Stage {
   fly_to(place: THREE.Vector3, around: number): void {
     cancelAnimationFrame(this.flight);
     if (this.is_orthographic) this.look_from_side();
+    this.preset = undefined;
     const target = this.controls.target.clone();
     const from = this.perspective.position.clone();
     const back = from.clone().sub(target).normalize();
@@ -176,6 +254,7 @@ export class Stage {
 
   /** Turns the view, radians, and moves it nearer (below 1) or farther. */
   turn(right: number, up: number, farther: number): void {
+    this.preset = undefined;
     if (this.camera_now === this.orthographic) {
       this.orthographic.zoom /= farther;
       const step = this.orthographic.top / this.orthographic.zoom;

@@ -111,16 +111,15 @@ function expanded({ cells, sizes, count }: Surface, order: Uint32Array): { corne
  */
 export class SurfaceMesh {
   readonly mesh: THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>;
-  readonly low: number;
-  readonly high: number;
+  low = 0;
+  high: number;
   private readonly material: THREE.ShaderMaterial;
-  private readonly coarse: Drawable;
+  private coarse: Drawable;
   private fine: Drawable;
 
   /** `base`: the world's place of (0, 0, 0). */
   constructor(coarse: Surface, private readonly base: THREE.Vector3, height: number) {
     this.coarse = this.fine = new Drawable(coarse, base);
-    this.low = 0;
     this.high = height;
     this.material = new THREE.ShaderMaterial({
       glslVersion: THREE.GLSL3,
@@ -164,6 +163,19 @@ export class SurfaceMesh {
     this.draw_coarse(false);
   }
 
+  /** Takes another surface, of a map that reaches from one height to another. */
+  replace(surface: Surface, low: number, high: number): void {
+    this.coarse.geometry.dispose();
+    this.fine.geometry.dispose();
+    this.coarse = this.fine = new Drawable(surface, this.base);
+    this.low = low;
+    this.high = high;
+    this.material.uniforms.low!.value = low;
+    this.material.uniforms.high!.value = Math.max(high, low + 1e-3);
+    this.cut = this.cut;
+    this.draw_coarse(false);
+  }
+
   draw_coarse(is_coarse: boolean): void {
     this.mesh.geometry = (is_coarse ? this.coarse : this.fine).geometry;
   }
@@ -183,7 +195,7 @@ export class SurfaceMesh {
     let above = 0;
     for (const z of [...areas.keys()].sort((a, b) => b - a)) {
       above += areas.get(z)!;
-      if (above >= 0.5 * total) return Math.max(0.3 * this.high, origin.z + (z - 1) * cell);
+      if (above >= 0.5 * total) return Math.max(this.low + 0.3 * (this.high - this.low), origin.z + (z - 1) * cell);
     }
     return this.high;
   }

@@ -14,7 +14,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::chrono::milliseconds kLongestRequest = 5s, kLongestAnswer = 60s, kLongestEnd = 200ms;
+constexpr std::chrono::milliseconds kLongestRequest = 5s, kLongestAnswer = 60s, kLongestEnd = 200ms,
+                                    kLongestPause = 20s;
 constexpr std::chrono::milliseconds kLook = 100ms;  // at whether all is over
 constexpr std::size_t kMostReceived = 32 << 10;
 
@@ -54,8 +55,9 @@ ssize_t BoundedStream::read(char* to, std::size_t size) {
 }
 
 ssize_t BoundedStream::write(const char* from, std::size_t size) {
+  const Clock::time_point until = is_endless_ ? Clock::now() + kLongestPause : write_until_;
   for (;;) {
-    if (!wait_for(POLLOUT, write_until_)) return -1;
+    if (!wait_for(POLLOUT, until)) return -1;
     const ssize_t sent = ::send(socket_, from, size, MSG_DONTWAIT | MSG_NOSIGNAL);
     if (sent >= 0 || (errno != EAGAIN && errno != EINTR)) return sent;
   }

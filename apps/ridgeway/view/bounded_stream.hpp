@@ -18,6 +18,10 @@ class BoundedStream : public httplib::Stream {
   /// `is_over`: asked several times a second; then nothing more is read or written.
   BoundedStream(int socket, const std::function<bool()>& is_over);
 
+  /// The answer has no end: it may take for ever, as long as the other side takes something of what
+  /// there is within some seconds.
+  void begin_endless_answer() { is_endless_ = true; }
+
   bool is_readable() const override { return true; }
   bool is_writable() const override { return true; }
   ssize_t read(char* to, std::size_t size) override;
@@ -37,6 +41,7 @@ class BoundedStream : public httplib::Stream {
   const int socket_;
   const std::function<bool()>& is_over_;
   Clock::time_point read_until_, write_until_;
+  bool is_endless_ = false;
   std::size_t received_ = 0;
   std::array<char, 4096> buffer_;
   std::size_t begin_ = 0, end_ = 0;  // of what is in the buffer

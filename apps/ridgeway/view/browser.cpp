@@ -8,6 +8,8 @@
 
 #include <array>
 
+#include "console.hpp"
+
 namespace ridgeway::cli {
 
 bool open_in_browser(const std::string& address) {
@@ -23,6 +25,13 @@ bool open_in_browser(const std::string& address) {
       ::posix_spawnp(&process, program.c_str(), &actions, nullptr, words.data(), environ);
   ::posix_spawn_file_actions_destroy(&actions);
   return error == 0;
+}
+
+std::string address_of(int port) { return "http://127.0.0.1:" + std::to_string(port) + "/"; }
+
+void open_page(const std::string& address, const Globals& globals) {
+  if (!open_in_browser(address))
+    warn(globals, "no browser could be started: open " + address + " in one");
 }
 
 }  // namespace ridgeway::cli

@@ -2,9 +2,8 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "view/page.hpp"
 
-#include <algorithm>
-
 #include "ridgeway/common/error.hpp"
+#include "view/base64.hpp"
 
 // The files of the bundle, as they are, between two symbols each. An assembler takes them in at
 // once, a compiler would take long over an array.
@@ -35,23 +34,6 @@ RIDGEWAY_INCLUDE_FILE(worker, RIDGEWAY_PAGE_FOLDER "/worker.js")
 
 namespace ridgeway::cli {
 namespace {
-
-/// Standard base64 (RFC 4648).
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    unsigned group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      text.push_back(k <= count ? kDigits[group >> (18 - 6 * k) & 63] : '=');
-  }
-  return text;
-}
 
 void replace(std::string& text, std::string_view mark, std::string_view by) {
   const std::size_t at = text.find(mark);

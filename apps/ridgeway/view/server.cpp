@@ -7,17 +7,24 @@
 
 #include <atomic>
 #include <chrono>
+#include <exception>
+#include <string>
 #include <thread>
+#include <utility>
 
 #include "ridgeway/common/error.hpp"
 #include "view/bounded_stream.hpp"
+#include "view/live_stream.hpp"
 #include "view/page.hpp"
 
 namespace ridgeway::cli {
 namespace {
 
 constexpr const char* kAddress = "127.0.0.1";
+constexpr const char* kLivePath = "/api/live";
 constexpr std::size_t kMostConnections = 64;
+/// So that enough is left for what pages ask.
+constexpr int kMostFollowers = 8;
 
 /// Each connection brings one request.
 class BoundedServer : public httplib::Server {
@@ -28,7 +35,10 @@ class BoundedServer : public httplib::Server {
   bool process_and_close_socket(socket_t socket) override {
     BoundedStream stream(socket, is_over_);
     bool closed = false;
-    const bool done = process_request(stream, true, closed, nullptr);
+    const bool done =
+        process_request(stream, true, closed, [&stream](const httplib::Request& request) {
+          if (request.path == kLivePath) stream.begin_endless_answer();
+        });
     stream.finish();
     ::close(socket);
     return done;
@@ -66,37 +76,85 @@ void set_headers(httplib::Response& response) {
 /// A body that is shared, not copied.
 void set_body(httplib::Response& response, const Reply& reply) {
   response.status = reply.status;
-  if (reply.body->empty()) return response.set_content("", reply.type.c_str());
+  if (reply.body->empty()) return response.set_content("", reply.type);
   response.set_content_provider(
-      reply.body->size(), reply.type.c_str(),
+      reply.body->size(), reply.type,
       [body = reply.body](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
         return sink.write(body->data() + offset, length);
       });
 }
 
-void respond(MapAnswers& answers, int port, const httplib::Request& request,
-             httplib::Response& response) {
-  set_headers(response);
-  if (!is_from_here(request, port))
-    return set_body(response,
-                    json_reply(403, {{"error", "this server answers its own page alone"}}));
-  if (request.method != "GET" && request.method != "HEAD")
-    return set_body(response, json_reply(405, {{"error", "only GET and HEAD are answered"}}));
-  if (const auto file = find_page_file(request.path))
-    return response.set_content(file->body.data(), file->body.size(),
-                                std::string(file->type).c_str());
-  const Question question{request.path, {request.params.begin(), request.params.end()}};
-  set_body(response, answers.answer(question));
+/// One of those who follow, counted for as long as it is there.
+class Follower {
+ public:
+  Follower(LiveView& view, std::atomic<int>& count) : stream_(view), count_(count) { ++count_; }
+  ~Follower() { --count_; }
+  Follower(const Follower&) = delete;
+  Follower& operator=(const Follower&) = delete;
+
+  LiveStream& stream() { return stream_; }
+
+ private:
+  LiveStream stream_;
+  std::atomic<int>& count_;
+};
+
+/// Sends what happens for as long as it is taken.
+void follow(LiveView* view, std::atomic<int>& followers, httplib::Response& response) {
+  if (!view)
+    return set_body(response, json_reply(404, {{"error",
+                                                "this map does not change: follow `ridgeway live "
+                                                "--view` or `ridgeway explore --view`"}}));
+  const auto follower = std::make_shared<Follower>(*view, followers);
+  if (followers > kMostFollowers)
+    return set_body(response, json_reply(503, {{"error",
+                                                "as many pages as can follow a map already do: "
+                                                "close one"}}));
+  response.set_chunked_content_provider(
+      "text/event-stream", [follower](std::size_t, httplib::DataSink& sink) {
+        try {
+          const std::string event = follower->stream().next();
+          return event.empty() || sink.write(event.data(), event.size());
+        } catch (const std::exception&) {  // no memory: the page asks again, and begins anew
+          return false;
+        }
+      });
 }
 
 }  // namespace
 
-void serve(MapAnswers& answers, int port, const std::function<void(int port)>& on_ready,
-           const std::function<bool()>& is_over) {
-  using namespace std::chrono_literals;
+struct PageServer::Running {
+  Running(Served given, std::function<bool()> is_over)
+      : served(std::move(given)),
+        is_ending([this, is_over = std::move(is_over)] { return has_ended || is_over(); }),
+        server(std::make_unique<BoundedServer>(is_ending)) {}
+
+  void respond(const httplib::Request& request, httplib::Response& response) {
+    set_headers(response);
+    if (!is_from_here(request, port))
+      return set_body(response,
+                      json_reply(403, {{"error", "this server answers its own page alone"}}));
+    if (request.method != "GET" && request.method != "HEAD")
+      return set_body(response, json_reply(405, {{"error", "only GET and HEAD are answered"}}));
+    if (const auto file = find_page_file(request.path))
+      return response.set_content(file->body.data(), file->body.size(), std::string(file->type));
+    if (request.path == kLivePath) return follow(served.live, followers, response);
+    const Question question{request.path, {request.params.begin(), request.params.end()}};
+    set_body(response, served.answer(question));
+  }
+
+  const Served served;
   std::atomic<bool> has_ended = false;
-  const std::function<bool()> is_ending = [&] { return is_over() || has_ended; };
-  BoundedServer server(is_ending);
+  std::atomic<int> followers = 0;
+  const std::function<bool()> is_ending;
+  const std::unique_ptr<httplib::Server> server;
+  int port = 0;
+  std::thread listener;
+};
+
+PageServer::PageServer(Served served, int port, std::function<bool()> is_over)
+    : running_(std::make_unique<Running>(std::move(served), std::move(is_over))) {
+  httplib::Server& server = *running_->server;
   server.new_task_queue = [] { return new httplib::ThreadPool(kMostConnections); };
   server.set_payload_max_length(1024);
   // Two servers at one port would share its connections.
@@ -104,23 +162,38 @@ void serve(MapAnswers& answers, int port, const std::function<void(int port)>& o
     const int yes = 1;
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
   });
-  const int bound = port == 0 ? server.bind_to_any_port(kAddress)
-                              : (server.bind_to_port(kAddress, port) ? port : -1);
-  if (bound <= 0)
+  running_->port = port == 0 ? server.bind_to_any_port(kAddress)
+                             : (server.bind_to_port(kAddress, port) ? port : -1);
+  if (running_->port <= 0)
     throw InputError("--port " + std::to_string(port), "cannot be had: another program may use it",
                      "give another one, or leave it out");
-  server.set_pre_routing_handler([&](const httplib::Request& request, httplib::Response& response) {
-    respond(answers, bound, request, response);
-    return httplib::Server::HandlerResponse::Handled;
+  server.set_pre_routing_handler(
+      [running = running_.get()](const httplib::Request& request, httplib::Response& response) {
+        running->respond(request, response);
+        return httplib::Server::HandlerResponse::Handled;
+      });
+  running_->listener = std::thread([running = running_.get()] {
+    running->server->listen_after_bind();
+    running->has_ended = true;
   });
-  std::thread listener([&] {
-    server.listen_after_bind();
-    has_ended = true;
-  });
-  on_ready(bound);
-  while (!is_ending()) std::this_thread::sleep_for(50ms);
-  server.stop();
-  listener.join();
+}
+
+PageServer::~PageServer() {
+  running_->has_ended = true;
+  running_->server->stop();
+  running_->listener.join();
+}
+
+int PageServer::port() const { return running_->port; }
+
+void PageServer::wait() const {
+  using namespace std::chrono_literals;
+  while (!running_->is_ending()) std::this_thread::sleep_for(50ms);
+}
+
+void require_page(const std::string& who) {
+  if (!has_page())
+    throw InputError(who, "has no page: this program was built without one", kNoPage);
 }
 
 }  // namespace ridgeway::cli

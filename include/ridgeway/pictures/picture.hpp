@@ -14,7 +14,11 @@
 namespace ridgeway {
 
 /// What the colours of the diagram's voxels say.
-enum class DiagramColour : std::uint8_t { kClearance, kHeight };
+enum class DiagramColour : std::uint8_t {
+  kClearance,
+  kHeight,
+  kComponent,  ///< what a robot of the smallest radius can get to from each other; of the graph too
+};
 
 /// Heights in the world that count for the plan's walls and free space, metres; low <= high.
 struct HeightBand {
@@ -39,12 +43,22 @@ struct NamedPath {
 
 /// What a picture of a map shows.
 struct PictureConfig {
-  int width = 1600;  ///< pixels, 400 to 16000; the height follows the map, up to 1.5 widths
+  int width = 1600;  ///< pixels, 400 to 16000; the height follows the map, up to 1.5 widths, or 3
+                     ///< for several views
   /// Not given: between the 20th and the 80th percentile of the free voxels' heights, so that
   /// floor and ceiling do not hide the rooms.
   std::optional<HeightBand> band;
+  /// A plan for each storey of a building, from below, in place of one; `band` does not count.
+  bool floors = false;
+  /// Below the plan the map from the front (x and z) and from a side (y and z), seen through.
+  bool sides = false;
+  /// Below the plan a section, a voxel thick, at this y (x and z are drawn) or this x (y and z), in
+  /// place of the map seen through; metres.
+  std::optional<double> section_y = std::nullopt, section_x = std::nullopt;
   bool diagram = true;
   bool graph = true;
+  /// Rings where connected components would be one for a smaller robot, with the radius that fits.
+  bool narrow_places = false;
   DiagramColour diagram_colour = DiagramColour::kClearance;
   std::string title;            ///< not given: the file name of the roadmap's source
   std::vector<Point> raw_path;  ///< the path before it was shortened, dashed; may be empty
@@ -59,12 +73,14 @@ struct PictureConfig {
 
 /// Draws the map from above in the world frame, as the paths are in, x to the right and y up, as a
 /// PNG or SVG picture by the extension of `out`: known free space white, obstacles dark by the
-/// occupied share of each column within the height band, unknown pale; over it the skeleton
-/// diagram, the graph, the paths to compare, and the path (may be empty); start and goal of the
-/// path, without one of the first of the others. With title, coordinates, scale bar, legend and
-/// charts. A map of any extent: the picture's cells cover several voxels where there are more
-/// voxels than pixels. Throws InputError for a map without known voxels, another extension, a file
-/// that cannot be written. The file is replaced whole or not at all.
+/// occupied share of each column within the height band, unknown pale, boxes that nobody may fly
+/// through hatched; over it the skeleton diagram, the graph, the paths to compare, and the path
+/// (may be empty); start and goal of the path, without one of the first of the others. Storeys and
+/// views from the sides, where they are asked for, at the same scale below it. With title,
+/// coordinates, scale bar, legend and charts. A map of any extent: the picture's cells cover
+/// several voxels where there are more voxels than pixels. Throws InputError for a map without
+/// known voxels, another extension, a file that cannot be written. The file is replaced whole or
+/// not at all.
 void draw_floor_plan(const Roadmap& roadmap, std::span<const Point> path,
                      const std::filesystem::path& out, const PictureConfig& config = {});
 

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "view/live_view.hpp"
+
+#include <utility>
+
+#include "json.hpp"
+
+namespace ridgeway::cli {
+
+void LiveView::show(LiveScene scene) {
+  LiveScene before;  // let go of when nobody waits for the lock: a map may be its last owner's
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    positions_.push_back(scene.position);
+    before = std::exchange(scene_, std::move(scene));
+    ++version_;
+  }
+  shown_.notify_all();
+}
+
+std::optional<LiveView::Update> LiveView::next(Seen& seen, std::chrono::milliseconds patience) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (!shown_.wait_for(lock, patience, [&] { return version_ != seen.version; }))
+    return std::nullopt;
+  Update update{
+      scene_, {positions_.begin() + static_cast<std::ptrdiff_t>(seen.positions), positions_.end()}};
+  seen = {version_, positions_.size()};
+  return update;
+}
+
+std::shared_ptr<LiveView::Snapshot> LiveView::newest() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!scene_.roadmap) return nullptr;
+  if (!snapshot_ || snapshot_->roadmap != scene_.roadmap)
+    snapshot_ = std::make_shared<Snapshot>(scene_.roadmap, name_);
+  return snapshot_;
+}
+
+Reply LiveView::answer(const Question& question) {
+  const std::shared_ptr<Snapshot> snapshot = newest();
+  if (question.path == "/api/info") {
+    using Json = nlohmann::ordered_json;
+    Json info = snapshot ? Json::parse(*snapshot->answers.answer(question).body)
+                         : Json{{"name", name_}, {"bounds", nullptr}};
+    info["live"] = true;
+    return json_reply(200, info);
+  }
+  if (!snapshot)
+    return json_reply(503, {{"error", "nothing is known yet of where the robot fits: wait"}});
+  return snapshot->answers.answer(question);
+}
+
+}  // namespace ridgeway::cli

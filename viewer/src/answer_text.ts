@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+import type { Join, PlanAnswer, Route } from "./layers";
+import { metres, place_text, seconds } from "./numbers";
+
+// Answers in words.
+
+export function join_text(join: Join, volume: (component: number) => string): string {
+  const between = join.by === "unknown" ? "between unknown space" : "between obstacles";
+  return `radius ${metres(join.radius)} m joins ${volume(join.a)} and ${volume(join.b)}, ${between}`;
+}
+
+/** Why there is no route, beginning with what to change. */
+export function reason_text(answer: PlanAnswer): string {
+  const { blocked, radius, reason } = answer;
+  const full = reason ?? `No route: ${answer.status.replaceAll("_", " ")}`;
+  if (!blocked || blocked.radius <= 0 || !blocked.place) return full;
+  const narrow = blocked.by === "unknown" ? "Unknown space leaves" : "The way is";
+  return `${narrow} too narrow by ${metres(Math.max(0.001, radius - blocked.radius))} m at ${place_text(blocked.place)}. ${full}`;
+}
+
+export function route_rows(routes: Route[], answer: PlanAnswer): HTMLElement[] {
+  const first = routes[0]!;
+  const head = document.createElement("p");
+  const length = document.createElement("strong");
+  length.id = "length";
+  length.textContent = `${metres(first.length)} m`;
+  head.append(length);
+  const table = document.createElement("table");
+  const row = (name: string, value: string) => {
+    const line = table.insertRow();
+    const th = document.createElement("th");
+    th.scope = "row";
+    th.textContent = name;
+    line.append(th);
+    line.insertCell().textContent = value;
+  };
+  row("clearance", first.clearance === null ? "no obstacle near" : `${metres(first.clearance)} m`);
+  row("planned in", seconds(answer.seconds.total));
+  row("answered by", `the ${first.answered_by}, ${first.waypoints.length} waypoints`);
+  if (first.within !== undefined) row("shortest", first.within <= 1.0005 ? "there is no shorter one" : `within ${(100 * (first.within - 1)).toFixed(1)} % of it`);
+  if (first.moved_start) row("start", `moved by ${metres(first.moved_start.distance)} m`);
+  if (first.moved_goal) row("goal", `moved by ${metres(first.moved_goal.distance)} m`);
+  routes.slice(1).forEach((route, i) => row(`route ${i + 2}`, `${metres(route.length)} m, clearance ${metres(route.clearance ?? Infinity)} m`));
+  if (answer.routes && answer.complete) row("", "the graph has no others");
+  return [head, table];
+}

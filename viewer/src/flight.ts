@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+import { kFlight } from "./colours";
+import { element, input } from "./dom";
+import type { Flight } from "./layers";
+import type { Legend } from "./legend";
+import { metres, place_text } from "./numbers";
+import type { Page } from "./page";
+import { ask_json } from "./source";
+
+/** The trajectory along the route, and the drone on it, by a slider for the time. */
+export class FlightPanel {
+  /** Set where the layer is switched on and off. */
+  is_shown: () => boolean = () => true;
+  private flight?: Flight;
+  private query?: Record<string, string>;
+  private playing = 0;
+
+  constructor(private readonly page: Page) {
+    input("time").addEventListener("input", () => this.set_time(input("time").valueAsNumber));
+    element("play").addEventListener("click", () => (this.playing ? this.stop() : this.play()));
+    element("speed").addEventListener("change", () => this.query && void this.fly(this.query));
+  }
+
+  /** Asks for the flight that answers a query. */
+  async fly(query: Record<string, string>): Promise<void> {
+    const { alternatives: _, ...parameters } = query;
+    this.query = query;
+    try {
+      const flight = await ask_json<Flight>(this.page.source, "/api/trajectory", { ...parameters, max_speed: input("speed").value });
+      if (this.query === query) this.set(flight.status === "ok" ? flight : undefined);
+    } catch (error) {
+      this.page.hint((error as Error).message);
+    }
+  }
+
+  clear(): void {
+    this.query = undefined;
+    if (this.flight) this.set(undefined);
+  }
+
+  explain(legend: Legend): void {
+    if (this.flight && this.is_shown()) legend.mark(`Trajectory, ${metres(this.flight.duration, 2)} s`, kFlight);
+  }
+
+  private set(flight: Flight | undefined): void {
+    this.stop();
+    this.flight = flight;
+    this.page.routes.show_flight(flight);
+    if (!this.is_shown()) this.page.routes.flight_group.visible = false;
+    element("flight").hidden = !flight;
+    if (flight) {
+      input("time").max = String(flight.duration);
+      input("time").value = "0";
+      this.set_time(0);
+    }
+    this.page.update_legend();
+  }
+
+  private set_time(time: number): void {
+    const state = this.page.routes.set_time(time);
+    if (!state || !this.flight) return;
+    input("time").value = String(time);
+    element("clock").textContent = `${time.toFixed(1)} of ${this.flight.duration.toFixed(1)} s`;
+    element("state").textContent = `${Math.hypot(...state.velocity).toFixed(2)} m/s at ${place_text(state.position)}; clearance ${metres(this.flight.clearance ?? Infinity)} m at least`;
+  }
+
+  private play(): void {
+    if (!this.flight) return;
+    const at = input("time").valueAsNumber;
+    const from = at >= this.flight.duration - 0.05 ? 0 : at;
+    const started = performance.now();
+    this.page.stage.moves_over(true);
+    element("play").setAttribute("aria-pressed", "true");
+    element("play").textContent = "Stop";
+    const step = () => {
+      const now = Math.min(this.flight!.duration, from + (performance.now() - started) / 1000);
+      this.set_time(now);
+      if (now < this.flight!.duration) this.playing = requestAnimationFrame(step);
+      else this.stop();
+    };
+    this.playing = requestAnimationFrame(step);
+  }
+
+  private stop(): void {
+    if (this.playing) this.page.stage.moves_over(false);
+    cancelAnimationFrame(this.playing);
+    this.playing = 0;
+    element("play").setAttribute("aria-pressed", "false");
+    element("play").textContent = "Fly";
+  }
+}

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+import { element, input } from "./dom";
+import { SliceDrawing } from "./drawings";
+import { read_slice } from "./layers";
+import { metres } from "./numbers";
+import type { Page } from "./page";
+
+/** The sliders: where obstacles are cut off, and where distances are shown. */
+export class HeightPanel {
+  readonly slice = new SliceDrawing();
+  /** Set where the slice is switched on and off. */
+  is_slice_shown: () => boolean = () => false;
+  show_slice_layer: () => void = () => {};
+  private is_cut_chosen = false;
+  private asking = false;
+
+  constructor(private readonly page: Page) {
+    this.set_range();
+    input("slice").value = String(page.surface.low + Math.min((page.surface.high - page.surface.low) / 2, 1));
+    input("cut").addEventListener("input", () => {
+      this.is_cut_chosen = true;
+      page.surface.cut = input("cut").valueAsNumber;
+      this.tell();
+      page.stage.changed();
+    });
+    input("slice").addEventListener("input", () => {
+      this.tell();
+      if (this.is_slice_shown()) void this.show_slice();
+      else this.show_slice_layer();
+    });
+    this.tell();
+  }
+
+  /** The map reaches elsewhere now. A cut that nobody has chosen follows its ceilings. */
+  follow(): void {
+    const { surface } = this.page;
+    if (!this.is_cut_chosen) surface.cut = surface.height_below_ceilings();
+    this.set_range();
+    this.tell();
+  }
+
+  async show_slice(): Promise<void> {
+    if (!this.is_slice_shown() || this.asking) return;
+    this.asking = true;
+    const { page } = this;
+    try {
+      for (let height = NaN; height !== input("slice").valueAsNumber; ) {
+        height = input("slice").valueAsNumber;
+        const bytes = await page.source.ask("/api/slice", { z: String(page.base.z + height) });
+        this.slice.show(read_slice(bytes), page.base, page.scale);
+        page.stage.changed();
+      }
+    } catch (error) {
+      page.hint((error as Error).message);
+    }
+    this.asking = false;
+  }
+
+  private set_range(): void {
+    const { surface, info } = this.page;
+    const step = info.voxel_size;
+    for (const id of ["cut", "slice"]) Object.assign(input(id), { min: String(surface.low), max: String(surface.high + step), step: String(step) });
+    input("cut").value = String(surface.cut);
+  }
+
+  private tell(): void {
+    for (const id of ["cut", "slice"]) element(`${id}-text`).textContent = `${metres(this.page.base.z + input(id).valueAsNumber, 2)} m`;
+  }
+}

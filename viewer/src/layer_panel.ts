@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+import * as THREE from "three";
+import { join_text } from "./answer_text";
+import { kClearances, kHeights, kNarrow } from "./colours";
+import { element, input } from "./dom";
+import { ball, cloud_drawing, LabelLayer, NetDrawing, type ColourBy, type SliceDrawing } from "./drawings";
+import { read_cloud, read_net, type Narrow, type Net, type Vector } from "./layers";
+import type { Legend } from "./legend";
+import { metres } from "./numbers";
+import type { Page } from "./page";
+import { ask_json } from "./source";
+
+interface Layer {
+  title: string;
+  shown: boolean;
+  /** Makes what is drawn, when it is first shown. */
+  load?: () => Promise<THREE.Object3D>;
+  object?: THREE.Object3D;
+  on_switch?: () => Promise<void>;
+}
+
+/** Lets go of what the graphics card holds of a drawing; it is made again where it is drawn again. */
+function dispose(drawing: THREE.Object3D): void {
+  drawing.traverse((part) => {
+    if (!(part instanceof THREE.Mesh || part instanceof THREE.Points)) return;
+    part.geometry.dispose();
+    part.material.dispose();
+  });
+}
+
+/** What is drawn of the map, switched on and off. */
+export class LayerPanel {
+  private readonly labels = new LabelLayer(element("labels"));
+  private readonly layers: Record<string, Layer>;
+  private readonly diagram: NetDrawing;
+  private readonly graph: NetDrawing;
+  private renewing = false;
+  /** Of the last switch: when what it shows is there. */
+  switched: Promise<void> = Promise.resolve();
+
+  constructor(private readonly page: Page, slice: SliceDrawing, show_slice: () => Promise<void>, private readonly fly_to: (place: Vector) => void) {
+    const { source, base, scale, stage, surface, routes } = page;
+    this.diagram = new NetDrawing(base, scale, 1.5, 0);
+    this.graph = new NetDrawing(base, scale, 2, 5);
+    stage.scene.add(slice.mesh);
+    stage.before_frame.push(() => this.labels.place((p) => stage.on_canvas(p)));
+    this.layers = {
+      surface: { title: "Obstacles", shown: true, object: surface.mesh },
+      slice: { title: "Distance slice", shown: false, object: slice.mesh, on_switch: show_slice },
+      gvd: { title: "Voronoi diagram (GVD)", shown: false, load: async () => cloud_drawing(read_cloud(await source.ask("/api/gvd")), base, scale) },
+      diagram: { title: "Skeleton diagram", shown: false, load: async () => this.diagram.show(read_net(await source.ask("/api/diagram"), false)).group },
+      graph: { title: "Graph", shown: true, load: async () => this.graph.show(read_net(await source.ask("/api/graph"), true)).group },
+      narrow: { title: "Narrow places", shown: false, load: () => this.load_narrow() },
+      routes: { title: "Routes", shown: true, object: routes.paths },
+      flight: { title: "Trajectory and drone", shown: true, object: routes.flight_group },
+    };
+    for (const name of Object.keys(this.layers)) this.add_switch(name);
+    element("colour").addEventListener("change", () => {
+      for (const net of [this.diagram, this.graph]) net.colour_by(this.colour_by);
+      page.update_legend();
+      stage.changed();
+    });
+  }
+
+  is_shown(name: string): boolean {
+    return this.layers[name]?.shown ?? false;
+  }
+
+  /** Those that are shown at first. */
+  async load(): Promise<void> {
+    for (const name of Object.keys(this.layers)) if (this.is_shown(name)) await this.show(name, true);
+  }
+
+  async show(name: string, shown: boolean): Promise<void> {
+    const layer = this.layers[name]!;
+    layer.shown = shown;
+    input(`layer-${name}`).checked = shown;
+    if (shown && !layer.object && layer.load) {
+      try {
+        this.put(name, await layer.load());
+      } catch (error) {
+        layer.shown = input(`layer-${name}`).checked = false;
+        return this.page.hint(`${layer.title}: ${(error as Error).message}`);
+      }
+    }
+    if (layer.object) layer.object.visible = layer.shown && (name !== "flight" || this.page.routes.has_flight);
+    await layer.on_switch?.();
+    if (name === "narrow") {
+      this.labels.visible = layer.shown;
+      element("narrow-section").hidden = !layer.shown;
+    }
+    this.page.update_legend();
+    this.page.stage.changed();
+  }
+
+  /** A layer that others draw. */
+  add(name: string, title: string, object: THREE.Object3D): void {
+    this.layers[name] = { title, shown: true, object };
+    this.add_switch(name);
+  }
+
+  /** The graph as it is now, of a map that grows. */
+  show_graph(graph: Net): void {
+    this.put("graph", this.graph.show(graph).group);
+  }
+
+  /** The map has changed: asks again for what is shown of it, and forgets the rest. */
+  async renew(): Promise<void> {
+    if (this.renewing) return;
+    this.renewing = true;
+    for (const name of ["gvd", "diagram", "narrow"]) {
+      const layer = this.layers[name]!;
+      if (!layer.object) continue;
+      try {
+        if (layer.shown) this.put(name, await layer.load!());
+        else this.put(name, undefined);
+      } catch (error) {
+        this.page.hint(`${layer.title}: ${(error as Error).message}`);
+      }
+    }
+    if (this.is_shown("slice")) await this.layers.slice!.on_switch?.();
+    this.renewing = false;
+    this.page.stage.changed();
+  }
+
+  explain(legend: Legend): void {
+    const { base, surface, scale } = this.page;
+    const z = (height: number) => `${metres(base.z + height, 2)} m`;
+    if (this.is_shown("surface")) legend.ramp("Obstacles: height", kHeights, z(surface.low), z(surface.high));
+    const has_net = this.is_shown("diagram") || this.is_shown("graph");
+    const by_component = this.colour_by === "component";
+    if (has_net && by_component) legend.mark("Graph, diagram: a colour for each connected component", [0.5, 0.5, 0.5]);
+    if ((has_net && !by_component) || this.is_shown("gvd") || this.is_shown("slice"))
+      legend.ramp("Clearance to obstacles", kClearances, `${metres(scale.least, 2)} m`, `${metres(scale.most, 2)} m and more`);
+    if (this.is_shown("slice")) legend.mark(`Slice: nearer than ${metres(scale.least, 2)} m, no room`, [0.35, 0.05, 0.08]);
+    if (this.is_shown("narrow")) legend.mark("Narrow place, with the radius that it lets through", kNarrow);
+  }
+
+  private get colour_by(): ColourBy {
+    return element<HTMLSelectElement>("colour").value as ColourBy;
+  }
+
+  private add_switch(name: string): void {
+    const layer = this.layers[name]!;
+    const label = document.createElement("label");
+    const box = document.createElement("input");
+    box.type = "checkbox";
+    box.id = `layer-${name}`;
+    box.checked = layer.shown;
+    box.addEventListener("change", () => (this.switched = this.show(name, box.checked)));
+    label.append(box, layer.title);
+    element("layers").append(label);
+  }
+
+  private put(name: string, object: THREE.Object3D | undefined): void {
+    const layer = this.layers[name]!;
+    if (layer.object && layer.object !== object) dispose(layer.object.removeFromParent());
+    layer.object = object;
+    if (!object) return;
+    object.visible = layer.shown;
+    this.page.stage.scene.add(object);
+  }
+
+  private async load_narrow(): Promise<THREE.Object3D> {
+    const { joins, components } = await ask_json<Narrow>(this.page.source, "/api/narrow");
+    const wide_enough = joins.filter((join) => join.radius > 0.5 * this.page.info.voxel_size);
+    const shown = wide_enough.slice(0, 60);
+    const marks = new THREE.Group();
+    const list = element("narrow-list");
+    this.labels.clear();
+    list.replaceChildren();
+    for (const join of shown) {
+      const place = this.page.routes.local(join.place);
+      const mark = ball(kNarrow, Math.max(join.radius, 0.04));
+      mark.position.copy(place);
+      marks.add(mark);
+      this.labels.add(place, `${metres(join.radius, 2)} m`);
+      const item = document.createElement("li");
+      const button = document.createElement("button");
+      button.type = "button";
+      button.textContent = join_text(join, (i) => `${metres(components[i]!.volume, 1)} m³`);
+      button.addEventListener("click", () => this.fly_to(join.place));
+      item.append(button);
+      list.append(item);
+    }
+    if (shown.length === 0) {
+      const none = document.createElement("li");
+      none.textContent = "None: all places that a robot fits are connected.";
+      list.append(none);
+    }
+    if (wide_enough.length > shown.length) this.page.hint(`${shown.length} of ${wide_enough.length} narrow places are shown, the widest`);
+    return marks;
+  }
+}

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+import * as THREE from "three";
+import { App } from "./app";
+import { kAhead, kDrone } from "./colours";
+import { element } from "./dom";
+import { drone, PathDrawing } from "./drawings";
+import type { Info, Vector } from "./layers";
+import type { Legend } from "./legend";
+import { LiveGraph } from "./live_graph";
+import { LiveSurface } from "./live_surface";
+import { metres } from "./numbers";
+import { ask_json, bytes_of, type MapSource } from "./source";
+import { Stage } from "./stage";
+import { SurfaceMesh } from "./surface";
+
+/** An event of /api/live, as docs/viewer.md describes it. */
+interface LiveEvent {
+  begins: boolean; // what was there before is to be forgotten
+  is_last: boolean;
+  scan: number;
+  scans: number | null;
+  seconds: number;
+  position: Vector;
+  yaw: number;
+  positions: Vector[];
+  ahead: Vector[];
+  mapped?: number;
+  vertices?: number;
+  edges?: number;
+  bounds?: { min: Vector; max: Vector };
+  surface?: string;
+  graph?: string;
+}
+
+/** A map that grows, and the drone that maps it. */
+export class LivePage {
+  app?: App;
+  readonly graph = new LiveGraph();
+  private readonly surface = new LiveSurface();
+  private readonly trail: Vector[] = [];
+  private readonly drone = drone(kDrone);
+  private readonly came = new PathDrawing(kDrone, 2.5);
+  private readonly ahead = new PathDrawing(kAhead, 2.5);
+  private readonly group = new THREE.Group();
+  private readonly events: EventSource;
+  private last?: LiveEvent;
+  private beginning?: Promise<void>;
+  private refresh_asked = false;
+  /** For measurements: bytes of each event, as they came. */
+  readonly bytes: number[] = [];
+
+  constructor(private readonly source: MapSource, private readonly stage: Stage, private readonly on_begin: (app: App) => void) {
+    this.group.add(this.drone, this.came.group, this.ahead.group);
+    stage.overlay.add(this.group);
+    this.group.visible = false;
+    this.tell("Waiting for the first scan");
+    this.events = new EventSource("/api/live");
+    this.events.onmessage = (message) => this.take(message.data);
+    this.events.onerror = () => this.tell(this.events.readyState === EventSource.CLOSED ? "The run cannot be followed: as many pages as can already do" : "The connection is lost; trying again");
+  }
+
+  private take(text: string): void {
+    this.bytes.push(text.length);
+    const event: LiveEvent = JSON.parse(text);
+    if (event.begins) {
+      this.surface.clear();
+      this.graph.clear();
+      this.trail.length = 0;
+    }
+    if (event.surface) this.surface.apply(bytes_of(event.surface).buffer);
+    if (event.graph) this.graph.apply(bytes_of(event.graph).buffer);
+    this.trail.push(...event.positions);
+    this.last = event;
+    if (event.is_last) this.events.close();
+    this.ask_refresh();
+  }
+
+  /** However many events come, there is one picture of them a frame. */
+  private ask_refresh(): void {
+    if (this.refresh_asked) return;
+    this.refresh_asked = true;
+    requestAnimationFrame(() => {
+      this.refresh_asked = false;
+      void this.refresh();
+    });
+  }
+
+  private async refresh(): Promise<void> {
+    const event = this.last!;
+    this.tell_event(event);
+    if (!event.bounds) return;
+    this.beginning ??= this.begin(event.bounds);
+    await this.beginning;
+    this.show_map(event);
+    this.show_drone(event);
+    document.body.dataset.scan = String(event.scan);
+    if (event.is_last) document.body.dataset.done = "yes";
+  }
+
+  private async begin(bounds: { min: Vector; max: Vector }): Promise<void> {
+    const info = await ask_json<Info>(this.source, "/api/info");
+    const base = new THREE.Vector3(...bounds.min);
+    const height = bounds.max[2] - bounds.min[2];
+    const surface = new SurfaceMesh(this.surface.whole(), base, height);
+    this.stage.scene.add(surface.mesh);
+    this.stage.before_frame.push((is_coarse) => surface.draw_coarse(is_coarse));
+    this.stage.set_box(new THREE.Vector3(), new THREE.Vector3(...bounds.max).sub(base));
+    this.app = new App(this.source, this.stage, info, base, surface);
+    this.app.layers.add("live", "Drone and its way", this.group);
+    this.app.explain_more.push((legend) => this.explain(legend));
+    this.drone.scale.setScalar(info.min_clearance);
+    this.group.visible = true;
+    this.stage.look_from_side();
+    this.on_begin(this.app);
+  }
+
+  private show_map({ bounds, vertices, edges, is_last }: LiveEvent): void {
+    const app = this.app!;
+    const low = new THREE.Vector3(...bounds!.min).sub(app.base);
+    const high = new THREE.Vector3(...bounds!.max).sub(app.base);
+    this.stage.set_box(low, high);
+    app.surface.replace(this.surface.whole(), low.z, high.z);
+    app.heights.follow();
+    app.layers.show_graph(this.graph.whole(app.base.toArray() as Vector));
+    Object.assign(app.info, { vertices, edges });
+    app.tell_map();
+    app.update_legend();
+    this.stage.look_again();
+    this.stage.changed();
+    void app.layers.renew();
+    void app.query.plan(!is_last);
+  }
+
+  private show_drone({ position, yaw, ahead }: LiveEvent): void {
+    const { routes } = this.app!;
+    this.came.show(this.trail.map((p) => routes.local(p)));
+    this.ahead.show(ahead.map((p) => routes.local(p)));
+    this.drone.position.copy(routes.local(position));
+    this.drone.rotation.z = yaw;
+    this.stage.changed_over();
+  }
+
+  private explain(legend: Legend): void {
+    if (!this.app?.layers.is_shown("live")) return;
+    legend.mark("Drone, and the way that it came", kDrone);
+    if (this.last?.ahead.length) legend.mark("Where it flies next", kAhead);
+  }
+
+  private tell_event({ scan, scans, seconds, mapped, is_last }: LiveEvent): void {
+    const parts = [`scan ${scan}${scans ? ` of ${scans}` : ""}`];
+    if (mapped !== undefined) parts.push(`${metres(mapped, 1)} m³ mapped`);
+    parts.push(`${seconds.toFixed(1)} s`);
+    this.tell(`${is_last ? "Done" : "Live"}: ${parts.join(", ")}`);
+  }
+
+  private tell(text: string): void {
+    element("live").hidden = false;
+    element("live").textContent = text;
+  }
+}

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+import * as THREE from "three";
+import { kMeasure } from "./colours";
+import { element, input } from "./dom";
+import { ball, LabelLayer, PathDrawing } from "./drawings";
+import type { Vector } from "./layers";
+import { metres } from "./numbers";
+import type { Page } from "./page";
+import type { QueryPanel } from "./query";
+
+export type Tool = "look" | "start" | "goal" | "measure";
+
+const kHints: Record<Tool, string> = { look: "", start: "Click where the route starts", goal: "Click where the route ends", measure: "Click two places" };
+
+/** Clicks on the map, and ends of the route that are dragged. */
+export class Pointing {
+  private readonly labels = new LabelLayer(element("labels"));
+  private readonly measured = new THREE.Group();
+  private tool: Tool = "look";
+  private measure_from?: THREE.Vector3;
+  private down?: { x: number; y: number };
+  private dragged?: { which: "start" | "goal"; plane: THREE.Plane; offset: THREE.Vector3 };
+
+  constructor(private readonly page: Page, private readonly query: QueryPanel) {
+    const { stage, routes } = page;
+    stage.scene.add(this.measured);
+    stage.before_frame.push(() => this.labels.place((p) => stage.on_canvas(p)));
+    for (const button of document.querySelectorAll<HTMLButtonElement>("[data-tool]"))
+      button.addEventListener("click", () => this.use(button.dataset.tool as Tool));
+    const canvas = element("canvas");
+    canvas.addEventListener("pointerdown", (event) => {
+      this.down = { x: event.offsetX, y: event.offsetY };
+      const which = event.button === 0 ? routes.marker_at(event.offsetX, event.offsetY) : undefined;
+      if (which) this.begin_drag(which, event);
+    }, { capture: true });
+    canvas.addEventListener("pointermove", (event) => {
+      if (this.dragged) this.drag(event);
+      else if (event.buttons === 0) canvas.style.cursor = routes.marker_at(event.offsetX, event.offsetY) ? "grab" : this.tool === "look" ? "" : "crosshair";
+    });
+    canvas.addEventListener("pointerup", (event) => {
+      if (this.dragged) return this.end_drag();
+      const { down } = this;
+      if (down && event.button === 0 && Math.hypot(event.offsetX - down.x, event.offsetY - down.y) < 5) this.click(event.offsetX, event.offsetY);
+    });
+    canvas.addEventListener("pointercancel", () => this.end_drag());
+  }
+
+  use(tool: Tool): void {
+    this.tool = tool;
+    this.measure_from = undefined;
+    for (const button of document.querySelectorAll<HTMLButtonElement>("[data-tool]")) button.setAttribute("aria-pressed", String(button.dataset.tool === tool));
+    this.page.hint(kHints[tool]);
+  }
+
+  clear_measured(): void {
+    this.measured.clear();
+    this.labels.clear();
+    this.page.stage.changed();
+  }
+
+  private click(x: number, y: number): void {
+    if (this.tool === "look") return;
+    const { page } = this;
+    const hit = page.surface.hit(page.stage.ray_at(x, y));
+    if (!hit) return page.hint("There is no obstacle to click on here: click on the floor or a wall");
+    if (this.tool === "measure") return this.measure(hit.place);
+    const room = this.query.radius + page.info.voxel_size;
+    const lift = Math.max(input("lift").valueAsNumber || 0, room);
+    const place = hit.place.clone().addScaledVector(hit.normal, hit.normal.z > 0 ? lift : room);
+    if (page.info.planar) place.z = hit.place.z;
+    const which = this.tool;
+    this.query.set_end(which, this.rounded(place));
+    this.use(which === "start" && !this.query.goal ? "goal" : "look");
+    void this.query.plan();
+  }
+
+  /** In the world, to millimetres. */
+  private rounded(place: THREE.Vector3): Vector {
+    return this.page.routes.world(place).map((v) => Number(v.toFixed(3))) as Vector;
+  }
+
+  private measure(place: THREE.Vector3): void {
+    if (!this.measure_from) {
+      this.clear_measured();
+      this.measure_from = place;
+      const mark = ball(kMeasure, 0.05);
+      mark.position.copy(place);
+      this.measured.add(mark);
+      return;
+    }
+    const from = this.measure_from;
+    this.measured.add(new PathDrawing(kMeasure, 3).show([from, place]).group);
+    const rise = place.z - from.z;
+    const length = from.distanceTo(place);
+    this.labels.add(from.clone().lerp(place, 0.5), `${metres(length, 2)} m`);
+    this.page.hint(`${metres(length)} m: ${metres(Math.hypot(place.x - from.x, place.y - from.y))} m across, ${metres(rise)} m up`);
+    this.measure_from = undefined;
+    this.page.stage.changed();
+  }
+
+  private begin_drag(which: "start" | "goal", event: PointerEvent): void {
+    event.stopImmediatePropagation();
+    const { stage, routes } = this.page;
+    const marker = routes[which];
+    const upright = event.altKey && !stage.is_orthographic;
+    const ray = stage.ray_at(event.offsetX, event.offsetY);
+    const normal = upright ? ray.direction.clone().setZ(0).normalize().negate() : new THREE.Vector3(0, 0, 1);
+    const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(normal, marker.position);
+    const at = ray.intersectPlane(plane, new THREE.Vector3()) ?? marker.position;
+    this.dragged = { which, plane, offset: marker.position.clone().sub(at) };
+    this.query.is_dragging = true;
+    stage.controls.enabled = false;
+    stage.moves_over(true);
+    element("canvas").setPointerCapture(event.pointerId);
+    element("canvas").style.cursor = "grabbing";
+  }
+
+  private drag(event: PointerEvent): void {
+    const { which, plane, offset } = this.dragged!;
+    const { stage } = this.page;
+    const at = stage.ray_at(event.offsetX, event.offsetY).intersectPlane(plane, new THREE.Vector3());
+    if (!at) return;
+    stage.box.clampPoint(at.add(offset), at);
+    this.query.set_end(which, this.rounded(at));
+    void this.query.plan();
+  }
+
+  private end_drag(): void {
+    if (!this.dragged) return;
+    this.dragged = undefined;
+    this.query.is_dragging = false;
+    this.page.stage.controls.enabled = true;
+    this.page.stage.moves_over(false);
+    element("canvas").style.cursor = "";
+    void this.query.plan(); // once more, with what takes longer
+  }
+}
