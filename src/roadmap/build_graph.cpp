@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "common/require.hpp"
-#include "graph_of_curves.hpp"
 #include "esdf/remembered_space.hpp"
+#include "graph_of_curves.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "segment_fitting.hpp"
 #include "vertex_selection.hpp"

@@ -8,8 +8,8 @@
 
 #include "common/require.hpp"
 #include "editable_graph.hpp"
-#include "graph_of_curves.hpp"
 #include "esdf/remembered_space.hpp"
+#include "graph_of_curves.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/roadmap/build_graph.hpp"
 

@@ -5,16 +5,15 @@
 // pages are compiled and not linked.
 #pragma once
 
-#include <ridgeway/ridgeway.hpp>
-#include <ridgeway/sampling/ompl.hpp>
+#include <ompl/base/SpaceInformation.h>
+#include <ompl/base/spaces/RealVectorStateSpace.h>
 
 #include <memory>
+#include <ridgeway/ridgeway.hpp>
+#include <ridgeway/sampling/ompl.hpp>
 #include <span>
 #include <string_view>
 #include <vector>
-
-#include <ompl/base/SpaceInformation.h>
-#include <ompl/base/spaces/RealVectorStateSpace.h>
 
 // A robot.
 bool flying();
