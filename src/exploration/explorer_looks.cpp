@@ -51,7 +51,7 @@ void Explorer::State::count_looks(const Point& from, int heading, double share, 
 
 /// In flight a look counts where the robot is elsewhere, or turned, since the last one.
 void Explorer::State::look_in_flight(const FlightState& state) {
-  constexpr double kNear = 0.6;  // of the range: from farther off little may be measured
+  constexpr double kInRange = 0.6;  // of the range: from farther off little may be measured
   const int heading = views.heading_of(state.yaw);
   const Point here = to_local(roadmap->esdf, state.position);
   if (last_look && heading == last_look->second &&
@@ -61,7 +61,7 @@ void Explorer::State::look_in_flight(const FlightState& state) {
   // At the heading next to the true one the sides of the view differ by half a step at most.
   if (std::abs(detail::turn_between(state.yaw, views.yaw_of(heading))) <
       0.25 * 2.0 * std::numbers::pi / config.headings)
-    count_looks(here, heading, kNear, 1, nullptr);
+    count_looks(here, heading, kInRange, 1, nullptr);
 }
 
 }  // namespace ridgeway

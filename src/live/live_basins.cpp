@@ -25,7 +25,7 @@ void number_peaks(LiveBasins& basins, const std::vector<VoxelId>& before,
                   const std::vector<std::uint32_t>& slots) {
   for (const VoxelId id : before) {
     if (basins.ways.next[id] == kCentre) continue;
-    const std::uint32_t number = *basins.number_of_peak.find(id, mixed(id));
+    const std::uint32_t number = basins.number_of_peak.at(id, mixed(id));
     basins.number_of_peak.erase(id, mixed(id));
     basins.peaks[number] = kNoVoxel;
     basins.unused.push_back(number);
@@ -127,7 +127,7 @@ class Renumbering {
 
   std::uint32_t basin_at(VoxelId id) const {
     const Direction next = basins_.ways.next[id];
-    return next == kCentre ? *basins_.number_of_peak.find(id, mixed(id))
+    return next == kCentre ? basins_.number_of_peak.at(id, mixed(id))
                            : numbers_[layout_.neighbour(id, next)];
   }
 

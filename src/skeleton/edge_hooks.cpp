@@ -103,7 +103,7 @@ class EdgeHooks {
     if (!is_hooked(id)) events_.push({std::max(SquaredHalves(sunk * sunk), threshold_), id, id});
   }
 
-  std::uint32_t piece_of(VoxelId id) const { return *piece_.find(id, mixed(id)); }
+  std::uint32_t piece_of(VoxelId id) const { return piece_.at(id, mixed(id)); }
   bool is_hooked(VoxelId id) { return exact_.test(id) || hooked_[pieces_.find(piece_of(id))]; }
 
   void connect(VoxelId a, VoxelId b) {

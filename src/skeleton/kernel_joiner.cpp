@@ -107,7 +107,7 @@ class KernelJoiner {
     diagram_.set(id);
   }
 
-  std::uint32_t piece_of(VoxelId id) const { return *piece_.find(id, mixed(id)); }
+  std::uint32_t piece_of(VoxelId id) const { return piece_.at(id, mixed(id)); }
   bool same_piece(VoxelId a, VoxelId b) {
     return pieces_.find(piece_of(a)) == pieces_.find(piece_of(b));
   }

@@ -119,7 +119,7 @@ class Replay {
   Turn first_turn(VoxelId id) const { return turn_at(esdf_.squared[id], 0, sub_field(id)); }
   Turn base_turn(VoxelId id) const {
     if (!known_.odd.test(id)) return first_turn(id);
-    return known_.left.test(id) ? kNever : *known_.late.find(id, mixed(id));
+    return known_.left.test(id) ? kNever : known_.late.at(id, mixed(id));
   }
   const std::vector<Played>& played() const { return played_; }
 

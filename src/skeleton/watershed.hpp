@@ -83,9 +83,9 @@ int block_direction(VoxelId place, Direction next);
 Cube27 higher_in_others(const BlockLayout& layout, const BasinNumbers& basin,
                         const CriticalVoxel& voxel);
 
-/// Numbers the basins. `basins` has the local results; blocks those that belong to it.
+/// Numbers the basins. `local` has the local results; blocks those that belong to it.
 Watershed watershed_of(const EsdfMap& esdf, const VoxelMask& traversable,
-                       const std::vector<BlockWays>& blocks, Basins basins);
+                       const std::vector<BlockWays>& blocks, Basins local);
 
 /// Leads every voxel to its peak by the steepest of the ways that do not dip.
 ///

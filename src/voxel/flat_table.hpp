@@ -31,6 +31,11 @@ class FlatTable {
     return place.tag == kFree ? nullptr : &entries_[place.entry].value;
   }
 
+  /// Of a key that has a value.
+  const Value& at(const Key& key, std::uint64_t hash) const {
+    return entries_[places_[place_of(key, tag_of(hash))].entry].value;
+  }
+
   /// Of a key that has no value yet.
   void add(const Key& key, std::uint64_t hash, const Value& value) {
     if (4 * (size() + 1) > 3 * places_.size()) spread(std::max(kLeastPlaces, 2 * places_.size()));
