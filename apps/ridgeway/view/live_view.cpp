@@ -40,9 +40,9 @@ std::shared_ptr<LiveView::Snapshot> LiveView::newest() {
 Reply LiveView::answer(const Question& question) {
   const std::shared_ptr<Snapshot> snapshot = newest();
   if (question.path == "/api/info") {
-    using Json = nlohmann::ordered_json;
-    Json info = snapshot ? Json::parse(*snapshot->answers.answer(question).body)
-                         : Json{{"name", name_}, {"bounds", nullptr}};
+    using nlohmann::ordered_json;
+    ordered_json info = snapshot ? ordered_json::parse(*snapshot->answers.answer(question).body)
+                                 : ordered_json{{"name", name_}, {"bounds", nullptr}};
     info["live"] = true;
     return json_reply(200, info);
   }
