@@ -32,6 +32,8 @@ function(ridgeway_target_defaults target)
     ${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -ffp-contract=off
                       # Clang counts this as -Wconversion, GCC does not.
                       $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>
+                      # Sources that are compiled as one see file-level names of one another.
+                      $<$<AND:$<CXX_COMPILER_ID:Clang>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-shadow>
                       $<$<BOOL:${RIDGEWAY_WERROR}>:-Werror>)
 endfunction()
 
