@@ -14,6 +14,7 @@
 #include "files/atomic_file.hpp"
 #include "files/read_file.hpp"
 #include "files/temporary.hpp"
+#include "formats/build_record.hpp"
 #include "growing_recording.hpp"
 #include "json.hpp"
 #include "recording.hpp"
@@ -62,7 +63,9 @@ void verify_by_batch(LiveRoadmap& live, const LiveOptions& options, const std::s
   const std::shared_ptr<const Roadmap> snapshot = live.settled();
   if (!snapshot) return;
   const Stopwatch watch;
-  const BuildResult batch = build_roadmap(live.map(), options.live.build);
+  BuildResult batch = build_roadmap(live.map(), options.live.build);
+  batch.roadmap.source = options.live.source;
+  batch.roadmap.config = options.live.record;
   replay.batch_seconds.push_back(watch.seconds());
   ++replay.verified;
   if (!have_same_file(*snapshot, batch.roadmap, options.output))
@@ -214,6 +217,8 @@ int run(const LiveOptions& options, const Globals& globals) {
   require_outside(options.output, options.folder);
   require_writable({options.output}, {});
   require_extension(options.output, "a roadmap", {".ridge"});
+  config.source = (std::filesystem::path(options.folder) / "").parent_path().filename().string();
+  config.record = build_record(config.build, config.fusion.voxel_size).dump();
   LiveOptions all = options;
   all.live = config;
   LiveRoadmap live(config);

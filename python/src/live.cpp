@@ -198,7 +198,9 @@ void add_live(py::module_& module) {
        live_fields().docs())
           .c_str())
       .def(py::init([](const py::kwargs& keywords) {
-             return std::make_unique<LiveFace>(live_fields().read_all(keywords));
+             LiveConfig config = live_fields().read_all(keywords);
+             config.record = record_of(config.build, config.fusion.voxel_size);
+             return std::make_unique<LiveFace>(config);
            }),
            ("__init__(self, *, " + signature + ")\n--\n\n").c_str())
       .def("integrate_depth", &LiveFace::integrate_depth, py::arg("image"), py::arg("camera"),

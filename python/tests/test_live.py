@@ -118,6 +118,9 @@ def test_poses_are_corrected_while_scans_go_on(house, tmp_path):
             live.begin_correcting({2: house[1][1]})
     assert live.finish_correcting()["fused_again"] > 0 and live.is_correction_ready()
     assert live.map().counts == true.map().counts
+    live.settled().save(tmp_path / "live.ridge")
+    ridgeway.build(live.map(), min_clearance=0.3).save(tmp_path / "batch.ridge")
+    assert (tmp_path / "live.ridge").read_bytes() == (tmp_path / "batch.ridge").read_bytes()
     assert live.finish_correcting()["fused_again"] == 0
 
 

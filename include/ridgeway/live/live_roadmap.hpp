@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "ridgeway/mapping/tsdf_fusion.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
@@ -29,6 +30,8 @@ struct LiveConfig {
   /// by one roadmap alone, and emptied with it.
   std::filesystem::path log_folder = {};
   std::uint64_t log_bytes = std::uint64_t{4} << 30;  ///< of all scans that are kept: the newest
+  std::string source = {};  ///< what snapshots say of where they are from (Roadmap::source)
+  std::string record = {};  ///< and of their configuration (Roadmap::config)
 
   /// Throws InputError naming the bad field.
   void validate() const;
