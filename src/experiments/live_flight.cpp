@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "common/random.hpp"
@@ -101,8 +102,9 @@ void run_live_flight(const World& world, const LiveFlightConfig& config, const P
     live.set_voxels(copies);
   LiveJudge judge(live_config.build, config.verify_every);
   Random seeds(config.seed);
+  constexpr std::size_t kAsFastAsItCan = std::numeric_limits<std::size_t>::max();
   {
-    const LiveQueryLoad load(live, config.queries, config.seed, results.queries);
+    LiveQueryLoad load(live, config.queries ? kAsFastAsItCan : 0, config.seed, results.queries);
     for (const Eigen::Isometry3d& pose : poses) {
       const auto done =
           static_cast<double>(results.scans.size()) / static_cast<double>(config.scans);
@@ -110,6 +112,7 @@ void run_live_flight(const World& world, const LiveFlightConfig& config, const P
       const DepthImage image = render_depth(world, sensor, pose, seeds.bits());
       results.scans.push_back(judge.judge(live, live.integrate(image, sensor.camera, pose)));
     }
+    load.ask_again();
   }
 }
 
