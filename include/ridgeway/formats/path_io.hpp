@@ -33,8 +33,9 @@ std::vector<Point> read_path(const std::filesystem::path& path);
 
 /// Where the world's frame lies on the Earth.
 struct Datum {
-  double latitude = 0.0, longitude = 0.0;  ///< of the origin, degrees, WGS 84
-  double altitude = 0.0;                   ///< of z = 0, metres above mean sea level
+  double latitude = 0.0;    ///< of the origin, degrees, WGS 84
+  double longitude = 0.0;   ///< of the origin, degrees, WGS 84
+  double altitude = 0.0;    ///< of z = 0, metres above mean sea level
   double x_heading = 90.0;  ///< of the x axis, degrees clockwise from north; 90: x east, y north
 
   /// Throws InputError for an angle out of range, and for what is not finite.
@@ -43,7 +44,9 @@ struct Datum {
 
 /// Degrees (WGS 84), and metres above mean sea level.
 struct GeoPoint {
-  double latitude = 0.0, longitude = 0.0, altitude = 0.0;
+  double latitude = 0.0;   ///< degrees, north
+  double longitude = 0.0;  ///< degrees, east
+  double altitude = 0.0;   ///< metres above mean sea level
 };
 
 /// Where a point of the world is on the Earth. The world's plane z = 0 touches the ellipsoid at the
