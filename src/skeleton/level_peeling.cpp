@@ -2,14 +2,13 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "level_peeling.hpp"
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <array>
 #include <functional>
 #include <queue>
 #include <vector>
 
+#include "common/parallel_sort.hpp"
 #include "level_gather.hpp"
 #include "parallel_deletion.hpp"
 #include "ridgeway/common/parallel.hpp"
@@ -123,7 +122,7 @@ class LevelPeeling {
         queued_(std::move(not_simple)),
         left_(esdf.layout) {
     for (const VoxelId id : queued_.members(esdf.layout)) first_turns_.push_back(turn_of(esdf, id));
-    tbb::parallel_sort(first_turns_.begin(), first_turns_.end());
+    parallel_sort(first_turns_.begin(), first_turns_.end());
   }
 
   VoxelMask run() {

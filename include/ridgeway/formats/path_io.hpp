@@ -59,7 +59,7 @@ GeoPoint geodetic(const Point& point, const Datum& datum);
 std::string mission_json(const PlanResult& path, const Datum& datum);
 
 /// Writes a mission to a .plan file, whole or not at all. Throws InputError for another extension,
-/// a bad datum, and where the file cannot be written.
+/// a bad datum, a plan without a path, and where the file cannot be written.
 void write_mission(const PlanResult& path, const Datum& datum, const std::filesystem::path& file);
 
 /// Throws InputError where a file's extension is neither .csv nor .json nor .yaml.
