@@ -62,7 +62,8 @@ set(sources arguments.cpp console.cpp interruption.cpp json.cpp limit_options.cp
 list(TRANSFORM sources PREPEND "${PROJECT_SOURCE_DIR}/apps/ridgeway/")
 wasm_objects_of(answers ${sources})
 wasm_objects_of(planner "${CMAKE_CURRENT_SOURCE_DIR}/wasm/planner.cpp"
-            "${CMAKE_CURRENT_SOURCE_DIR}/wasm/optimise_spline.cpp")
+            "${CMAKE_CURRENT_SOURCE_DIR}/wasm/optimise_spline.cpp"
+            "${CMAKE_CURRENT_SOURCE_DIR}/wasm/with_progress.cpp")
 
 set(planner "${wasm_folder}/planner.mjs")
 add_custom_command(

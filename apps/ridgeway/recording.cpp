@@ -18,6 +18,12 @@ RecordingKind kind_of_recording(const std::string& folder) {
   if (!std::filesystem::is_directory(folder, error))
     throw InputError(folder, "is no folder" + (error ? ": " + error.message() : std::string()),
                      "give the folder of a recording");
+  // Lists of poses without names and times, as some textbooks have them.
+  if (std::filesystem::exists(std::filesystem::path(folder) / "pose.txt", error))
+    throw InputError(folder,
+                     "has poses in pose.txt that name no images, and neither a unit nor a camera",
+                     "write them as 4 x 4 matrices to trajectory.log, beside depth/*.png in "
+                     "millimetres (Open3D)");
   throw InputError(
       folder, "holds no recording",
       "give a folder with depth.txt (TUM RGB-D), frame-*.depth.png (7-Scenes, "

@@ -43,13 +43,17 @@ PARAMETERS = {
     "voxel_size free_below occupied_above low high deepest step max_range range_sigma fx fy cx cy "
     "min_clearance max_distance theta least_apart prune_radius split_deviation significance "
     "widest_kept steepness width_step stretch within time_limit prefer_clearance snap robot_height "
+    "horizontal vertical nearest range spacing persistence resolved_below kept_clearance until share_of_range time yaw min_volume latitude longitude altitude x_heading "
     "max_speed max_acceleration max_jerk max_yaw_rate truncation depth_behind min_range max_weight "
     "clear_radius window": "float",
-    "radius start_yaw": "Optional[float]",
-    "unknown planner smoothness integrator source": "str",
-    "simplify basis_point_edges paper_diagram shorten quick escape follow_yaw stop_and_go carve": "bool",
+    "radius start_yaw units section_x section_y": "Optional[float]",
+    "unknown planner smoothness integrator source strategy diagram_colour title": "str",
+    "up": "Optional[str]", "home": "Optional[_Point]", "band": "Optional[Sequence[float]]",
+    "inside": "ArrayLike", "position velocity acceleration point": "_Point", "file": "_Path",
+    "paths": "Optional[Dict[str, Union[PlanResult, ArrayLike]]]", "roadmap": "Roadmap",
+    "simplify basis_point_edges paper_diagram shorten quick escape follow_yaw stop_and_go carve floors sides narrow_places": "bool",
     "threads count queries seed slot index min_cluster isolated_below tangent_pairs most_evaluations "
-    "width height forget_after log_bytes": "int",
+    "width height forget_after log_bytes least_frontier headings most_rays most_stops most_looks": "int",
     "limits flight_limits": "Optional[FlightLimits]",
     "progress": "_Progress",
     "loading": "Any",
@@ -66,7 +70,12 @@ TYPES = {name: kind for names, kind in PARAMETERS.items() for name in names.spli
 PARTICULAR = {
     "load_map.path": "_Path", "load.path": "_Path", "load_tsdf.path": "_Path", "load_world.path": "_Path",
     "Roadmap.save.path": "_Path", "Roadmap.export_graph.path": "_Path", "TsdfMap.save.path": "_Path",
-    "Trajectory.save.path": "_Path", "PlanResult.save.path": "_Path",
+    "Trajectory.save.path": "_Path", "PlanResult.save.path": "_Path", "PlanResult.save_mission.path": "_Path",
+    "Roadmap.export_voxblox.path": "_Path", "TsdfMap.export_voxblox.path": "_Path",
+    "TsdfMap.save_surface.path": "_Path", "EsdfMap.surroundings.radius": "float",
+    "Explorer.__init__.within": "Optional[ArrayLike]",
+    "Roadmap.draw.path": "Union[PlanResult, ArrayLike, None]", "Roadmap.draw.diagram": "bool",
+    "Roadmap.draw.graph": "bool",
     "build.map": "Union[OccupancyMap, _Path]", "compute_esdf.map": "OccupancyMap",
     "Roadmap.trajectory.path": "Union[PlanResult, ArrayLike]",
     "load_map.voxel_size": "Optional[float]", "OccupancyMap.transformed.voxel_size": "Optional[float]",
@@ -79,10 +88,12 @@ PARTICULAR = {
 }
 RETURNS = {
     "build load": "Roadmap", "load_map": "OccupancyMap", "load_tsdf": "TsdfMap", "load_world": "World",
-    "open_sequence": "DepthSequence", "compute_esdf": "EsdfMap", "delta_between": "GraphDelta",
+    "open_sequence": "DepthSequence", "open_scans": "ScanSequence",
+    "field_of_view surroundings describe": "Dict[str, Any]", "decide": "ExplorationStep",
+    "unseen frontiers": "List[Dict[str, Any]]", "compute_esdf": "EsdfMap", "delta_between": "GraphDelta",
     "traversable_voxels compute_gvd extract_edges thin compute_skeleton": "VoxelMask",
     "build_graph simplify_graph": "SparseGraph",
-    "from_numpy from_points resampled cropped with_no_fly without_isolated flattened transformed "
+    "from_numpy from_points resampled cropped with_no_fly without_isolated without_pockets flattened transformed "
     "occupancy": "OccupancyMap",
     "to_numpy distances states": "Grid", "state_at": "NDArray[np.uint8]",
     "is_free": "NDArray[np.bool_]", "path_is_free may_invalidate is_correction_ready": "bool", "clearance": "float",
@@ -90,7 +101,8 @@ RETURNS = {
     "plan": "PlanResult", "plan_many": "List[PlanResult]",
     "plan_nearest": "Tuple[Optional[int], PlanResult]", "plan_via": "Tuple[PlanResult, Optional[int]]",
     "alternatives": "Alternatives", "explain": "Optional[BlockedRoute]", "trajectory": "Trajectory",
-    "save export_graph begin_correcting": "None", "components": "List[Dict[str, Any]]",
+    "save save_mission save_surface export_graph export_voxblox draw begin_correcting": "None",
+    "components": "List[Dict[str, Any]]",
     "check integrate_depth integrate_points set_voxels correct_poses finish_correcting catch_up":
         "Dict[str, Any]",
     "sample": "TrajectorySamples", "surface": "Surface", "to_networkx": "Any",
@@ -102,22 +114,23 @@ RESULTS = {name: kind for names, kind in RETURNS.items() for name in names.split
 RESULTS.update({"TsdfFusion.map": "TsdfMap", "Roadmap.distances": "NDArray[np.float64]",
                 "TsdfFusion.integrate_depth": "None", "TsdfFusion.integrate_points": "None",
                 "Alternatives.__getitem__": "PlanResult",
+                "ScanSequence.__getitem__": "Tuple[NDArray[np.float64], NDArray[np.float64]]",
                 "DepthSequence.__getitem__": "Tuple[NDArray[np.float32], NDArray[np.float64]]"})
 PROPERTIES = {
     "bounds": "Optional[Tuple[_Triple, _Triple]]", "keep_in": "Tuple[_Triple, _Triple]",
     "keep_out": "List[Tuple[_Triple, _Triple]]", "place": "Optional[_Triple]",
     "counts": "Dict[str, int]", "seconds": "Dict[str, float]", "config": "Dict[str, Any]",
     "report": "Optional[Dict[str, Any]]",
-    "vertices points waypoints block_corners distances durations coefficients edge_lengths "
+    "vertices points waypoints block_corners distances durations coefficients tour edge_lengths "
     "edge_clearances vertex_clearances": "NDArray[np.float64]",
     "edges components block_squared": "NDArray[np.uint32]", "voxels": "NDArray[np.int32]",
     "block_states": "NDArray[np.uint8]", "block_sites": "NDArray[np.int16]",
     "block_distances block_weights": "NDArray[np.float32]",
     "voxel_size min_clearance max_distance truncation length clearance within radius duration "
     "max_speed max_acceleration max_jerk max_yaw_rate escape_start escape_goal moved_start moved_goal "
-    "fx fy cx cy": "float",
+    "fx fy cx cy tour_seconds": "float", "goal": "Optional[Tuple[float, float, float, float]]",
     "source unknown status reason answered_by by step name layout": "str",
-    "planar ok complete is_settled is_empty": "bool", "stops width height without_pose": "int",
+    "planar ok complete is_settled is_empty was_in_doubt is_braking": "bool", "stops width height without_pose frontiers frontier_voxels": "int",
     "esdf": "EsdfMap", "diagram": "VoxelMask", "graph": "SparseGraph", "camera": "PinholeCamera",
 }
 ATTRIBUTES = {name: kind for names, kind in PROPERTIES.items() for name in names.split()}

@@ -15,6 +15,8 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kPolicies = {"obstacle", "ignore", "free"};
 constexpr std::array<std::string_view, 2> kIntegrators = {"projective", "ray_casting"};
+constexpr std::array<std::string_view, 2> kStrategies = {"tour", "nearest"};
+constexpr std::array<std::string_view, 3> kColours = {"clearance", "height", "component"};
 
 template <std::size_t kCount>
 std::size_t choice(py::handle value, const char* name,
@@ -88,6 +90,38 @@ void read(py::handle value, const char* name, Eigen::Isometry3d& field) {
 void read(py::handle value, const char* name, VoxelIndex& field) {
   field = voxel_from(value, name);
 }
+void read(py::handle value, const char* name, VoxelRange& field) {
+  if (value.is_none()) {
+    field = kAllVoxels;
+    return;
+  }
+  const std::vector<VoxelIndex> ends = voxels_from(value, name);
+  if (ends.size() != 2)
+    throw InputError(name, "is " + describe(value), "give the first and the last voxel, (2, 3)");
+  field = {ends[0], ends[1]};
+}
+void read(py::handle value, const char* name, ExplorationStrategy& field) {
+  field = static_cast<ExplorationStrategy>(choice(value, name, kStrategies));
+}
+void read(py::handle value, const char* name, DiagramColour& field) {
+  field = static_cast<DiagramColour>(choice(value, name, kColours));
+}
+void read(py::handle value, const char* name, HeightBand& field) {
+  const Doubles ends = doubles_from(value, name, "two heights, metres");
+  if (ends.ndim() != 1 || ends.size() != 2)
+    throw InputError(name, "is " + describe(value), "give two heights, metres");
+  field = {ends.at(0), ends.at(1)};
+}
+void read(py::handle value, const char* name, std::string& field) {
+  field = text_from(value, name);
+}
+void read(py::handle value, const char* name, UpAxis& field) {
+  constexpr std::array<std::string_view, 3> names = {"x", "y", "z"};
+  field = static_cast<UpAxis>(choice(value, name, names));
+}
+void read(py::handle value, const char* name, std::vector<Point>& field) {
+  field = points_from(value, name);
+}
 void read(py::handle value, const char* name, Box& field) { field = box_from(value, name); }
 void read(py::handle value, const char* name, std::vector<Box>& field) {
   if (!PySequence_Check(value.ptr()))
@@ -116,6 +150,14 @@ std::string literal(Smoothness value) { return value == Smoothness::kJerk ? "'je
 std::string literal(Integrator value) {
   return string_literal(kIntegrators[static_cast<std::size_t>(value)]);
 }
+std::string literal(const VoxelRange&) { return "None"; }
+std::string literal(ExplorationStrategy value) {
+  return string_literal(kStrategies[static_cast<std::size_t>(value)]);
+}
+std::string literal(DiagramColour value) {
+  return string_literal(kColours[static_cast<std::size_t>(value)]);
+}
+std::string literal(const std::string& value) { return string_literal(value); }
 std::string literal(const Point& p) {
   return "(" + literal(p.x()) + ", " + literal(p.y()) + ", " + literal(p.z()) + ")";
 }
@@ -123,6 +165,7 @@ std::string literal(const std::filesystem::path& value) { return string_literal(
 std::string literal(const FlightLimits&) { return "None"; }
 std::string literal(const Eigen::Isometry3d&) { return "None"; }
 std::string literal(const std::vector<Box>&) { return "()"; }
+std::string literal(const std::vector<Point>&) { return "()"; }
 
 void refuse_keyword(const std::string& keyword, const std::vector<std::string>& known) {
   py::list names;

@@ -10,9 +10,11 @@
 #include "convert.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/esdf.hpp"
+#include "ridgeway/exploration/explorer.hpp"
 #include "ridgeway/formats/load_map.hpp"
 #include "ridgeway/live/live_roadmap.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
+#include "ridgeway/pictures/picture.hpp"
 #include "ridgeway/planning/check.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/roadmap/build_graph.hpp"
@@ -38,6 +40,13 @@ void read(py::handle value, const char* name, std::filesystem::path& field);
 void read(py::handle value, const char* name, FlightLimits& field);
 void read(py::handle value, const char* name, Eigen::Isometry3d& field);
 void read(py::handle value, const char* name, VoxelIndex& field);
+void read(py::handle value, const char* name, VoxelRange& field);
+void read(py::handle value, const char* name, ExplorationStrategy& field);
+void read(py::handle value, const char* name, DiagramColour& field);
+void read(py::handle value, const char* name, HeightBand& field);
+void read(py::handle value, const char* name, std::string& field);
+void read(py::handle value, const char* name, UpAxis& field);
+void read(py::handle value, const char* name, std::vector<Point>& field);
 void read(py::handle value, const char* name, Box& field);
 void read(py::handle value, const char* name, std::vector<Box>& field);
 template <typename Value>
@@ -60,6 +69,10 @@ std::string literal(UnknownPolicy value);
 std::string literal(Planner value);
 std::string literal(Smoothness value);
 std::string literal(Integrator value);
+std::string literal(const VoxelRange& value);
+std::string literal(ExplorationStrategy value);
+std::string literal(DiagramColour value);
+std::string literal(const std::string& value);
 std::string literal(const Point& value);
 std::string literal(const std::filesystem::path& value);
 template <typename Value>
@@ -69,6 +82,7 @@ std::string literal(const std::optional<Value>&) {
 std::string literal(const FlightLimits&);
 std::string literal(const Eigen::Isometry3d&);
 std::string literal(const std::vector<Box>&);
+std::string literal(const std::vector<Point>&);
 
 /// Throws TypeError for a keyword argument that is not one of `known`, with the one that was meant.
 [[noreturn]] void refuse_keyword(const std::string& keyword, const std::vector<std::string>& known);
@@ -157,5 +171,7 @@ const Fields<PlanConfig>& plan_fields();
 const Fields<TrajectoryConfig>& trajectory_fields();
 const Fields<FusionConfig>& fusion_fields();
 const Fields<LiveConfig>& live_fields();
+const Fields<ExplorerConfig>& explorer_fields();
+const Fields<PictureConfig>& picture_fields();
 
 }  // namespace ridgeway::python

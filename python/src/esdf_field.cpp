@@ -10,6 +10,7 @@
 #include "ridgeway/esdf/distance_field.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/esdf/surroundings.hpp"
 #include "voxel_arrays.hpp"
 
 namespace ridgeway::python {
@@ -118,6 +119,20 @@ double clearance(const EsdfFace& face, py::handle path) {
   return FreeSpace(*face.esdf).clearance(local);
 }
 
+py::dict surroundings(const EsdfFace& face, py::handle path, py::handle radius) {
+  const std::vector<Point> points = points_from(path, "path");
+  if (points.empty()) throw InputError("path", "has no points", "give one or more");
+  const double r = radius_from(radius);
+  const PathSurroundings found =
+      run_stage([&] { return Surroundings(*face.esdf).along(points, r); });
+  py::dict dict;
+  dict["known"] = found.known;
+  dict["unknown"] = found.unknown;
+  dict["unknown_share"] = found.unknown_share;
+  dict["unknown_inside"] = found.unknown_inside;
+  return dict;
+}
+
 bool path_is_free(const EsdfFace& face, py::handle path, py::handle radius) {
   std::vector<Point> local = points_from(path, "path");
   if (local.empty()) throw InputError("path", "has no points", "give one or more");
@@ -205,6 +220,12 @@ void add_fields(py::module_& module) {
       .def("clearance", &clearance, py::arg("path"),
            "clearance(self, path)\n--\n\n"
            "Smallest distance to an obstacle along straight segments (N, 3), metres, exact.")
+      .def("surroundings", &surroundings, py::arg("path"), py::arg("radius"),
+           "surroundings(self, path, radius)\n--\n\n"
+           "What straight segments (N, 3) run beside, whatever unknown space was taken for: a dict "
+           "of the smallest\ndistances to something known and to something unknown, metres, and of "
+           "the shares of the length that are\nnearer to the unknown than the radius "
+           "(unknown_share) and within it (unknown_inside).")
       .def_property_readonly(
           "voxel_size", [](const EsdfFace& face) { return face.esdf->voxel_size; }, "Metres.")
       .def_property_readonly(
@@ -255,10 +276,12 @@ void add_fields(py::module_& module) {
         int count = 0;
         read(threads, "threads", count);
         const EsdfConfig config = esdf_fields().read_all(keywords);
-        return run_long(py::none(), count, [&](const Progress&) {
-          return EsdfFace{std::make_shared<const EsdfMap>(
-              compute_esdf(taken(*face.map, UnknownPolicy::kObstacle), config))};
-        });
+        return run_stage(
+            [&] {
+              return EsdfFace{std::make_shared<const EsdfMap>(
+                  compute_esdf(taken(*face.map, UnknownPolicy::kObstacle), config))};
+            },
+            count);
       },
       py::arg("map"), py::kw_only(), py::arg("threads") = 0, doc.c_str());
 }

@@ -74,5 +74,6 @@ void add_roadmap(py::module_& module);
 void add_flights(py::module_& module);
 void add_fusion(py::module_& module);
 void add_live(py::module_& module);
+void add_exploration(py::module_& module);
 
 }  // namespace ridgeway::python

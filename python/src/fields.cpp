@@ -60,6 +60,11 @@ const Fields<LoadConfig>& load_fields() {
           .add("exclude", &LoadConfig::exclude, "no-fly boxes, made occupied")
           .add("transform", &LoadConfig::transform,
                "(4, 4) from the file's frame to the world's (z up), or None")
+          .add("units", &LoadConfig::units, "of meshes: metres a unit; None: the file's")
+          .add("up", &LoadConfig::up,
+               "of meshes: which axis points up, 'x', 'y', 'z'; None: the file's")
+          .add("inside", &LoadConfig::inside,
+               "of meshes: places in open space (N, 3), metres; what is reached from them is free")
           .add("isolated_below", &LoadConfig::isolated_below,
                "clusters of fewer occupied voxels become free");
   return fields;
@@ -196,6 +201,66 @@ const Fields<LiveConfig>& live_fields() {
         .add("log_bytes", &LiveConfig::log_bytes, "of all scans that are kept");
     return all;
   }();
+  return fields;
+}
+
+const Fields<ExplorerConfig>& explorer_fields() {
+  using Config = ExplorerConfig;
+  static const Fields<Config> fields =
+      Fields<Config>()
+          .add(&Config::limits, "max_speed", &MotionLimits::max_speed, "metres a second")
+          .add(&Config::limits, "max_acceleration", &MotionLimits::max_acceleration,
+               "metres a second^2")
+          .add(&Config::limits, "max_jerk", &MotionLimits::max_jerk, "metres a second^3")
+          .add(&Config::limits, "max_yaw_rate", &MotionLimits::max_yaw_rate, "radians a second")
+          .add(&Config::view, "horizontal", &FieldOfView::horizontal,
+               "angle that the sensor sees, radians; a whole turn: all around")
+          .add(&Config::view, "vertical", &FieldOfView::vertical,
+               "angle that it sees, in the middle, radians")
+          .add(&Config::view, "nearest", &FieldOfView::nearest,
+               "what is nearer is not seen, metres")
+          .add(&Config::view, "range", &FieldOfView::range,
+               "what is farther is not counted on, metres")
+          .add("within", &Config::within,
+               "first and last voxel of the lattice to explore, (2, 3); None: all")
+          .add("least_frontier", &Config::least_frontier,
+               "voxels of a frontier that is worth a look")
+          .add("spacing", &Config::spacing, "between viewpoints, about, metres")
+          .add("headings", &Config::headings, "directions that are tried at each")
+          .add("strategy", &Config::strategy, "'tour' or 'nearest'")
+          .add("persistence", &Config::persistence,
+               "seconds by which another tour must be shorter for the goal to be given up")
+          .add("resolved_below", &Config::resolved_below,
+               "the goal is given up once less than this share of it is left to see")
+          .add("most_rays", &Config::most_rays, "cast in one decision")
+          .add("most_stops", &Config::most_stops, "of a tour")
+          .add("kept_clearance", &Config::kept_clearance,
+               "that the rest of a trajectory must keep, metres; 0: the roadmap's min_clearance")
+          .add("most_looks", &Config::most_looks,
+               "in vain, after which an unknown voxel is left alone")
+          .add("home", &Config::home, "where to be at the end, (x, y, z), metres; None: anywhere")
+          .add("until", &Config::until, "time until which to be home, seconds; needs home");
+  return fields;
+}
+
+const Fields<PictureConfig>& picture_fields() {
+  using Config = PictureConfig;
+  static const Fields<Config> fields =
+      Fields<Config>()
+          .add("width", &Config::width, "pixels, 400 to 16000")
+          .add("band", &Config::band,
+               "heights (low, high) that count for walls and free space, metres; None: the middle")
+          .add("floors", &Config::floors, "a plan for each storey, in place of one")
+          .add("sides", &Config::sides, "the map from the front and from a side too")
+          .add("section_y", &Config::section_y, "a section at this y, metres, or None")
+          .add("section_x", &Config::section_x, "a section at this x, metres, or None")
+          .add("diagram", &Config::diagram, "draw the skeleton")
+          .add("graph", &Config::graph, "draw the graph")
+          .add("narrow_places", &Config::narrow_places,
+               "rings where components would be one for a smaller robot")
+          .add("diagram_colour", &Config::diagram_colour,
+               "what it says: 'clearance', 'height' or 'component'")
+          .add("title", &Config::title, "'': the name of the map's file");
   return fields;
 }
 

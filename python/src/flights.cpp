@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Ridgeway authors
 //
 // Trajectories.
+#include "flights.hpp"
+
 #include "config.hpp"
 #include "faces.hpp"
 #include "plans.hpp"
@@ -60,9 +62,18 @@ void require_ok(const FlightFace& flight) {
                      "ask for its status first");
 }
 
-py::object sample(const FlightFace& flight, py::handle step) {
-  const std::vector<TrajectoryState> states =
-      flight.result.trajectory.sample(number_from(step, "step"));
+std::string repr(const FlightFace& flight) {
+  const TrajectoryResult& result = flight.result;
+  if (!result.ok()) return "Trajectory(status='" + std::string(name_of(result.status)) + "')";
+  return "Trajectory(status='ok', duration=" + literal(result.duration) +
+         ", clearance=" + literal(result.clearance) + ", max_speed=" + literal(result.peaks.speed) +
+         ", segments=" + std::to_string(result.trajectory.segments.size()) + ")";
+}
+
+}  // namespace
+
+py::object samples_of(const Trajectory& trajectory, py::handle step) {
+  const std::vector<TrajectoryState> states = trajectory.sample(number_from(step, "step"));
   std::vector<double> time, yaw, yaw_rate;
   std::vector<Point> position, velocity, acceleration;
   for (const TrajectoryState& s : states) {
@@ -81,33 +92,21 @@ py::object sample(const FlightFace& flight, py::handle step) {
           owning_array(std::move(yaw), shape), owning_array(std::move(yaw_rate), shape));
 }
 
-py::array durations(const FlightFace& flight) {
+py::array durations_of(const Trajectory& trajectory) {
   std::vector<double> seconds;
-  for (const TrajectorySegment& segment : flight.result.trajectory.segments)
-    seconds.push_back(segment.duration);
+  for (const TrajectorySegment& segment : trajectory.segments) seconds.push_back(segment.duration);
   const auto count = static_cast<py::ssize_t>(seconds.size());
   return owning_array(std::move(seconds), {count});
 }
 
-py::array coefficients(const FlightFace& flight) {
+py::array coefficients_of(const Trajectory& trajectory) {
   std::vector<double> numbers;
-  const auto& segments = flight.result.trajectory.segments;
-  for (const TrajectorySegment& segment : segments)
+  for (const TrajectorySegment& segment : trajectory.segments)
     for (int output = 0; output < kFlatOutputs; ++output)
       for (int k = 0; k < kCoefficients; ++k) numbers.push_back(segment.coefficients(output, k));
-  return owning_array(std::move(numbers),
-                      {static_cast<py::ssize_t>(segments.size()), kFlatOutputs, kCoefficients});
+  return owning_array(std::move(numbers), {static_cast<py::ssize_t>(trajectory.segments.size()),
+                                           kFlatOutputs, kCoefficients});
 }
-
-std::string repr(const FlightFace& flight) {
-  const TrajectoryResult& result = flight.result;
-  if (!result.ok()) return "Trajectory(status='" + std::string(name_of(result.status)) + "')";
-  return "Trajectory(status='ok', duration=" + literal(result.duration) +
-         ", clearance=" + literal(result.clearance) + ", max_speed=" + literal(result.peaks.speed) +
-         ", segments=" + std::to_string(result.trajectory.segments.size()) + ")";
-}
-
-}  // namespace
 
 void add_flights(py::module_& module) {
   py::class_<FlightFace>(module, "Trajectory",
@@ -148,13 +147,23 @@ void add_flights(py::module_& module) {
       .def_property_readonly(
           "step", [](const FlightFace& flight) { return std::string(name_of(flight.result.step)); },
           "How it came about: 'smooth', 'pushed', 'inserted', 'with_stops' or 'stop_and_go'.")
-      .def_property_readonly("durations", &durations, "Of the polynomial pieces, (S,), seconds.")
-      .def_property_readonly("coefficients", &coefficients,
-                             "Of the pieces, (S, 4, 10): x, y, z (metres), yaw (radians) by powers "
-                             "of t (seconds).")
-      .def("sample", &sample, py::arg("step") = 0.05,
-           "sample(self, step=0.05)\n--\n\nStates every `step` seconds, and at the end, as "
-           "TrajectorySamples.")
+      .def_property_readonly(
+          "durations",
+          [](const FlightFace& flight) { return durations_of(flight.result.trajectory); },
+          "Of the polynomial pieces, (S,), seconds.")
+      .def_property_readonly(
+          "coefficients",
+          [](const FlightFace& flight) { return coefficients_of(flight.result.trajectory); },
+          "Of the pieces, (S, 4, 10): x, y, z (metres), yaw (radians) by powers "
+          "of t (seconds).")
+      .def(
+          "sample",
+          [](const FlightFace& flight, py::handle step) {
+            return samples_of(flight.result.trajectory, step);
+          },
+          py::arg("step") = 0.05,
+          "sample(self, step=0.05)\n--\n\nStates every `step` seconds, and at the end, as "
+          "TrajectorySamples.")
       .def(
           "save",
           [](const FlightFace& flight, py::handle path, py::handle step) {

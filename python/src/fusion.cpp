@@ -5,6 +5,7 @@
 #include "config.hpp"
 #include "faces.hpp"
 #include "maps.hpp"
+#include "ridgeway/formats/graph_export.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
 #include "sensors.hpp"
@@ -98,6 +99,23 @@ void add_tsdf(py::module_& module) {
           "occupancy(self)\n--\n\n"
           "The OccupancyMap: occupied behind surfaces, free before them, unknown where never seen.")
       .def("surface", &surface, "surface(self)\n--\n\nThe zero level as triangles, a Surface.")
+      .def(
+          "save_surface",
+          [](const TsdfFace& face, py::handle path) {
+            const std::filesystem::path file = path_from(path, "path");
+            const py::gil_scoped_release release;
+            write_mesh_ply(surface_of(*face.tsdf), file);
+          },
+          py::arg("path"), "save_surface(self, path)\n--\n\nWrites that surface as a .ply mesh.")
+      .def(
+          "export_voxblox",
+          [](const TsdfFace& face, py::handle path) {
+            const std::filesystem::path file = path_from(path, "path");
+            const py::gil_scoped_release release;
+            write_voxblox(*face.tsdf, file);
+          },
+          py::arg("path"),
+          "export_voxblox(self, path)\n--\n\nWrites it as a TSDF layer of voxblox.")
       .def(
           "save",
           [](const TsdfFace& face, py::handle path, py::handle source) {

@@ -4,6 +4,7 @@
 // Roadmaps of maps that change.
 #include "config.hpp"
 #include "faces.hpp"
+#include "long_call.hpp"
 #include "maps.hpp"
 #include "ridgeway/live/graph_delta.hpp"
 #include "ridgeway/live/live_roadmap.hpp"
@@ -110,12 +111,7 @@ class LiveFace {
 
   py::object snapshot() const { return face(live_.snapshot()); }
   py::object settled() {
-    std::shared_ptr<const Roadmap> roadmap;
-    {
-      const py::gil_scoped_release release;
-      roadmap = live_.settled();
-    }
-    return face(std::move(roadmap));
+    return face(run_stage([&] { return live_.settled(); }));
   }
   MapFace map() {
     const py::gil_scoped_release release;

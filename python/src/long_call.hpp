@@ -46,8 +46,8 @@ class Watch {
   std::optional<py::error_already_set> error_;
 };
 
-/// Runs work(progress) on so many threads (0: all) without Python's lock. Ctrl-C, or `callback`
-/// (stage, share done) -> False, cancels it where the library can be cancelled.
+/// Runs work(progress), which asks often whether to go on, on so many threads (0: all) without
+/// Python's lock. Ctrl-C, or `callback` (stage, share done) -> False, cancels it.
 template <typename Work>
 auto run_long(const py::object& callback, int threads, Work&& work) {
   Watch watch(callback);
@@ -61,6 +61,15 @@ auto run_long(const py::object& callback, int threads, Work&& work) {
     watch.rethrow();
     throw;
   }
+}
+
+/// Runs work(), which knows nothing of progress and changes nothing that is kept where it does not
+/// end, without Python's lock. Ctrl-C cancels it in the middle of its loops.
+template <typename Work>
+auto run_stage(Work&& work, int threads = 0) {
+  return run_long(py::none(), threads, [&](const Progress& progress) {
+    return with_progress(progress, "", [&](const Progress&) { return work(); });
+  });
 }
 
 }  // namespace ridgeway::python

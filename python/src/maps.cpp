@@ -139,6 +139,16 @@ void add_edits(py::class_<MapFace>& type) {
       "without_isolated(self, min_cluster)\n--\n\n"
       "With clusters of fewer occupied voxels free: for noise. Removes small real obstacles too.");
   type.def(
+      "without_pockets",
+      [](const MapFace& face, py::handle min_volume) {
+        const double least = number_from(min_volume, "min_volume");
+        return edited(face, [&](const OccupancyMap& map) { return remove_pockets(map, least); });
+      },
+      py::arg("min_volume"),
+      "without_pockets(self, min_volume)\n--\n\n"
+      "With clusters of free voxels of fewer cubic metres unknown: for what stray measurements "
+      "open behind walls.");
+  type.def(
       "flattened",
       [](const MapFace& face, py::handle low, py::handle high) {
         const double from = number_from(low, "low"), to = number_from(high, "high");
@@ -171,11 +181,8 @@ MapFace face_of(OccupancyMap map, std::string source) {
 
 MapFace load_face(const std::filesystem::path& path, const LoadConfig& config) {
   LoadNotes notes;
-  MapFace face;
-  {
-    const py::gil_scoped_release release;
-    face = face_of(load_map(path, config, &notes), path.filename().string());
-  }
+  MapFace face =
+      run_stage([&] { return face_of(load_map(path, config, &notes), path.filename().string()); });
   for (const std::string& note : notes.notes)
     if (PyErr_WarnEx(PyExc_UserWarning, (path.string() + ": " + note).c_str(), 1) != 0)
       throw py::error_already_set();

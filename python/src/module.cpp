@@ -69,6 +69,7 @@ PYBIND11_MODULE(_core, module) {
   add_flights(module);
   add_fusion(module);
   add_live(module);
+  add_exploration(module);
   for (const auto& [name, value] : module.attr("__dict__").cast<pybind11::dict>())
     if (pybind11::isinstance<pybind11::type>(value)) value.attr("__module__") = "ridgeway";
 }

@@ -181,12 +181,10 @@ py::object explain(const RoadmapFace& face, py::handle start, py::handle goal, p
   read(radius, "radius", given);
   FlightLimits flight;
   read(limits, "limits", flight);
-  std::optional<BlockedRoute> blocked;
-  {
-    const py::gil_scoped_release release;
-    blocked = RouteBlocks(*face.roadmap)
-                  .between(from, to, given.value_or(face.roadmap->min_clearance), flight);
-  }
+  std::optional<BlockedRoute> blocked = run_stage([&] {
+    return RouteBlocks(*face.roadmap)
+        .between(from, to, given.value_or(face.roadmap->min_clearance), flight);
+  });
   if (!blocked) return py::none();
   return py::cast(*std::move(blocked));
 }
@@ -238,6 +236,24 @@ void add_results(py::module_& module) {
             write_plan(plan, path_from(path, "path"));
           },
           py::arg("path"), "save(self, path)\n--\n\nAs .csv or .json, as the command line does.")
+      .def(
+          "save_mission",
+          [](const PlanResult& plan, py::handle path, py::handle latitude, py::handle longitude,
+             py::handle altitude, py::handle x_heading) {
+            write_mission(plan,
+                          {.latitude = number_from(latitude, "latitude"),
+                           .longitude = number_from(longitude, "longitude"),
+                           .altitude = number_from(altitude, "altitude"),
+                           .x_heading = number_from(x_heading, "x_heading")},
+                          path_from(path, "path"));
+          },
+          py::arg("path"), py::arg("latitude"), py::arg("longitude"), py::arg("altitude") = 0.0,
+          py::arg("x_heading") = 90.0,
+          "save_mission(self, path, latitude, longitude, altitude=0.0, x_heading=90.0)\n--\n\n"
+          "As a .plan of QGroundControl: latitude and longitude of the world's zero, degrees (WGS "
+          "84), its altitude,\nmetres above the sea, and where its x axis points, degrees "
+          "clockwise "
+          "from north.")
       .def("__repr__", &repr);
 
   py::class_<Alternatives>(module, "Alternatives",

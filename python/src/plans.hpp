@@ -7,6 +7,8 @@
 namespace ridgeway::python {
 
 /// The queries of a roadmap as methods of its class.
+/// Adds pictures to Roadmap.
+void add_pictures(py::class_<RoadmapFace>& type);
 void add_queries(py::class_<RoadmapFace>& type);
 /// Likewise its trajectories.
 void add_trajectories(py::class_<RoadmapFace>& type);

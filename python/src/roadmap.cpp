@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 //
 // Roadmaps: built, saved, loaded, looked at.
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "config.hpp"
@@ -11,6 +12,7 @@
 #include "maps.hpp"
 #include "plans.hpp"
 #include "ridgeway/formats/graph_export.hpp"
+#include "ridgeway/planning/blocked_route.hpp"
 #include "ridgeway/planning/check.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
@@ -62,8 +64,7 @@ RoadmapFace build(py::handle map, const py::object& progress, py::handle threads
 
 RoadmapFace load(py::handle path) {
   const std::filesystem::path file = path_from(path, "path");
-  const py::gil_scoped_release release;
-  return {std::make_shared<const Roadmap>(load_roadmap(file))};
+  return {run_stage([&] { return std::make_shared<const Roadmap>(load_roadmap(file)); })};
 }
 
 void save(const RoadmapFace& face, py::handle path) {
@@ -102,11 +103,7 @@ py::object report_of(const RoadmapFace& face) {
 }
 
 py::list components_of(const RoadmapFace& face) {
-  ComponentReport report;
-  {
-    const py::gil_scoped_release release;
-    report = report_components(*face.roadmap);
-  }
+  const ComponentReport report = run_stage([&] { return report_components(*face.roadmap); });
   py::list parts;
   for (const Component& component : report.components) {
     py::dict part;
@@ -117,6 +114,32 @@ py::list components_of(const RoadmapFace& face) {
     parts.append(part);
   }
   return parts;
+}
+
+/// Of two components: where a smaller robot would find them one.
+py::dict dict_of(const ComponentJoin& join) {
+  py::dict dict;
+  dict["component"] = join.b;
+  dict["radius"] = join.radius;
+  dict["place"] = tuple_of(join.place);
+  dict["by"] = std::string(name_of(join.by));
+  return dict;
+}
+
+py::dict describe_point(const RoadmapFace& face, py::handle point) {
+  const Point place = point_from(point, "point");
+  const PlaceFacts facts = run_stage([&] { return describe_place(*face.roadmap, place); });
+  constexpr std::array<const char*, 3> kStates = {"unknown", "free", "occupied"};
+  py::dict dict;
+  dict["status"] = std::string(name_of(facts.status));
+  dict["state"] = kStates[static_cast<std::size_t>(facts.state)];
+  dict["clearance"] = facts.clearance;
+  const bool fits = facts.status == PlanStatus::kOk;
+  dict["component"] = fits ? py::object(py::cast(facts.component)) : py::none();
+  py::list ways;
+  for (const ComponentJoin& join : facts.ways) ways.append(dict_of(join));
+  dict["ways"] = ways;
+  return dict;
 }
 
 py::dict check(const RoadmapFace& face, py::handle queries, py::handle seed,
@@ -202,6 +225,7 @@ void add_roadmap(py::module_& module) {
   add_parts(type);
   add_queries(type);
   add_trajectories(type);
+  add_pictures(type);
   type.def("save", &save, py::arg("path"),
            "save(self, path)\n--\n\n"
            "Writes a .ridge file, whole or not at all. The same roadmap gives the same bytes.")
@@ -213,7 +237,25 @@ void add_roadmap(py::module_& module) {
             write_graph(*face.roadmap, file);
           },
           py::arg("path"),
-          "export_graph(self, path)\n--\n\nWrites the graph as .json, .graphml or .ply.")
+          "export_graph(self, path)\n--\n\n"
+          "Writes the graph as .json, .graphml, .ply, or .pb (voxblox's sparse graph).")
+      .def(
+          "export_voxblox",
+          [](const RoadmapFace& face, py::handle path) {
+            const std::filesystem::path file = path_from(path, "path");
+            const py::gil_scoped_release release;
+            write_voxblox(*face.roadmap, file);
+          },
+          py::arg("path"),
+          "export_voxblox(self, path)\n--\n\nWrites the field and the diagram as layers of "
+          "voxblox.")
+      .def(
+          "describe", &describe_point, py::arg("point"),
+          "describe(self, point)\n--\n\n"
+          "What the smallest robot finds at a place, (x, y, z), metres, world: a dict of status "
+          "('ok', or why it cannot\nbe there), state of the voxel, clearance (metres), component "
+          "(as in `components`, or None) and ways to\nother components: dicts of component, radius "
+          "(at which they would be one), place and what is there (by).")
       .def("components", &components_of,
            "components(self)\n--\n\n"
            "Connected parts of traversable space, largest first: dicts of voxels, volume (m^3), "
@@ -231,7 +273,7 @@ void add_roadmap(py::module_& module) {
   const std::string doc =
       "build(map, *, progress=None, threads=0" + build_fields().signature() +
       ", **loading)\n--\n\nThe Roadmap of an OccupancyMap, or of the file of one: then with the "
-      "keyword arguments of load_map\ntoo. Ctrl-C and `progress` cancel it between stages.\n" +
+      "keyword arguments of load_map\ntoo. Ctrl-C and `progress` cancel it anywhere.\n" +
       parameters + build_fields().docs();
   module.def("build", &build, py::arg("map"), py::kw_only(), py::arg("progress") = py::none(),
              py::arg("threads") = 0, doc.c_str());

@@ -10,6 +10,7 @@
 #include "ridgeway/formats/world_file.hpp"
 #include "ridgeway/mapping/world_map.hpp"
 #include "ridgeway/recordings/depth_sequence.hpp"
+#include "ridgeway/recordings/scan_sequence.hpp"
 
 namespace ridgeway::python {
 namespace {
@@ -66,6 +67,46 @@ py::array render(const World& world, const PinholeCamera& camera, py::handle pos
     image = render_depth(world, sensor, T_world_camera, number);
   }
   return array_of(std::move(image));
+}
+
+py::tuple scan_of(const ScanSequence& sequence, py::ssize_t i) {
+  const auto count = static_cast<py::ssize_t>(sequence.scans.size());
+  if (i < 0) i += count;
+  if (i < 0 || i >= count) throw py::index_error("there are " + std::to_string(count) + " scans");
+  const Scan& scan = sequence.scans[static_cast<std::size_t>(i)];
+  PointCloud cloud;
+  {
+    const py::gil_scoped_release release;
+    cloud = read_scan(scan);
+  }
+  return py::make_tuple(python::array_of(std::move(cloud.points)),
+                        python::array_of(scan.T_world_sensor));
+}
+
+void add_scans(py::module_& module) {
+  py::class_<ScanSequence>(
+      module, "ScanSequence",
+      "A recording of scans with poses; sequence[i] is the i-th: (points, T_world_sensor), points "
+      "(N, 3) in the\nsensor's frame.")
+      .def_readonly("layout", &ScanSequence::layout, "'scans' or 'registration'.")
+      .def_readonly("without_pose", &ScanSequence::without_pose,
+                    "Scans whose pose is not finite, passed over.")
+      .def("__len__", [](const ScanSequence& sequence) { return sequence.scans.size(); })
+      .def("__getitem__", &scan_of, py::arg("index"))
+      .def("__repr__", [](const ScanSequence& sequence) {
+        return "ScanSequence(" + std::to_string(sequence.scans.size()) + " scans, layout='" +
+               sequence.layout + "')";
+      });
+  module.def(
+      "open_scans",
+      [](py::handle folder) {
+        const std::filesystem::path path = path_from(folder, "folder");
+        const py::gil_scoped_release release;
+        return open_scans(path);
+      },
+      py::arg("folder"),
+      "open_scans(folder)\n--\n\n"
+      "A recording of lidar scans with poses (poses.txt, or a registration): a ScanSequence.");
 }
 
 void add_world(py::module_& module) {
@@ -140,7 +181,7 @@ void add_sensors(py::module_& module) {
   py::class_<DepthSequence>(
       module, "DepthSequence",
       "A recording of depth images with poses; sequence[i] is the i-th: (image, T_world_camera).")
-      .def_readonly("layout", &DepthSequence::layout, "'tum' or '7-scenes'.")
+      .def_readonly("layout", &DepthSequence::layout, "'tum', '7-scenes' or 'open3d'.")
       .def_readonly("camera", &DepthSequence::camera)
       .def_readonly("without_pose", &DepthSequence::without_pose,
                     "Images that no pose belongs to, passed over.")
@@ -159,7 +200,8 @@ void add_sensors(py::module_& module) {
       },
       py::arg("folder"),
       "open_sequence(folder)\n--\n\n"
-      "A recording in the layout of TUM RGB-D or 7-Scenes: a DepthSequence.");
+      "A recording in the layout of TUM RGB-D, 7-Scenes or Open3D: a DepthSequence.");
+  add_scans(module);
   add_world(module);
 }
 

@@ -13,11 +13,16 @@
 namespace ridgeway::python {
 namespace {
 
-/// A stage from a field to a set of its voxels, without Python's lock.
+/// A stage from a field to a set of its voxels.
 template <typename Stage>
 MaskFace mask_by(const std::shared_ptr<const EsdfMap>& esdf, const Stage& stage) {
-  const py::gil_scoped_release release;
-  return {esdf, std::make_shared<const VoxelMask>(stage())};
+  return {esdf, run_stage([&] { return std::make_shared<const VoxelMask>(stage()); })};
+}
+
+/// And to a graph.
+template <typename Stage>
+GraphFace graph_by(const std::shared_ptr<const EsdfMap>& esdf, const Stage& stage) {
+  return {esdf, run_stage([&] { return std::make_shared<const SparseGraph>(stage()); })};
 }
 
 void require_same_map(const EsdfFace& esdf, const std::shared_ptr<const EsdfMap>& other,
@@ -105,9 +110,7 @@ void add_graph_stages(py::module_& module) {
       [](const EsdfFace& esdf, const MaskFace& diagram, const py::kwargs& keywords) {
         require_same_map(esdf, diagram.esdf, "diagram");
         const GraphConfig config = graph_fields().read_all(keywords);
-        const py::gil_scoped_release release;
-        return GraphFace{esdf.esdf, std::make_shared<const SparseGraph>(
-                                        build_graph(*esdf.esdf, *diagram.mask, config))};
+        return graph_by(esdf.esdf, [&] { return build_graph(*esdf.esdf, *diagram.mask, config); });
       },
       py::arg("esdf"), py::arg("diagram"),
       ("build_graph(esdf, diagram, *, " + graph_fields().signature().substr(2) +
@@ -119,9 +122,8 @@ void add_graph_stages(py::module_& module) {
       [](const EsdfFace& esdf, const GraphFace& graph, const py::kwargs& keywords) {
         require_same_map(esdf, graph.esdf, "graph");
         const SimplifyConfig config = simplify_fields().read_all(keywords);
-        const py::gil_scoped_release release;
-        return GraphFace{esdf.esdf, std::make_shared<const SparseGraph>(
-                                        simplify_graph(*esdf.esdf, *graph.graph, config))};
+        return graph_by(esdf.esdf,
+                        [&] { return simplify_graph(*esdf.esdf, *graph.graph, config); });
       },
       py::arg("esdf"), py::arg("graph"),
       ("simplify_graph(esdf, graph, *, " + simplify_fields().signature().substr(2) +

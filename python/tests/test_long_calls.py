@@ -65,6 +65,33 @@ def test_interrupts_are_heard_within_long_calls(real_file, setup, work):
     assert time.monotonic() - began < 60
 
 
+SPACE = """
+import numpy as np, ridgeway
+rng = np.random.default_rng(1)
+states = np.where(rng.random(({side},) * 3) < 0.001, ridgeway.OCCUPIED, ridgeway.FREE)
+space = ridgeway.OccupancyMap.from_numpy(states, 0.1)
+"""
+
+
+@pytest.mark.parametrize(
+    "side, setup, work",
+    [
+        (320, "", "ridgeway.build(space, min_clearance=0.3)"),
+        (320, "", "[ridgeway.compute_esdf(space) for _ in range(100)]"),
+        (224, "esdf = ridgeway.compute_esdf(space)", "ridgeway.compute_skeleton(esdf, 0.3)"),
+    ],
+)
+def test_interrupts_are_heard_within_a_stage(side, setup, work):
+    """Each takes many seconds, in its stages, where it is left alone."""
+    script = SPACE.replace("{side}", str(side)) + setup + INTERRUPTED.replace("{work}", work)
+    process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "go\n"
+    time.sleep(0.2)
+    process.send_signal(signal.SIGINT)
+    output, _ = process.communicate(timeout=120)
+    assert output == "interrupted\n"
+
+
 def test_other_threads_run_meanwhile(real_file):
     stop, turns = threading.Event(), []
 

@@ -30,7 +30,8 @@ std::vector<Eigen::Isometry3d> forward_flight(const World& world, const LiveFlig
                             .roadmap;
   Random random(config.seed);
   const auto place = [&]() -> Point {
-    const Point share(random.uniform(), random.uniform(), random.uniform());
+    Point share;  // in an order of our own: that of arguments is the compiler's choice
+    for (const int axis : {2, 1, 0}) share[axis] = random.uniform();
     return inside.low + share.cwiseProduct(inside.high - inside.low);
   };
   std::vector<Eigen::Isometry3d> poses;

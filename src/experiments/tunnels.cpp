@@ -84,8 +84,10 @@ class Mine {
     const double radius = config_.radius * random_.uniform(2.0 / 3.0, 4.0 / 3.0);
     const double bend = 0.5 * kJitter;
     const Point a = place_of(from), b = place_of(to);
-    const Point middle =
-        0.5 * (a + b) + Point(random_.uniform(-bend, bend), random_.uniform(-bend, bend), 0.0);
+    // In an order of our own: that of arguments is the compiler's choice.
+    const double aside_y = random_.uniform(-bend, bend);
+    const double aside_x = random_.uniform(-bend, bend);
+    const Point middle = 0.5 * (a + b) + Point(aside_x, aside_y, 0.0);
     add_pieces(a, middle, radius);
     add_pieces(middle, b, radius);
     length_ += (middle - a).norm() + (b - middle).norm();

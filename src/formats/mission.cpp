@@ -123,6 +123,10 @@ std::string mission_json(const PlanResult& path, const Datum& datum) {
 
 void write_mission(const PlanResult& path, const Datum& datum, const std::filesystem::path& file) {
   if (file.extension() != ".plan") throw InputError(file.string(), "names no mission", "use .plan");
+  datum.validate();
+  if (path.waypoints.empty())
+    throw InputError("path", "has no waypoints: " + std::string(name_of(path.status)),
+                     "give a plan that is ok: a mission needs a place to fly to");
   write_text_file(file, mission_json(path, datum) + "\n");
 }
 

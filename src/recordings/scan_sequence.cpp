@@ -133,6 +133,9 @@ bool holds_scans(const fs::path& folder) {
 
 ScanSequence open_scans(const fs::path& folder) {
   const bool is_list = is_there(folder / kPoses);
+  if (!holds_scans(folder))
+    throw InputError(folder.string(), "holds no recording of scans",
+                     "give a folder with clouds and their poses in " + std::string(kPoses));
   const fs::path file = folder / (is_list ? kPoses : kRegistration);
   ScanSequence sequence = is_list ? read_poses(file) : RegistrationReader(file).read();
   require_clouds(sequence, file);

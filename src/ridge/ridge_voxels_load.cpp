@@ -155,6 +155,7 @@ void allocate_fields(Roadmap& roadmap) {
         roadmap.attach.next = VoxelField<Direction>(layout);
         roadmap.diagram.voxels = VoxelMask(layout);
       });
+  detail::stop_if_cancelled();
 }
 
 }  // namespace

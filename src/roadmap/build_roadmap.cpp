@@ -32,17 +32,19 @@ double ball_volume(double radius) {
 
 // What each stage takes of the whole configuration.
 
-GraphConfig graph_of(const BuildConfig& config) {
+GraphConfig graph_config(const BuildConfig& config) {
   return {.min_clearance = config.min_clearance,
           .prune_radius = config.prune_radius,
           .split_deviation = config.split_deviation};
 }
 
-SimplifyConfig simplification_of(const BuildConfig& config) {
+SimplifyConfig simplify_config(const BuildConfig& config) {
   return {.significance = config.significance};
 }
 
-TangentConfig corners_of(const BuildConfig& config) { return {.most_pairs = config.tangent_pairs}; }
+TangentConfig tangent_config(const BuildConfig& config) {
+  return {.most_pairs = config.tangent_pairs};
+}
 
 /// Of the stages that follow, which take so much for each of these voxels.
 void require_memory_for(const VoxelMask& voxels, int bytes_each) {
@@ -60,9 +62,9 @@ void BuildConfig::validate() const {
   require(max_distance > min_clearance, "max_distance", max_distance,
           "give a length above min_clearance, or leave it out for no limit");
   detail::ridges_of(*this).validate();
-  graph_of(*this).validate();
-  simplification_of(*this).validate();
-  corners_of(*this).validate();
+  graph_config(*this).validate();
+  simplify_config(*this).validate();
+  tangent_config(*this).validate();
 }
 
 namespace detail {
@@ -103,14 +105,15 @@ void build_on_distances(VoxelMask traversable, const BuildConfig& config, BuildR
 
   clock.begin("edges");
   // In a plane ridges are curves already.
-  VoxelMask edges = esdf.planar                ? gvd
-                    : config.basis_point_edges ? extract_basis_point_edges(esdf, gvd, ridges)
-                                               : extract_edges(esdf, gvd);
+  VoxelMask thick_edges = esdf.planar                ? gvd
+                          : config.basis_point_edges ? extract_basis_point_edges(esdf, gvd, ridges)
+                                                     : extract_edges(esdf, gvd);
   gvd = {};  // what is not needed any more makes room
-  report.edge_voxels = edges.count();
+  report.edge_voxels = thick_edges.count();
   clock.end(report.seconds.edges);
 
   clock.begin("thin");
+  VoxelMask edges = std::move(thick_edges);
   thin(esdf.layout, edges);
   clock.end(report.seconds.thin);
 
@@ -163,10 +166,9 @@ void build_on_watershed(VoxelMask traversable, VoxelMask edges, Watershed waters
   if (config.paper_diagram) diagram = std::move(edges);
   require_memory_for(diagram, kGraphBytesPerDiagramVoxel);
   const DiagramCurves curves = index_diagram(esdf, diagram, config.min_clearance, segments);
-  roadmap.graph = detail::build_graph(esdf, curves, graph_of(config), segments);
+  roadmap.graph = detail::build_graph(esdf, curves, graph_config(config), segments);
   if (config.simplify)
-    roadmap.graph =
-        detail::simplify_graph(esdf, roadmap.graph, simplification_of(config), segments);
+    roadmap.graph = detail::simplify_graph(esdf, roadmap.graph, simplify_config(config), segments);
   roadmap.tree = build_clearance_tree(esdf, roadmap.graph, basins);
   roadmap.landmarks = place_landmarks(roadmap.graph);
   report.graph_components = connected_components(roadmap.graph).count;
@@ -186,7 +188,7 @@ void build_what_is_learnt(const BuildConfig& config, BuildResult& result, StageC
   clock.begin("tangents");
   if (result.roadmap.cells.cells.empty())
     result.roadmap.cells = build_cell_graph(result.roadmap.esdf, config.min_clearance);
-  result.roadmap.tangents = build_tangent_graph(result.roadmap, corners_of(config));
+  result.roadmap.tangents = build_tangent_graph(result.roadmap, tangent_config(config));
   clock.end(report.seconds.tangents);
 
   const BuildSeconds& s = report.seconds;
@@ -196,9 +198,10 @@ void build_what_is_learnt(const BuildConfig& config, BuildResult& result, StageC
 
 }  // namespace detail
 
-BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Progress& progress) {
-  config.validate();
-  detail::require_suits(config, map.voxel_size);
+namespace {
+
+/// Every stage, one after the other.
+BuildResult build_by_stages(OccupancyMap map, const BuildConfig& config, const Progress& progress) {
   BuildResult result;
   BuildReport& report = result.report;
   Roadmap& roadmap = result.roadmap;
@@ -233,6 +236,16 @@ BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Pro
   detail::build_what_is_learnt(config, result, clock);
   if (progress && !progress("done", 1.0)) throw Cancelled();
   return result;
+}
+
+}  // namespace
+
+BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Progress& progress) {
+  config.validate();
+  detail::require_suits(config, map.voxel_size);
+  return with_progress(progress, "esdf", [&](const Progress& report) {
+    return build_by_stages(std::move(map), config, report);
+  });
 }
 
 }  // namespace ridgeway

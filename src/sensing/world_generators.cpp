@@ -206,7 +206,10 @@ void add_tanks_and_machines(const HallConfig& config, World& world, FloorPlan& p
     if (plan.find(size, centre)) world.cylinders.push_back({centre, radius, size.z()});
   }
   for (int i = 0; i < config.machines; ++i) {
-    const Vector size(random.uniform(0.8, 2.5), random.uniform(0.8, 2.0), random.uniform(0.8, 2.2));
+    Vector size;  // in an order of our own: that of arguments is the compiler's choice
+    size.z() = random.uniform(0.8, 2.2);
+    size.y() = random.uniform(0.8, 2.0);
+    size.x() = random.uniform(0.8, 2.5);
     if (plan.find(size, centre)) world.boxes.push_back({centre, size});
   }
 }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
+#include "common/parallel_sort.hpp"
 #include "level_peeling.hpp"
 #include "parallel_deletion.hpp"
 #include "ridgeway/skeleton/diagram.hpp"
@@ -23,7 +22,7 @@ std::vector<std::uint64_t> ascending_by_distance(const EsdfMap& esdf, const Voxe
   std::vector<std::uint64_t> order;
   for (const VoxelId id : voxels.members(esdf.layout))
     order.push_back(std::uint64_t{esdf.squared[id]} << 32 | id);
-  tbb::parallel_sort(order.begin(), order.end());
+  detail::parallel_sort(order.begin(), order.end());
   return order;
 }
 

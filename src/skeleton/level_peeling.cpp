@@ -2,14 +2,13 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "level_peeling.hpp"
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <array>
 #include <map>
 #include <utility>
 #include <vector>
 
+#include "common/parallel_sort.hpp"
 #include "level_gather.hpp"
 #include "parallel_deletion.hpp"
 #include "ridgeway/common/parallel.hpp"
@@ -127,7 +126,7 @@ class LevelPeeling {
         left_(esdf.layout) {
     for (const VoxelId id : queued_.members(esdf.layout))
       first_turns_.emplace_back(turn_of(esdf, id), id);
-    tbb::parallel_sort(first_turns_.begin(), first_turns_.end());
+    parallel_sort(first_turns_.begin(), first_turns_.end());
   }
 
   VoxelMask run() {

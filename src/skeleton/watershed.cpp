@@ -2,8 +2,6 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "watershed.hpp"
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -11,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "common/parallel_sort.hpp"
 #include "cube_answers.hpp"
 #include "level_gather.hpp"
 #include "ridgeway/common/parallel.hpp"
@@ -83,7 +82,7 @@ class BasinFinder {
     std::vector<std::uint32_t> order;
     for (std::uint32_t slot = 0; slot < ways_.size(); ++slot)
       if (ways_[slot].top > 0) order.push_back(slot);
-    tbb::parallel_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    parallel_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
       return std::pair(ways_[b].top, a) < std::pair(ways_[a].top, b);
     });
     parallel_for_each_index(

@@ -193,6 +193,9 @@ TEST_F(CliSimulate, FuseTakesScansByWhatTheFolderHolds) {
   std::filesystem::create_directory(folder_ / "nothing");
   expect_refused({"fuse", path("nothing"), "-o", path("no.ridge")},
                  {"holds no recording", "depth.txt", "frame-*.depth.png", "poses.txt"});
+  write_whole(folder_ / "nothing/pose.txt", "0 0 0 0 0 0 1\n");
+  expect_refused({"fuse", path("nothing"), "-o", path("no.ridge")},
+                 {"pose.txt", "name no images", "trajectory.log"});
 }
 
 TEST_F(CliSimulate, BadInputLeavesNothing) {

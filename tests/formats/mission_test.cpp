@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -104,6 +105,9 @@ TEST(Mission, ABadDatumOrNameIsRefused) {
         << bad.second;
   EXPECT_NE(refusal([&] { write_mission({}, {}, folder / "a.csv"); }).find(".plan"),
             std::string::npos);
+  EXPECT_NE(refusal([&] { write_mission({}, {}, folder / "a.plan"); }).find("no_route"),
+            std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.plan"));
 }
 
 }  // namespace

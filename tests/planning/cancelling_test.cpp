@@ -15,7 +15,7 @@ TEST(Cancelling, StopsBuildsAndChecksAtEveryStage) {
   const auto building = [&](const Progress& progress) {
     build_roadmap(map, {.min_clearance = 0.2}, progress);
   };
-  EXPECT_EQ(testing::places_to_stop(building), 9);  // before each of eight stages, and at the end
+  EXPECT_EQ(testing::stages_to_stop(building), 9);  // before each of eight stages, and at the end
   const Roadmap roadmap = build_roadmap(map, {.min_clearance = 0.2}).roadmap;
   const auto checking = [&](const Progress& progress) {
     check_roadmap(roadmap, {.queries = 200}, progress);

@@ -66,6 +66,7 @@ class ScanFolder : public ::testing::Test {
 
 TEST_F(ScanFolder, CloudsOfAllFormatsComeWithTheirPoses) {
   EXPECT_FALSE(holds_scans(folder_.path()));
+  expect_in(refused(), {"holds no recording of scans", "poses.txt"});
   write_whole(folder_ / "poses.txt",
               "\xef\xbb\xbf# cloud tx ty tz qx qy qz qw\r\n"
               "c.ply 1 2 3 0 0 0.6 0.8 # turned\r\n\r\n"

@@ -7,7 +7,9 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <string>
 
+#include "common/random.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "support/random_maps.hpp"
@@ -57,6 +59,32 @@ TEST(BuildRoadmap, RefusesAMapAtTheEndOfTheWorldAndAPolicyThatIsNone) {
     EXPECT_THROW(build_at(block), InputError);
   EXPECT_THROW(build_roadmap(testing::random_map(1), {.unknown = static_cast<UnknownPolicy>(3)}),
                InputError);
+}
+
+/// Asked again within a stage, the answer counts: stages of large maps take seconds.
+TEST(BuildRoadmap, CanBeCancelledWithinAStageAndBuiltAgain) {
+  Random random(5);
+  const OccupancyMap map =
+      testing::make_map(0.1, {0, 0, 0}, {127, 127, 47}, [&](const VoxelIndex&) {
+        return random.uniform() < 0.002 ? VoxelState::kOccupied : VoxelState::kFree;
+      });
+  std::string last;
+  bool is_within = false;
+  const Progress stop_within = [&](std::string_view stage, double) {
+    is_within = stage == last;
+    last = stage;
+    return !is_within;
+  };
+  EXPECT_THROW(build_roadmap(map, {.min_clearance = 0.3}, stop_within), Cancelled);
+  EXPECT_TRUE(is_within);
+  EXPECT_NE(last, "done");
+
+  const BuildConfig config = {.min_clearance = 0.3, .tangent_pairs = 0};
+  const Progress watch = [](std::string_view, double) { return true; };
+  const Roadmap watched = build_roadmap(map, config, watch).roadmap;
+  const Roadmap plain = build_roadmap(map, config).roadmap;
+  EXPECT_EQ(watched.diagram.voxels, plain.diagram.voxels);
+  EXPECT_EQ(watched.graph.edges.size(), plain.graph.edges.size());
 }
 
 }  // namespace

@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/progress.hpp"
 
@@ -32,6 +36,27 @@ int places_to_stop(const Stage& stage) {
   });
   for (int stop = 0; stop < places; ++stop) expect_cancelled_at(stop, stage);
   return places;
+}
+
+/// Stops a stage that is made of others at the beginning of each of them; returns how many there
+/// are. It may be asked within them, too, as often as time allows.
+template <typename Stage>
+int stages_to_stop(const Stage& stage) {
+  std::vector<std::string> names;
+  stage([&](std::string_view name, double) {
+    if (names.empty() || names.back() != name) names.emplace_back(name);
+    return true;
+  });
+  for (const std::string& stop : names) {
+    bool is_stopped = false;
+    const Progress until_stop = [&](std::string_view name, double) {
+      EXPECT_FALSE(is_stopped) << "asked again at " << name;
+      is_stopped = name == stop;
+      return !is_stopped;
+    };
+    EXPECT_THROW(stage(until_stop), Cancelled) << stop;
+  }
+  return static_cast<int>(names.size());
 }
 
 }  // namespace ridgeway::testing

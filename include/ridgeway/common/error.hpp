@@ -25,8 +25,11 @@ class InputError : public std::runtime_error {
     return {whole + " " + where_, problem_, remedy_};
   }
 
+  /// The file, field or value that is bad.
   const std::string& where() const noexcept { return where_; }
+  /// What is wrong with it.
   const std::string& problem() const noexcept { return problem_; }
+  /// What the caller can do about it.
   const std::string& remedy() const noexcept { return remedy_; }
 
  private:

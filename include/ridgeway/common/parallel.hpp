@@ -6,10 +6,18 @@
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <type_traits>
 #include <utility>
+
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/common/progress.hpp"
 
 #if defined(__SANITIZE_THREAD__)  // gcc
 #define RIDGEWAY_THREAD_SANITIZER
@@ -45,12 +53,23 @@ class ForkJoin {
 #endif
 };
 
+/// Throws Cancelled where what this is part of was cancelled: its loops end early then, and leave
+/// undone what they were to do.
+inline void stop_if_cancelled() {
+  if (tbb::is_current_task_group_canceling()) throw Cancelled();
+}
+
+/// What with_progress does.
+void run_with_progress(const Progress& progress, std::string_view stage,
+                       const std::function<void(const Progress& report)>& work);
+
 }  // namespace ridgeway::detail
 
 namespace ridgeway {
 
 /// Runs `body(i)` for every i in [0, count), in parallel and in any order. The result must not
-/// depend on the order: each call writes only what belongs to its own i.
+/// depend on the order: each call writes only what belongs to its own i. Throws Cancelled where it
+/// is part of something that was cancelled (with_progress, a task group of the caller's).
 template <typename Body>
 void parallel_for_each_index(std::size_t count, const Body& body, std::size_t grain = 1) {
   detail::ForkJoin order;
@@ -61,6 +80,7 @@ void parallel_for_each_index(std::size_t count, const Body& body, std::size_t gr
                       order.leave();
                     });
   order.join();
+  detail::stop_if_cancelled();
 }
 
 /// Runs `work()` with at most `threads` threads (0, or more than it has: all of the machine's) and
@@ -70,6 +90,26 @@ auto with_threads(int threads, Work&& work) {
   const int most = tbb::info::default_concurrency();
   tbb::task_arena arena(threads > 0 ? std::min(threads, most) : tbb::task_arena::automatic);
   return arena.execute(std::forward<Work>(work));
+}
+
+/// Makes work that takes long one that can be cancelled anywhere: runs `work(report)` on a thread
+/// of its own, with as many threads as the caller may have, and asks `progress`, in the calling
+/// thread, twenty times a second and whenever the work does by `report` (a Progress, too). `stage`
+/// is what it is asked for before the work has named one. Once it says no, the library's loops end
+/// early and Cancelled is thrown, in the work and from here; what the work was changing is of no
+/// use then. Returns the work's result, throws what the work or `progress` throws. Without
+/// `progress` it is a plain call.
+template <typename Work>
+auto with_progress(const Progress& progress, std::string_view stage, Work&& work) {
+  using Result = std::invoke_result_t<Work&, const Progress&>;
+  if constexpr (std::is_void_v<Result>) {
+    detail::run_with_progress(progress, stage, [&](const Progress& report) { work(report); });
+  } else {
+    std::optional<Result> result;
+    detail::run_with_progress(progress, stage,
+                              [&](const Progress& report) { result.emplace(work(report)); });
+    return Result(std::move(*result));
+  }
 }
 
 }  // namespace ridgeway

@@ -40,9 +40,10 @@ void validate_policy(UnknownPolicy policy);
 
 /// Offset from a voxel to its nearest site, voxels.
 struct SiteOffset {
-  std::int16_t x = 0;
-  std::int16_t y = 0;
-  std::int16_t z = 0;
+  std::int16_t x = 0;  ///< along x
+  std::int16_t y = 0;  ///< along y
+  std::int16_t z = 0;  ///< along z
+  /// Equal in every field.
   friend constexpr bool operator==(const SiteOffset&, const SiteOffset&) = default;
 };
 
@@ -50,9 +51,10 @@ struct SiteOffset {
 /// number from a voxel's centre to a closed cube. Larger is farther; numbers of other units neither
 /// compare with it nor turn into it unasked.
 struct SquaredHalves {
-  double value = 0.0;
+  double value = 0.0;  ///< squared half voxels
 
   constexpr SquaredHalves() = default;
+  /// Of a number in that unit.
   constexpr explicit SquaredHalves(double squared_halves) : value(squared_halves) {}
   /// Of a number that the field holds.
   template <std::same_as<std::uint32_t> OfField>
@@ -62,6 +64,7 @@ struct SquaredHalves {
   /// The distance itself, metres.
   double metres(double voxel_size) const { return 0.5 * voxel_size * std::sqrt(value); }
 
+  /// By the number.
   friend constexpr auto operator<=>(const SquaredHalves&, const SquaredHalves&) = default;
 };
 
@@ -71,6 +74,7 @@ constexpr std::uint32_t squared_halves(int k) {
   const int twice = 2 * (k < 0 ? -k : k) - (k != 0);  // no branch: zero is hard to foresee
   return static_cast<std::uint32_t>(twice) * static_cast<std::uint32_t>(twice);
 }
+/// The sum over the axes, to the cube at an offset from a voxel.
 constexpr std::uint32_t squared_halves(const SiteOffset& o) {
   return squared_halves(o.x) + squared_halves(o.y) + squared_halves(o.z);
 }
@@ -81,14 +85,17 @@ constexpr std::uint32_t squared_halves(const SiteOffset& o) {
 /// `keep_out`. A voxel is within where its centre is in `keep_in` and no part of it is in a box of
 /// `keep_out`: so all moves between such voxels are within, too.
 struct FlightLimits {
+  /// The box that flights stay in; infinite: everywhere
   Box keep_in = {Point::Constant(-std::numeric_limits<double>::infinity()),
                  Point::Constant(std::numeric_limits<double>::infinity())};
-  std::vector<Box> keep_out;
+  std::vector<Box> keep_out;  ///< boxes that they stay out of
 
   bool any() const;  ///< whether there is one at all
+  /// Whether a place is within.
   bool allow(const Point& p) const { return allow(p, p); }
   bool allow(const Point& a, const Point& b) const;  ///< all of a segment
   bool allow(std::span<const Point> path) const;     ///< all of a path of straight segments
+  /// Whether a voxel of a size, counted in the frame of the limits, is within.
   bool allow_voxel(const VoxelIndex& voxel, double voxel_size) const;
   /// Whether a segment stays in `keep_in`, and at least `margin` metres away from every box of
   /// `keep_out` along some axis.
@@ -103,7 +110,7 @@ struct FlightLimits {
   /// corners are swapped; `keep_in` that holds nothing; a box of `keep_out` without volume.
   void validate() const;
 
-  friend bool operator==(const FlightLimits& a, const FlightLimits& b);
+  friend bool operator==(const FlightLimits& a, const FlightLimits& b);  ///< Equal in every field.
 };
 
 /// Limits that hold where both do.
@@ -131,20 +138,21 @@ inline constexpr std::uint32_t kNoSite = 0xffffffffu;
 struct EsdfMap {
   double voxel_size = 0.0;  ///< metres
   VoxelIndex origin = {};   ///< the lattice's voxel that is the map's own (0, 0, 0); to_world()
-  UnknownPolicy unknown = UnknownPolicy::kObstacle;
+  UnknownPolicy unknown = UnknownPolicy::kObstacle;  ///< what unknown space was taken for
   double max_distance = std::numeric_limits<double>::infinity();  ///< metres
   FlightLimits limits;  ///< of every flight on this map, in its local frame
   /// Of a planar map: distances count along x and y alone, and flights stay at the centre of the
   /// layer kPlanarLayer.
   bool planar = false;
-  BlockLayout layout;
-  VoxelField<VoxelState> state;
+  BlockLayout layout;                 ///< of the map's own voxels
+  VoxelField<VoxelState> state;       ///< what the map knows of each
   VoxelField<std::uint32_t> squared;  ///< to the site, squared half voxels (SquaredHalves)
-  VoxelField<SiteOffset> site;
-  VoxelMask obstacle;
+  VoxelField<SiteOffset> site;        ///< from each to its nearest obstacle
+  VoxelMask obstacle;                 ///< those that are obstacles
 
   /// Whether the robot's centre may be in a voxel, kNoVoxel among them.
   bool is_open(VoxelId id) const { return id != kNoVoxel && ridgeway::is_open(state[id], unknown); }
+  /// Whether a voxel is an obstacle, kNoVoxel being unknown.
   bool is_obstacle(VoxelId id) const {
     return id == kNoVoxel ? ridgeway::is_obstacle(VoxelState::kUnknown, unknown)
                           : obstacle.test(id);
@@ -165,7 +173,7 @@ inline SquaredHalves least_clearance(double radius, double voxel_size) {
 
 /// What distances are measured to, and how far.
 struct EsdfConfig {
-  UnknownPolicy unknown = UnknownPolicy::kObstacle;
+  UnknownPolicy unknown = UnknownPolicy::kObstacle;  ///< what unknown space is to the robot
   double max_distance = std::numeric_limits<double>::infinity();  ///< metres
   FlightLimits limits = {};  ///< world frame; they change no distance
 

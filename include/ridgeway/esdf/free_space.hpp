@@ -40,9 +40,11 @@ class FreeSpace {
   FreeSpace(const EsdfMap& esdf, const FlightLimits& limits, double radius, double height)
       : esdf_(esdf), limits_(limits.any() ? &limits : nullptr), radius_(radius), height_(height) {}
 
+  /// The distances that it looks at.
   const EsdfMap& map() const { return esdf_; }
 
   const FlightLimits* limits() const { return limits_; }  ///< null where there are none
+  /// Whether the robot is one; otherwise an upright cylinder.
   bool is_for_sphere() const { return height_ == 0.0; }
   /// Whether the robot is no sphere, or limits are not those of the map, for which its roadmap was
   /// made.
@@ -55,6 +57,7 @@ class FreeSpace {
   double inner_radius(double radius) const {
     return is_for_sphere() ? radius : std::min(radius, half_height(radius));
   }
+  /// See inner_radius; metres.
   double outer_radius(double radius) const {
     return is_for_sphere() ? radius : std::hypot(radius, half_height(radius));
   }
@@ -62,6 +65,7 @@ class FreeSpace {
   bool is_within_limits(const Point& a, const Point& b) const {
     return limits_ == nullptr || limits_->allow(a, b);
   }
+  /// The same of a path of straight segments.
   bool is_within_limits(std::span<const Point> path) const {
     return limits_ == nullptr || limits_->allow(path);
   }

@@ -15,7 +15,7 @@ struct PathSurroundings {
   /// Smallest distance along the path to an occupied voxel, and to one that is unknown, allocated
   /// or not, metres; exact. Infinite where there is none, or no path.
   double known = std::numeric_limits<double>::infinity();
-  double unknown = std::numeric_limits<double>::infinity();
+  double unknown = std::numeric_limits<double>::infinity();  ///< see `known`
   /// Share of the path's length that is nearer to unknown space than the radius asked for: that of
   /// some radius within a sixteenth of a voxel of it, and none at all where all keeps the radius.
   double unknown_share = 0.0;
@@ -29,7 +29,7 @@ struct PathSurroundings {
 /// Thread-safe.
 class Surroundings {
  public:
-  explicit Surroundings(const EsdfMap& esdf);
+  explicit Surroundings(const EsdfMap& esdf);  ///< Looks through all states of the map.
 
   /// `path`: points joined by straight segments, metres, world frame. `radius`: metres, above 0.
   PathSurroundings along(std::span<const Point> path, double radius) const;

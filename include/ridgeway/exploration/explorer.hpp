@@ -26,6 +26,7 @@ struct FieldOfView {
   double nearest = 0.0;                        ///< metres; what is nearer is not seen
   double range = 7.0;                          ///< metres; what is farther is not counted on
 
+  /// Whether `horizontal` is the whole turn.
   bool is_all_around() const { return horizontal > 6.28; }
 
   /// Throws InputError naming the bad field.
@@ -49,16 +50,16 @@ enum class ExplorationStrategy : std::uint8_t {
 
 /// The robot, its sensor, and when a look is worth its way.
 struct ExplorerConfig {
-  MotionLimits limits = {.max_speed = 2.0, .max_acceleration = 2.0};
-  FieldOfView view;
+  MotionLimits limits = {.max_speed = 2.0, .max_acceleration = 2.0};  ///< of the robot
+  FieldOfView view;  ///< of its sensor, which looks level along the yaw
   /// Voxels of the lattice that are to be explored.
   VoxelRange within = kAllVoxels;
   /// Voxels of a frontier that is worth a look: a smaller one, with all that it is joined to, is
   /// left alone.
   std::size_t least_frontier = 10;
-  double spacing = 0.8;  ///< metres between viewpoints, about
-  int headings = 16;     ///< directions that are tried at each
-  ExplorationStrategy strategy = ExplorationStrategy::kTour;
+  double spacing = 0.8;                                       ///< metres between viewpoints, about
+  int headings = 16;                                          ///< directions that are tried at each
+  ExplorationStrategy strategy = ExplorationStrategy::kTour;  ///< how the next viewpoint is chosen
   /// Seconds by which another tour must be shorter for the goal to be given up: what keeps the
   /// robot from turning back and forth between tours that are as good.
   double persistence = 1.5;
@@ -83,11 +84,11 @@ struct ExplorerConfig {
 
 /// How the robot moves now. Metres, seconds, radians, world frame.
 struct FlightState {
-  double time = 0.0;
-  Point position = Point::Zero();
-  Point velocity = Point::Zero();
-  Point acceleration = Point::Zero();
-  double yaw = 0.0;
+  double time = 0.0;                   ///< seconds, of any clock that runs forwards
+  Point position = Point::Zero();      ///< metres, world
+  Point velocity = Point::Zero();      ///< m/s
+  Point acceleration = Point::Zero();  ///< m/s^2
+  double yaw = 0.0;                    ///< radians
 };
 
 /// What the robot is to do now.
@@ -104,15 +105,20 @@ std::string_view name_of(ExplorationStatus status);
 
 /// Processor time of the thread that asked.
 struct ExplorationSeconds {
-  double frontiers = 0.0, views = 0.0, tour = 0.0, trajectory = 0.0, total = 0.0;
+  double frontiers = 0.0;   ///< to follow what has changed
+  double views = 0.0;       ///< to see what can be seen from where
+  double tour = 0.0;        ///< to order the viewpoints
+  double trajectory = 0.0;  ///< to plan and verify the flight
+  double total = 0.0;       ///< all of these, and what lies between
 };
 
 /// What to do next, and what that is based on.
 struct ExplorationStep {
-  ExplorationStatus status = ExplorationStatus::kKeep;
+  ExplorationStatus status = ExplorationStatus::kKeep;  ///< what the robot is to do
   /// Verified in known-free space, ends at rest; with yaw at a limited rate. Starts with the state
   /// that was given, at time 0. Empty unless kFly or kReturn.
   Trajectory trajectory;
+  /// Where the next look is taken; none on the way home and at the end
   std::optional<Viewpoint> goal;
   std::vector<Viewpoint> tour;      ///< the stops that follow now, the goal first
   double tour_seconds = 0.0;        ///< estimate
@@ -120,7 +126,7 @@ struct ExplorationStep {
   bool is_braking = false;          ///< the trajectory does no more than stop the robot
   std::size_t frontiers = 0;        ///< clusters of the least size or more
   std::size_t frontier_voxels = 0;  ///< in them
-  ExplorationSeconds seconds;
+  ExplorationSeconds seconds;       ///< what this decision took
 };
 
 /// Why a frontier stays as it is.
@@ -134,12 +140,12 @@ std::string_view name_of(UnseenReason reason);
 
 /// What exploration leaves unseen, and why.
 struct UnseenFrontier {
-  Point centroid = Point::Zero();  ///< world
-  std::size_t voxels = 0;
-  UnseenReason reason = UnseenReason::kOutOfView;
+  Point centroid = Point::Zero();                  ///< world
+  std::size_t voxels = 0;                          ///< free ones of the frontier
+  UnseenReason reason = UnseenReason::kOutOfView;  ///< why it was left
   /// Of kTooNarrow: where the widest way there is narrowest, and the radius that would fit.
   std::optional<Point> door = std::nullopt;
-  double door_radius = 0.0;
+  double door_radius = 0.0;  ///< metres; 0 where it is for another reason
 };
 
 /// Decides where a robot with a level depth sensor flies to map what it has not seen: from a
@@ -157,9 +163,10 @@ struct UnseenFrontier {
 /// at least the least size, but for targets that were looked at in vain.
 class Explorer {
  public:
-  explicit Explorer(const ExplorerConfig& config);
+  explicit Explorer(const ExplorerConfig& config);  ///< Throws InputError naming the bad field.
   ~Explorer();
-  Explorer(Explorer&&) noexcept;
+  Explorer(Explorer&&) noexcept;  ///< The one moved from can only be assigned to or destroyed.
+  /// The one moved from can only be assigned to or destroyed.
   Explorer& operator=(Explorer&&) noexcept;
 
   /// What to do now; to be asked after every scan. `now`: of unknown space as an obstacle; the
@@ -173,7 +180,7 @@ class Explorer {
   /// the whole map.
   std::vector<UnseenFrontier> unseen() const;
 
-  const Frontiers& frontiers() const;
+  const Frontiers& frontiers() const;  ///< The frontiers of the map that was last decided on.
 
  private:
   struct State;

@@ -16,7 +16,7 @@ namespace ridgeway {
 /// A connected piece (over 26 neighbours) of the frontier in one block: free voxels with an unknown
 /// one across a face. Voxels are the map's own.
 struct FrontierPart {
-  BlockIndex block;
+  BlockIndex block;                 ///< of the map's own, which holds all of it
   VoxelIndex first;                 ///< the first of the free ones, which no other part has
   std::size_t voxels = 0;           ///< free ones
   std::vector<VoxelIndex> targets;  ///< unknown voxels across their faces, in (z, y, x) order
@@ -27,6 +27,7 @@ struct FrontierPart {
   std::size_t cluster = 0;    ///< the connected piece of the whole frontier that this is a part of
   std::uint64_t version = 0;  ///< the update of the frontier in which it was made
 
+  /// Equal in every field.
   friend bool operator==(const FrontierPart&, const FrontierPart&) = default;
 };
 
@@ -61,6 +62,7 @@ class Frontiers {
   std::size_t voxels() const;
   /// The blocks that had another state than before, in the last update.
   std::span<const BlockIndex> changed_blocks() const { return changed_; }
+  /// How many updates there have been.
   std::uint64_t version() const { return version_; }
   /// How many unknown voxels are ignored.
   std::size_t ignored() const { return ignored_count_; }

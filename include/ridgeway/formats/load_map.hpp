@@ -44,7 +44,7 @@ struct LoadConfig {
 
 /// What a person should be told about a map that was loaded all the same.
 struct LoadNotes {
-  std::vector<std::string> notes;
+  std::vector<std::string> notes;  ///< a sentence each, in the order in which they came up
 };
 
 /// Reads OctoMap .bt and .ot, point clouds .pcd, .ply and .xyz, meshes .dae, .glb, .obj, .stl and

@@ -33,8 +33,9 @@ std::vector<Point> read_path(const std::filesystem::path& path);
 
 /// Where the world's frame lies on the Earth.
 struct Datum {
-  double latitude = 0.0, longitude = 0.0;  ///< of the origin, degrees, WGS 84
-  double altitude = 0.0;                   ///< of z = 0, metres above mean sea level
+  double latitude = 0.0;    ///< of the origin, degrees, WGS 84
+  double longitude = 0.0;   ///< of the origin, degrees, WGS 84
+  double altitude = 0.0;    ///< of z = 0, metres above mean sea level
   double x_heading = 90.0;  ///< of the x axis, degrees clockwise from north; 90: x east, y north
 
   /// Throws InputError for an angle out of range, and for what is not finite.
@@ -43,7 +44,9 @@ struct Datum {
 
 /// Degrees (WGS 84), and metres above mean sea level.
 struct GeoPoint {
-  double latitude = 0.0, longitude = 0.0, altitude = 0.0;
+  double latitude = 0.0;   ///< degrees, north
+  double longitude = 0.0;  ///< degrees, east
+  double altitude = 0.0;   ///< metres above mean sea level
 };
 
 /// Where a point of the world is on the Earth. The world's plane z = 0 touches the ellipsoid at the
@@ -56,7 +59,7 @@ GeoPoint geodetic(const Point& point, const Datum& datum);
 std::string mission_json(const PlanResult& path, const Datum& datum);
 
 /// Writes a mission to a .plan file, whole or not at all. Throws InputError for another extension,
-/// a bad datum, and where the file cannot be written.
+/// a bad datum, a plan without a path, and where the file cannot be written.
 void write_mission(const PlanResult& path, const Datum& datum, const std::filesystem::path& file);
 
 /// Throws InputError where a file's extension is neither .csv nor .json nor .yaml.

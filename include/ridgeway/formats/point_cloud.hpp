@@ -18,6 +18,7 @@ struct PointCloud {
   std::size_t skipped = 0;    ///< points left out because a coordinate is NaN or infinite
   std::size_t faces = 0;      ///< of the file: the points are the vertices of a mesh
 
+  /// Takes a point, or counts it as skipped where a coordinate is not finite.
   void add(double x, double y, double z) {
     if (std::isfinite(x) && std::isfinite(y) && std::isfinite(z))
       points.emplace_back(x, y, z);
@@ -31,6 +32,7 @@ struct CloudMapConfig {
   double voxel_size = 0.0;  ///< metres, required
   Box bounds;               ///< where the space is known, map frame, required
   int margin = 0;  ///< obstacles are also kept this many voxels beyond the bounds, for filters
+  /// From the cloud's frame to the map's, metres
   Eigen::Isometry3d T_map_cloud = Eigen::Isometry3d::Identity();
 };
 

@@ -13,20 +13,25 @@ namespace ridgeway {
 /// An edge of the graph by the voxels of the lattice that its ends stand on, `from` before `to` in
 /// (z, y, x) order. No two edges of a graph have the same.
 struct EdgeName {
-  VoxelIndex from, to;
+  VoxelIndex from;  ///< the lesser end
+  VoxelIndex to;    ///< the greater end
+  /// By `from`, then by `to`.
   friend constexpr auto operator<=>(const EdgeName&, const EdgeName&) = default;
 };
 
 /// What is different between two snapshots of a map. Vertices are named by their voxel of the
 /// lattice, as their numbers are another in every snapshot. All lists ascend.
 struct GraphDelta {
-  std::vector<VoxelIndex> came_vertices, gone_vertices;
+  std::vector<VoxelIndex> came_vertices;     ///< were not there before
+  std::vector<VoxelIndex> gone_vertices;     ///< are not there any more
   std::vector<VoxelIndex> changed_vertices;  ///< have another clearance
-  std::vector<EdgeName> came_edges, gone_edges;
-  std::vector<EdgeName> changed_edges;  ///< have another clearance
-  std::vector<VoxelIndex> closed;       ///< voxels of the lattice that are free no longer
-  double voxel_size = 0.0;              ///< metres
+  std::vector<EdgeName> came_edges;          ///< were not there before
+  std::vector<EdgeName> gone_edges;          ///< are not there any more
+  std::vector<EdgeName> changed_edges;       ///< have another clearance
+  std::vector<VoxelIndex> closed;            ///< voxels of the lattice that are free no longer
+  double voxel_size = 0.0;                   ///< metres
 
+  /// Whether nothing is different.
   bool is_empty() const {
     return came_vertices.empty() && gone_vertices.empty() && changed_vertices.empty() &&
            came_edges.empty() && gone_edges.empty() && changed_edges.empty() && closed.empty();

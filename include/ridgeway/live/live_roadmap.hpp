@@ -19,7 +19,7 @@ namespace ridgeway {
 /// How scans are fused, and how roadmaps are built of them.
 struct LiveConfig {
   FusionConfig fusion = {};  ///< its voxel size is the map's
-  BuildConfig build = {};
+  BuildConfig build = {};    ///< as build_roadmap takes it
   /// The lattice's voxel that is the map's own (0, 0, 0). Left out: the voxel that holds the sensor
   /// at the first pose, or, where voxels are set before that, the lattice's zero.
   std::optional<VoxelIndex> origin = {};
@@ -39,8 +39,8 @@ struct LiveConfig {
 
 /// Where the sensor was at a frame, counted from 1, as it is known now (sensor to world).
 struct PoseCorrection {
-  std::uint64_t frame = 0;
-  Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity();
+  std::uint64_t frame = 0;                                           ///< counted from 1
+  Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity();  ///< sensor to world, metres
 };
 
 /// What an update did, and how long that took.
@@ -74,9 +74,12 @@ struct UpdateReport {
 /// frame, counted from 1, or the change, counted from 0.
 class LiveRoadmap {
  public:
+  /// Throws InputError naming the bad field, or a log folder that cannot be used.
   explicit LiveRoadmap(const LiveConfig& config = {});
   ~LiveRoadmap();
+  /// The one moved from can only be assigned to or destroyed.
   LiveRoadmap(LiveRoadmap&&) noexcept;
+  /// The one moved from can only be assigned to or destroyed.
   LiveRoadmap& operator=(LiveRoadmap&&) noexcept;
 
   /// Fuses a depth image of a camera with a pose (camera to world), as TsdfFusion does.

@@ -49,7 +49,7 @@ struct LatticeTransform {
   std::array<bool, 3> flipped = {};            ///< ... reversed, where set, ...
   std::array<int, 3> shift = {};               ///< ... and moved by this many voxels
 
-  VoxelRange operator()(const VoxelRange& source) const;
+  VoxelRange operator()(const VoxelRange& source) const;  ///< Where it takes the voxels of a range.
 };
 
 /// Throws InputError naming `transform` unless it is a rotation and a finite translation.

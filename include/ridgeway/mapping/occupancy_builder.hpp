@@ -31,8 +31,10 @@ class OccupancyBuilder {
 
   /// Throws InputError unless validate_voxel_size(voxel_size) passes.
   explicit OccupancyBuilder(double voxel_size) : OccupancyBuilder(voxel_size, Config{}) {}
+  /// The same with a configuration of its own.
   OccupancyBuilder(double voxel_size, Config config);
 
+  /// Voxels of the lattice that are taken.
   const VoxelRange& clip() const { return config_.clip; }
 
   /// Raises a voxel to a state. Throws InputError where memory would not do, or where a voxel that

@@ -16,8 +16,8 @@ enum class VoxelState : std::uint8_t { kUnknown = 0, kFree = 1, kOccupied = 2 };
 
 /// An axis-aligned box, metres, world frame, min <= max in every axis.
 struct Box {
-  Point min = Point::Zero();
-  Point max = Point::Zero();
+  Point min = Point::Zero();  ///< low corner
+  Point max = Point::Zero();  ///< high corner
 };
 
 /// Voxel states on sparse blocks. Voxels of blocks that are not allocated are unknown.
@@ -27,10 +27,10 @@ struct Box {
 /// of each axis (normalised, mapping/occupancy_builder.hpp): then a map that is moved by whole
 /// voxels is the same but for its origin, and so is all that is made of it.
 struct OccupancyMap {
-  double voxel_size = 0.0;  ///< metres
-  VoxelIndex origin = {};   ///< the lattice's voxel that is the map's own (0, 0, 0)
-  BlockLayout layout;       ///< of the map's own voxels
-  VoxelField<VoxelState> state;
+  double voxel_size = 0.0;       ///< metres
+  VoxelIndex origin = {};        ///< the lattice's voxel that is the map's own (0, 0, 0)
+  BlockLayout layout;            ///< of the map's own voxels
+  VoxelField<VoxelState> state;  ///< of each voxel of the layout
   /// Of a robot that stays in a plane (flatten): all known voxels are in the blocks with z = 0,
   /// whose eight layers are the same. They stand for one.
   bool planar = false;
@@ -44,31 +44,36 @@ struct OccupancyMap {
 
 /// A voxel of the lattice, and the state that it now has.
 struct VoxelChange {
-  VoxelIndex voxel;
-  VoxelState state = VoxelState::kUnknown;
+  VoxelIndex voxel;                         ///< of the lattice
+  VoxelState state = VoxelState::kUnknown;  ///< that it now has
 
+  /// Equal in every field.
   friend bool operator==(const VoxelChange&, const VoxelChange&) = default;
 };
 
 /// How many voxels are in each state; `unknown` counts allocated blocks only.
 struct VoxelCounts {
-  std::size_t free = 0;
-  std::size_t occupied = 0;
-  std::size_t unknown = 0;
+  std::size_t free = 0;      ///< free voxels
+  std::size_t occupied = 0;  ///< occupied voxels
+  std::size_t unknown = 0;   ///< unknown voxels of allocated blocks
+  /// Free and occupied ones together.
   std::size_t known() const { return free + occupied; }
 };
-VoxelCounts count_voxels(const OccupancyMap& map);
+VoxelCounts count_voxels(const OccupancyMap& map);  ///< Looks at every state.
 
 /// Box around all known voxels, in the world, or nothing where none is known.
 std::optional<Box> known_bounds(const OccupancyMap& map);
 
 /// Voxels min .. max, both included; empty where max < min in some axis.
 struct VoxelRange {
-  VoxelIndex min;
-  VoxelIndex max;
+  VoxelIndex min;  ///< the first voxel, along each axis
+  VoxelIndex max;  ///< the last one
 
+  /// Equal in every field.
   friend bool operator==(const VoxelRange&, const VoxelRange&) = default;
+  /// Whether it holds no voxel.
   bool empty() const { return max.x < min.x || max.y < min.y || max.z < min.z; }
+  /// Whether a voxel is one of them.
   bool contains(const VoxelIndex& v) const {
     return v.x >= min.x && v.x <= max.x && v.y >= min.y && v.y <= max.y && v.z >= min.z &&
            v.z <= max.z;
@@ -81,6 +86,7 @@ struct VoxelRange {
 inline constexpr VoxelRange kAllVoxels = {{-kMaxVoxelIndex, -kMaxVoxelIndex, -kMaxVoxelIndex},
                                           {kMaxVoxelIndex, kMaxVoxelIndex, kMaxVoxelIndex}};
 
+/// Voxels that are in both ranges.
 VoxelRange intersection(const VoxelRange& a, const VoxelRange& b);
 /// The range grown by a number of voxels on all sides, within kAllVoxels.
 VoxelRange grown(const VoxelRange& range, std::int64_t voxels);

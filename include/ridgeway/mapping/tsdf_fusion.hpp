@@ -19,10 +19,10 @@ namespace ridgeway {
 /// A truncated signed distance field: at each voxel centre the distance to the measured surface,
 /// negative behind it. Invariant: both fields are on `layout`; |distance| <= truncation.
 struct TsdfMap {
-  double voxel_size = 0.0;  ///< metres
-  VoxelIndex origin = {};   ///< the lattice's voxel that is the map's own (0, 0, 0)
-  double truncation = 0.0;  ///< metres; distances are known no farther than this
-  BlockLayout layout;
+  double voxel_size = 0.0;     ///< metres
+  VoxelIndex origin = {};      ///< the lattice's voxel that is the map's own (0, 0, 0)
+  double truncation = 0.0;     ///< metres; distances are known no farther than this
+  BlockLayout layout;          ///< of the map's own voxels
   VoxelField<float> distance;  ///< metres; of no meaning where the weight is 0
   VoxelField<float> weight;    ///< how well it is known; 0: never seen
 };
@@ -36,7 +36,7 @@ OccupancyMap occupancy_of(const TsdfMap& tsdf);
 struct SurfaceMesh {
   std::vector<Point> vertices;           ///< metres, world frame
   std::vector<Eigen::Vector3d> normals;  ///< of length one, towards free space
-  std::vector<Triangle> triangles;
+  std::vector<Triangle> triangles;       ///< counter-clockwise seen from free space
 };
 
 /// The zero level of a truncated distance field, where a voxel at distance 0 counts as behind the
@@ -52,7 +52,7 @@ enum class Integrator : std::uint8_t { kProjective, kRayCasting };
 
 /// Lengths in metres.
 struct FusionConfig {
-  double voxel_size = 0.1;
+  double voxel_size = 0.1;    ///< of the map
   double truncation = 0.0;    ///< 0: four voxels
   double depth_behind = 0.0;  ///< behind a surface space is solid so far; 0: two voxels
   double min_range = 0.1;     ///< measurements nearer along the ray are passed over
@@ -64,7 +64,7 @@ struct FusionConfig {
   /// forgotten after so many looks, however well it was known. 0: never, it fades.
   int forget_after = 0;
   double clear_radius = 0.0;  ///< around every pose: the robot was there, so it is free; 0: none
-  Integrator integrator = Integrator::kProjective;
+  Integrator integrator = Integrator::kProjective;  ///< of depth images
   /// The lattice's voxel that is the map's own (0, 0, 0); left out: that which holds the sensor at
   /// the first pose.
   std::optional<VoxelIndex> origin = {};
@@ -86,9 +86,11 @@ struct FusionConfig {
 /// seen farther than 1e9 voxels from that zero, or 5e8 from the first pose. Not thread-safe.
 class TsdfFusion {
  public:
+  /// Throws InputError naming the bad field.
   explicit TsdfFusion(const FusionConfig& config = {});
   ~TsdfFusion();
-  TsdfFusion(TsdfFusion&&) noexcept;
+  TsdfFusion(TsdfFusion&&) noexcept;  ///< The one moved from can only be assigned to or destroyed.
+  /// The one moved from can only be assigned to or destroyed.
   TsdfFusion& operator=(TsdfFusion&&) noexcept;
 
   /// A depth image of a camera with a pose (camera to world). Throws InputError where the image

@@ -22,8 +22,8 @@ enum class DiagramColour : std::uint8_t {
 
 /// Heights in the world that count for the plan's walls and free space, metres; low <= high.
 struct HeightBand {
-  double low = 0.0;
-  double high = 0.0;
+  double low = 0.0;   ///< from here
+  double high = 0.0;  ///< to here
 };
 
 /// A quantity over time, drawn below the map.
@@ -32,13 +32,13 @@ struct Chart {
   std::vector<double> times;                   ///< seconds from 0, ascending
   std::vector<double> values;                  ///< one a time, >= 0; gaps where not finite
   std::optional<double> limit = std::nullopt;  ///< a dashed line
-  std::string limit_label;
+  std::string limit_label;                     ///< what is written beside it
 };
 
 /// One of several paths of a picture.
 struct NamedPath {
-  std::string name;  ///< in the legend, before the path's length
-  std::vector<Point> waypoints;
+  std::string name;              ///< in the legend, before the path's length
+  std::vector<Point> waypoints;  ///< metres, world
 };
 
 /// What a picture of a map shows.
@@ -52,20 +52,22 @@ struct PictureConfig {
   bool floors = false;
   /// Below the plan the map from the front (x and z) and from a side (y and z), seen through.
   bool sides = false;
-  /// Below the plan a section, a voxel thick, at this y (x and z are drawn) or this x (y and z), in
-  /// place of the map seen through; metres.
-  std::optional<double> section_y = std::nullopt, section_x = std::nullopt;
-  bool diagram = true;
-  bool graph = true;
+  /// Below the plan a section, a voxel thick, at this y (x and z are drawn), in place of the map
+  /// seen through; metres.
+  std::optional<double> section_y = std::nullopt;
+  /// The same at this x (y and z are drawn); metres.
+  std::optional<double> section_x = std::nullopt;
+  bool diagram = true;  ///< the voxels of the diagram
+  bool graph = true;    ///< vertices and edges
   /// Rings where connected components would be one for a smaller robot, with the radius that fits.
   bool narrow_places = false;
-  DiagramColour diagram_colour = DiagramColour::kClearance;
-  std::string title;            ///< not given: the file name of the roadmap's source
-  std::vector<Point> raw_path;  ///< the path before it was shortened, dashed; may be empty
-  std::string path_label = "path";
-  std::string raw_path_label = "before shortening";
+  DiagramColour diagram_colour = DiagramColour::kClearance;  ///< what its colours say
+  std::string title;                ///< not given: the file name of the roadmap's source
+  std::vector<Point> raw_path;      ///< the path before it was shortened, dashed; may be empty
+  std::string path_label = "path";  ///< in the legend, before the length
+  std::string raw_path_label = "before shortening";  ///< in the legend, before the length
   std::vector<NamedPath> paths;  ///< to compare, at most eight, each in its colour; none red
-  std::vector<Chart> charts;
+  std::vector<Chart> charts;     ///< below the map, one after another
 
   /// Throws InputError naming the bad field.
   void validate() const;
@@ -87,7 +89,7 @@ void draw_floor_plan(const Roadmap& roadmap, std::span<const Point> path,
 /// One of the maps of a sheet and the line of text above it.
 struct SheetMap {
   const Roadmap* roadmap = nullptr;  ///< must live while the sheet is drawn
-  std::string caption;
+  std::string caption;               ///< above it
 };
 
 /// Draws maps side by side, `columns` in a row, as floor plans with diagram and graph, all at the

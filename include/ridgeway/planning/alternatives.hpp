@@ -12,11 +12,12 @@ namespace ridgeway {
 /// Routes from a start to a goal, each on other sides of obstacles than the others, or the one
 /// reason why there is none.
 struct Alternatives {
-  PlanStatus status = PlanStatus::kNoRoute;
-  std::vector<PlanResult> routes;  ///< shortest first; empty unless ok
+  PlanStatus status = PlanStatus::kNoRoute;  ///< kOk, or why there is no route
+  std::vector<PlanResult> routes;            ///< shortest first; empty unless ok
   bool complete = false;  ///< all routes of the graph were looked at: asking for more finds no more
-  double seconds = 0.0;
+  double seconds = 0.0;   ///< in all
 
+  /// Whether there is a route.
   bool ok() const { return status == PlanStatus::kOk; }
 };
 

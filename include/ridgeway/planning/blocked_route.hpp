@@ -24,10 +24,12 @@ struct BlockedRoute {
   /// what is occupied encloses one of the two. Metres, world frame.
   std::optional<Point> place;
   Blocker by = Blocker::kObstacle;  ///< what is nearest there; of equally near ones the obstacle
-  /// The two parts of traversable space at the asked radius that start and goal are in, and their
-  /// numbers among all parts, largest first.
-  Component start_component, goal_component;
-  std::size_t start_number = 0, goal_number = 0;
+  // The two parts of traversable space at the asked radius, and their numbers among all parts,
+  // largest first:
+  Component start_component;     ///< that the start is in
+  Component goal_component;      ///< that the goal is in
+  std::size_t start_number = 0;  ///< that of the start
+  std::size_t goal_number = 0;   ///< that of the goal
 };
 
 /// Tells why plan() found no route, exactly. Made in about the time of the kernel's stage (the
@@ -35,7 +37,7 @@ struct BlockedRoute {
 /// must outlive it. Thread-safe.
 class RouteBlocks {
  public:
-  explicit RouteBlocks(const Roadmap& roadmap);
+  explicit RouteBlocks(const Roadmap& roadmap);  ///< Finds the basins of all free space.
 
   /// Between points of the world. Nothing where start or goal have no place at the radius: then
   /// plan() says which and why. `limits`: as in PlanConfig.
@@ -58,7 +60,7 @@ struct PlaceFacts {
   /// is in the way; widest first. Parts that no robot reaches are left out.
   std::size_t component = 0;
   std::vector<ComponentJoin> ways;  ///< `a` is the component, `b` the other
-  ComponentReport report;
+  ComponentReport report;           ///< all parts of space for that robot
 };
 
 /// At a point of the world, for a sphere of the radius that the roadmap was made for, within the

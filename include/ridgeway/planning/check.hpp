@@ -14,7 +14,10 @@ namespace ridgeway {
 
 /// How values of a sample lie.
 struct Spread {
-  double median = 0.0, p95 = 0.0, p99 = 0.0, max = 0.0;
+  double median = 0.0;  ///< half of them are below
+  double p95 = 0.0;     ///< 95 in a hundred are
+  double p99 = 0.0;     ///< 99 in a hundred are
+  double max = 0.0;     ///< the largest
 };
 
 /// All 0 for no values.
@@ -30,8 +33,8 @@ inline Spread spread_of(std::vector<double> values) {
 
 /// What check_roadmap compares.
 struct CheckConfig {
-  std::size_t queries = 0;
-  std::uint64_t seed = 1;
+  std::size_t queries = 0;  ///< random ones; 0: edges alone are checked
+  std::uint64_t seed = 1;   ///< of start, goal and radius; the same seed asks the same
   /// Of all queries, world frame; start and goal are drawn within them.
   FlightLimits limits = {};
   /// As in PlanConfig; the radius is then the smallest in all queries.
@@ -40,28 +43,30 @@ struct CheckConfig {
 
 /// One query of a check and the path that the roadmap answered with, for independent checkers.
 struct CheckedPath {
-  double radius = 0.0;
+  double radius = 0.0;           ///< that was asked for, metres
   std::vector<Point> waypoints;  ///< world
 };
 
 /// What check_roadmap found; clean where nothing is wrong.
 struct CheckReport {
-  std::size_t edges = 0;
+  std::size_t edges = 0;  ///< of the graph, measured anew
+  /// Whose clearance is less than the contract says, or is measured as
   std::size_t edges_below_clearance = 0;
-  std::size_t components = 0;  ///< of the graph
-  std::size_t queries = 0;
-  std::size_t graph_ok = 0;       ///< queries that the roadmap answered with a path
-  std::size_t esdf_ok = 0;        ///< queries that A* through the ESDF answered so
-  std::size_t disagreements = 0;  ///< one of them only
-  std::size_t paths_below_clearance = 0;
-  std::size_t fallbacks = 0;  ///< answered beyond the graph
+  std::size_t components = 0;             ///< of the graph
+  std::size_t queries = 0;                ///< that were answered: those asked for, unless cancelled
+  std::size_t graph_ok = 0;               ///< queries that the roadmap answered with a path
+  std::size_t esdf_ok = 0;                ///< queries that A* through the ESDF answered so
+  std::size_t disagreements = 0;          ///< one of them only
+  std::size_t paths_below_clearance = 0;  ///< nearer to an obstacle than the radius
+  std::size_t fallbacks = 0;              ///< answered beyond the graph
   // Of the queries answered with a path:
-  Spread length_ratio;      ///< over the better of it and the ESDF's shortened
-  Spread microseconds;      ///< shortened queries over the roadmap
-  Spread raw_microseconds;  ///< the same queries not shortened
-  Spread esdf_milliseconds;
-  std::vector<CheckedPath> paths;
+  Spread length_ratio;             ///< over the better of it and the ESDF's shortened
+  Spread microseconds;             ///< shortened queries over the roadmap
+  Spread raw_microseconds;         ///< the same queries not shortened
+  Spread esdf_milliseconds;        ///< the same by A* through the ESDF
+  std::vector<CheckedPath> paths;  ///< of the roadmap, in the order of the queries
 
+  /// Whether every edge and path keeps its clearance, and all answers agree.
   bool is_clean() const {
     return edges_below_clearance == 0 && disagreements == 0 && paths_below_clearance == 0;
   }

@@ -41,13 +41,14 @@ enum class Planner : std::uint8_t {
   kPrmStar,
   kInformedRrtStar,
 };
+/// Whether it is one of OMPL's.
 constexpr bool is_sampling(Planner planner) { return planner >= Planner::kRrtStar; }
 
 /// Names as in the JSON output, "invalid" for what is no enumerator: "ok", "start_outside_map",
 /// ...; "graph", "diagram", "esdf", "theta", "rrtstar", "rrtconnect", "bitstar", "prmstar",
 /// "informedrrtstar".
 std::string_view name_of(PlanStatus status);
-std::string_view name_of(Planner planner);
+std::string_view name_of(Planner planner);  ///< The same of a planner.
 /// "obstacle", "ignore" or "free".
 std::string_view name_of(UnknownPolicy policy);
 /// The planner of a name, or nothing.
@@ -57,7 +58,7 @@ void validate_planner(Planner planner);
 
 /// How to plan: for which robot, within which limits, how long to look for something shorter.
 struct PlanConfig {
-  Planner planner = Planner::kGraph;
+  Planner planner = Planner::kGraph;  ///< the structure to search
   /// Metres; the roadmap's min_clearance when not given.
   std::optional<double> radius = std::nullopt;
   bool shorten = true;  ///< pull the path tight; otherwise as the search found it
@@ -100,10 +101,10 @@ struct PlanConfig {
 
 /// Seconds that the parts of a query took.
 struct PlanSeconds {
-  double attach = 0.0;
-  double search = 0.0;
-  double shorten = 0.0;
-  double total = 0.0;
+  double attach = 0.0;   ///< from start and goal to the structure that is searched
+  double search = 0.0;   ///< for the way between
+  double shorten = 0.0;  ///< to pull it tight
+  double total = 0.0;    ///< all of the query
 };
 
 /// The first or last segment of a path whose start or goal is too close to an obstacle for the
@@ -122,9 +123,9 @@ struct Moved {
 
 /// A path, or the one reason why there is none.
 struct PlanResult {
-  PlanStatus status = PlanStatus::kNoRoute;
+  PlanStatus status = PlanStatus::kNoRoute;          ///< kOk, or why there is no path
   UnknownPolicy unknown = UnknownPolicy::kObstacle;  ///< what unknown space was taken for
-  Planner answered_by = Planner::kGraph;
+  Planner answered_by = Planner::kGraph;             ///< the structure that had the path
   /// World frame; start first, goal last: two or more where ok, else none.
   std::vector<Point> waypoints;
   double length = 0.0;  ///< metres
@@ -135,10 +136,13 @@ struct PlanResult {
   /// occupied and, under UnknownPolicy::kObstacle, to what is unknown. How near the path comes to
   /// either of them under any policy: Surroundings (esdf/surroundings.hpp).
   double clearance = 0.0;
-  Escape escape_start, escape_goal;
-  Moved moved_start, moved_goal;
-  PlanSeconds seconds;
+  Escape escape_start;  ///< of the first segment
+  Escape escape_goal;   ///< of the last one
+  Moved moved_start;    ///< by PlanConfig::snap
+  Moved moved_goal;     ///< by PlanConfig::snap
+  PlanSeconds seconds;  ///< what it took
 
+  /// Whether there is a path.
   bool ok() const { return status == PlanStatus::kOk; }
 };
 

@@ -17,18 +17,18 @@ class Temporary;
 
 /// One image of a recording, and where the camera was.
 struct DepthFrame {
-  std::filesystem::path image;  ///< 16-bit PNG
-  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+  std::filesystem::path image;                                       ///< 16-bit PNG
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();  ///< camera to world, metres
   std::optional<double> time = {};  ///< seconds, by the recording's clock, where it has one
 };
 
 /// A recording: depth images with poses, in the order of time. The images are read when needed.
 struct DepthSequence {
-  std::string layout;  ///< "tum", "7-scenes" or "open3d"
-  PinholeCamera camera;
+  std::string layout;               ///< "tum", "7-scenes" or "open3d"
+  PinholeCamera camera;             ///< of all images
   double units_per_metre = 5000.0;  ///< of the images
-  std::vector<DepthFrame> frames;
-  std::size_t without_pose = 0;  ///< images that no pose belongs to, passed over
+  std::vector<DepthFrame> frames;   ///< in the order of time
+  std::size_t without_pose = 0;     ///< images that no pose belongs to, passed over
 };
 
 /// What a recording of depth images does not say of itself.
@@ -60,12 +60,15 @@ DepthImage read_frame(const DepthSequence& sequence, const DepthFrame& frame);
 /// not at all.
 class SequenceWriter {
  public:
+  /// Throws InputError where the folder is there and not empty, or cannot be made.
   SequenceWriter(const std::filesystem::path& folder, const PinholeCamera& camera);
   ~SequenceWriter();
   SequenceWriter(const SequenceWriter&) = delete;
   SequenceWriter& operator=(const SequenceWriter&) = delete;
+  /// Appends an image and its pose (camera to world, metres). Throws InputError where it cannot be
+  /// written.
   void add(const DepthImage& image, const Eigen::Isometry3d& T_world_camera);
-  void finish();
+  void finish();  ///< Puts the folder in its place. Throws InputError where that cannot be done.
 
  private:
   std::filesystem::path folder_;

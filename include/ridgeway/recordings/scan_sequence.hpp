@@ -14,13 +14,13 @@ namespace ridgeway {
 /// A cloud as a range sensor recorded it from one place.
 struct Scan {
   std::filesystem::path cloud;  ///< .xyz, .ply or .pcd, in the sensor's frame, its origin at 0
-  Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity();  ///< sensor to world, metres
 };
 
 /// A recording of scans, each with the pose of its sensor.
 struct ScanSequence {
-  std::string layout;  ///< "scans" or "registration"
-  std::vector<Scan> scans;
+  std::string layout;            ///< "scans" or "registration"
+  std::vector<Scan> scans;       ///< in the order of the file
   std::size_t without_pose = 0;  ///< scans whose pose is not finite, passed over
 };
 

@@ -26,16 +26,16 @@ Roadmap load_roadmap(const std::filesystem::path& path);
 
 /// A section of a `.ridge` file.
 struct RidgeSection {
-  std::string name;
-  std::uint64_t raw_bytes = 0;
-  std::uint64_t compressed_bytes = 0;
+  std::string name;                    ///< as in docs/ridge-format.md
+  std::uint64_t raw_bytes = 0;         ///< of its content
+  std::uint64_t compressed_bytes = 0;  ///< that it takes in the file
 };
 
 /// What a `.ridge` file says of itself, read without its content.
 struct RidgeInfo {
-  std::uint32_t version = 0;
-  std::string header;  ///< JSON text: content, voxel_size, origin, policy, config, counts
-  std::vector<RidgeSection> sections;
+  std::uint32_t version = 0;  ///< of the format
+  std::string header;         ///< JSON text: content, voxel_size, origin, policy, config, counts
+  std::vector<RidgeSection> sections;  ///< in the order of the file
 };
 
 /// Reads the header alone. Throws InputError as load_roadmap does.

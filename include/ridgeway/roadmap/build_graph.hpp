@@ -11,7 +11,7 @@ namespace ridgeway {
 
 /// Lengths in metres.
 struct GraphConfig {
-  double min_clearance = 0.4;
+  double min_clearance = 0.4;    ///< of every edge
   double prune_radius = 0.35;    ///< vertices nearer than this along the diagram become one;
                                  ///< at least two voxels
   double split_deviation = 0.0;  ///< edge's greatest distance from its curve; 0: two voxels

@@ -11,8 +11,8 @@ namespace ridgeway {
 
 /// From occupancy to a queryable roadmap. Lengths in metres, angles in radians.
 struct BuildConfig {
-  double min_clearance = 0.4;  ///< smallest robot radius the roadmap is for
-  UnknownPolicy unknown = UnknownPolicy::kObstacle;
+  double min_clearance = 0.4;                        ///< smallest robot radius the roadmap is for
+  UnknownPolicy unknown = UnknownPolicy::kObstacle;  ///< what unknown space is to the robot
   double max_distance = std::numeric_limits<double>::infinity();  ///< distances stop here
   FlightLimits limits = {};      ///< of every flight on the roadmap, world frame
   double theta = 0.785;          ///< GVD: least angle between the directions to two sites
@@ -32,35 +32,42 @@ struct BuildConfig {
 
 /// Seconds that each stage of a build took (docs/how-it-works.md says what a stage is).
 struct BuildSeconds {
-  double esdf = 0.0, gvd = 0.0, edges = 0.0, thin = 0.0, kernel = 0.0, graph = 0.0, attach = 0.0,
-         tangents = 0.0, total = 0.0;
+  double esdf = 0.0;      ///< distances, and which voxels are traversable
+  double gvd = 0.0;       ///< ridges of the distances
+  double edges = 0.0;     ///< where ridges meet
+  double thin = 0.0;      ///< those to a width of one voxel
+  double kernel = 0.0;    ///< basins, kernel and diagram
+  double graph = 0.0;     ///< sparse graph, clearance tree, landmarks
+  double attach = 0.0;    ///< the way of every voxel to the graph
+  double tangents = 0.0;  ///< cell graph and tangent graph
+  double total = 0.0;     ///< the sum of these
 };
 
 /// Counts and times of a build, for reports.
 struct BuildReport {
-  VoxelCounts voxels;
-  std::size_t allocated_voxels = 0;
-  std::size_t traversable_voxels = 0;
-  std::size_t traversable_components = 0;
-  std::size_t gvd_voxels = 0;
-  std::size_t edge_voxels = 0;
-  std::size_t kernel_voxels = 0;
-  std::size_t diagram_voxels = 0;
-  std::size_t graph_components = 0;
-  BuildSeconds seconds;
+  VoxelCounts voxels;                      ///< of the map as it was handed in
+  std::size_t allocated_voxels = 0;        ///< of the field's blocks
+  std::size_t traversable_voxels = 0;      ///< free at the minimum clearance, within the limits
+  std::size_t traversable_components = 0;  ///< parts of them that no legal move joins
+  std::size_t gvd_voxels = 0;              ///< on ridges of the distances
+  std::size_t edge_voxels = 0;             ///< where ridges meet, before they were thinned
+  std::size_t kernel_voxels = 0;           ///< that carry the topology, shells and sheets included
+  std::size_t diagram_voxels = 0;          ///< of the diagram that the graph is fitted to
+  std::size_t graph_components = 0;        ///< connected parts of the graph
+  BuildSeconds seconds;                    ///< what each stage took
 };
 
 /// A roadmap, and what building it took.
 struct BuildResult {
-  Roadmap roadmap;
-  BuildReport report;
+  Roadmap roadmap;     ///< what queries need
+  BuildReport report;  ///< counts and times
 };
 
 /// The whole pipeline: ESDF, GVD, edges, thinning, kernel, diagram, graph, clearance tree, attach
 /// field, tangent graph. Consumes the map. Under UnknownPolicy::kIgnore free pockets smaller than
 /// the robot are taken as unknown. Same map and configuration give the same bytes for any number of
-/// threads (set by with_threads, common/parallel.hpp). Throws InputError where nothing is free, or
-/// memory would not do.
+/// threads (set by with_threads, common/parallel.hpp). `progress` can cancel it anywhere, within
+/// the stages too (with_progress). Throws InputError where nothing is free, or memory would not do.
 BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config = {},
                           const Progress& progress = {});
 

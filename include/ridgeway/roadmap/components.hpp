@@ -24,7 +24,7 @@ std::string_view name_of(Blocker blocker);
 
 /// A connected part of traversable space.
 struct Component {
-  std::size_t voxels = 0;
+  std::size_t voxels = 0;  ///< that are traversable
   double volume = 0.0;     ///< cubic metres
   Point widest;            ///< its place of largest clearance, world
   double clearance = 0.0;  ///< there, metres
@@ -33,7 +33,8 @@ struct Component {
 /// The largest radius, below the one asked for, at which two components would be one, and the place
 /// that is too narrow. `a` and `b` index the components; the joins form a forest.
 struct ComponentJoin {
-  std::size_t a = 0, b = 0;
+  std::size_t a = 0;                ///< index of one component
+  std::size_t b = 0;                ///< index of another
   double radius = 0.0;              ///< metres
   Point place;                      ///< world
   Blocker by = Blocker::kObstacle;  ///< what is nearest there; of equally near ones the obstacle
@@ -64,9 +65,10 @@ class SpaceParts {
 
   /// Where on a move it is narrowest, world, and what is nearest there.
   struct Narrow {
-    Point place;
-    Blocker by = Blocker::kObstacle;
+    Point place;                      ///< metres, world
+    Blocker by = Blocker::kObstacle;  ///< of equally near ones the obstacle
   };
+  /// Of a move between two voxels of the map; see narrowest_move.
   Narrow look_at(const Pass& pass) const;
 
  private:

@@ -21,16 +21,16 @@ struct SkeletonDiagram {
 /// Way of every traversable voxel to the graph, widest first: the direction of its next voxel, a
 /// byte each. Following it never passes a place narrower than any other way would have to.
 struct AttachField {
-  static constexpr Direction kHere = kCentre;  ///< a vertex stands here, or the way ends here
-  static constexpr Direction kNotTraversable = 27;
-  VoxelField<Direction> next;  ///< on the ESDF's layout
+  static constexpr Direction kHere = kCentre;       ///< a vertex stands here, or the way ends here
+  static constexpr Direction kNotTraversable = 27;  ///< no way: the robot does not fit here
+  VoxelField<Direction> next;                       ///< on the ESDF's layout
 };
 
 /// At which clearance do two vertices part? A forest over the vertices: `parent` (itself at a
 /// root), and the clearance and place of the narrowest point of the widest way to the parent.
 /// Climbing it takes a number of steps logarithmic in the number of vertices.
 struct ClearanceTree {
-  std::vector<VertexId> parent;
+  std::vector<VertexId> parent;   ///< by vertex; itself at a root
   std::vector<double> clearance;  ///< metres; 0 at a root
   std::vector<VoxelIndex> place;  ///< where the way to the parent is narrowest
 };
@@ -41,9 +41,9 @@ struct ClearanceTree {
 /// do not. Narrow places may be missing: what it does not connect, the sparse graph does.
 /// Not in the file: found when a roadmap is built or loaded.
 struct CellGraph {
-  static constexpr int kSide = 4;      ///< of a cell, voxels
-  static constexpr int kPerBlock = 8;  ///< cells
-  static constexpr std::uint8_t kNoPlace = 64;
+  static constexpr int kSide = 4;                   ///< of a cell, voxels
+  static constexpr int kPerBlock = 8;               ///< cells
+  static constexpr std::uint8_t kNoPlace = 64;      ///< of a cell in which the robot fits nowhere
   static constexpr std::uint16_t kNoPart = 0xffff;  ///< no part, or one of too many
   static constexpr std::size_t kLevels = 4;  ///< of radii: 1, 1.25, 1.5 and 2 times the smallest
 
@@ -81,6 +81,7 @@ struct CellGraph {
   /// hardly shorter than the difference. By block in order; no number where no
   /// way leads. Empty where no cells of two blocks are linked.
   static constexpr std::size_t kLandmarks = 3;
+  /// Of one block: from each landmark.
   using Lengths = std::vector<std::array<float, kLandmarks>>;
   Lengths lengths;       ///< over all edges
   Lengths lengths_wide;  ///< over those of the widest robots
@@ -93,18 +94,18 @@ CellGraph build_cell_graph(const EsdfMap& esdf, double min_clearance);
 /// from it to the world and back; what is saved to and loaded from a `.ridge` file.
 /// Immutable during queries: any number of threads may plan on one Roadmap.
 struct Roadmap {
-  EsdfMap esdf;
+  EsdfMap esdf;                ///< distances, and what is known, in the map's local frame
   double min_clearance = 0.0;  ///< metres; smallest robot radius that may be asked for
-  SkeletonDiagram diagram;
-  SparseGraph graph;
-  AttachField attach;
-  ClearanceTree tree;
-  Landmarks landmarks;     ///< of the graph; not in the file, placed when it is loaded
-  CellGraph cells;         ///< of the field; not in the file, found when it is loaded
-  TangentGraph tangents;   ///< ways close around corners; may be empty
-  bool is_settled = true;  ///< false: a LiveRoadmap's, its cells and tangents not learnt yet
-  std::string source;      ///< the map it was built from, for people
-  std::string config;      ///< the configuration it was built with, as JSON text, for people
+  SkeletonDiagram diagram;     ///< what the graph was fitted to
+  SparseGraph graph;           ///< vertices and straight, verified edges
+  AttachField attach;          ///< from any traversable voxel to the graph
+  ClearanceTree tree;          ///< at which radius two vertices part
+  Landmarks landmarks;         ///< of the graph; not in the file, placed when it is loaded
+  CellGraph cells;             ///< of the field; not in the file, found when it is loaded
+  TangentGraph tangents;       ///< ways close around corners; may be empty
+  bool is_settled = true;      ///< false: a LiveRoadmap's, its cells and tangents not learnt yet
+  std::string source;          ///< the map it was built from, for people
+  std::string config;          ///< the configuration it was built with, as JSON text, for people
 };
 
 }  // namespace ridgeway

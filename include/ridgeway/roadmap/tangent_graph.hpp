@@ -16,7 +16,7 @@ struct EsdfMap;
 struct HubLabel {
   std::uint32_t hub = 0;  ///< by importance: 0 is the hub that most ways pass
   float length = 0.0f;    ///< of the way, metres
-  friend bool operator==(const HubLabel&, const HubLabel&) = default;
+  friend bool operator==(const HubLabel&, const HubLabel&) = default;  ///< Equal in every field.
 };
 
 /// Shortest lengths and ways between any two vertices of a graph, without a search: each vertex
@@ -28,6 +28,7 @@ struct HubLabels {
   std::vector<HubLabel> labels;      ///< of each vertex by ascending hub
   std::vector<VertexId> next;  ///< by label: next vertex on the way; the hub itself at its end
 
+  /// Those of a vertex.
   std::span<const HubLabel> of(VertexId v) const {
     return std::span(labels).subspan(first[number(v)], first[number(v) + 1] - first[number(v)]);
   }
@@ -63,17 +64,19 @@ struct TangentGraph {
   /// that are free for it. Vertices have the numbers of `graph`; some may have no edges.
   struct Wider {
     SparseGraph graph;  ///< free at its min_clearance
-    HubLabels hubs;
+    HubLabels hubs;     ///< of that graph
   };
   std::vector<Wider> wider;  ///< by ascending min_clearance; not in the file
 
   /// Which corners are worth a look from a place, by cell: cells are cubes of 2 x 2 x 2 blocks.
   std::vector<std::uint32_t> cell_of_block;  ///< by slot; not in the file
   std::vector<std::uint32_t> first_seen;     ///< cells + 1 entries into `seen`; empty: no graph
-  std::vector<VertexId> seen;
+  std::vector<VertexId> seen;  ///< corners of `graph`, of each cell in one piece: see seen_from
 
+  /// Whether nothing was learnt.
   bool empty() const { return first_seen.empty(); }
 
+  /// Corners that are worth a look from a voxel of the map; none where nothing was learnt.
   std::span<const VertexId> seen_from(VoxelId voxel) const {
     if (empty()) return {};
     const std::uint32_t cell = cell_of_block[voxel / kBlockVoxels];
@@ -101,8 +104,8 @@ std::vector<TangentGraph::Wider> widen_corners(const EsdfMap& esdf, const Tangen
 /// Numbers the cells of a layout, in the order of their first blocks.
 struct BlockCells {
   std::vector<std::uint32_t> cell_of_block;  ///< by slot
-  std::uint32_t count = 0;
+  std::uint32_t count = 0;                   ///< of cells
 };
-BlockCells number_cells(const BlockLayout& layout);
+BlockCells number_cells(const BlockLayout& layout);  ///< Takes time linear in the blocks.
 
 }  // namespace ridgeway

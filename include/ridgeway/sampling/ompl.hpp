@@ -35,7 +35,9 @@ class FreeStates : public ompl::base::StateValidityChecker {
   FreeStates(const ompl::base::SpaceInformationPtr& space, const FreeSpace& free, double radius,
              PlaceOf place_of);
 
+  /// Whether the sphere fits at the state's place.
   bool isValid(const ompl::base::State* state) const override;
+  /// The distance from there to the nearest obstacle, metres.
   double clearance(const ompl::base::State* state) const override;
 
  private:
@@ -53,6 +55,7 @@ class FreeMotions : public ompl::base::MotionValidator {
   FreeMotions(const ompl::base::SpaceInformationPtr& space, const FreeSpace& free, double radius,
               PlaceOf place_of);
 
+  /// Whether all of the motion is free.
   bool checkMotion(const ompl::base::State* from, const ompl::base::State* to) const override;
   /// `last_valid`: a state up to which the motion is free, at most a voxel short of the last one,
   /// and its share of the way.

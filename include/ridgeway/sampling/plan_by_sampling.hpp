@@ -15,7 +15,7 @@ namespace ridgeway {
 struct SamplingConfig {
   Planner planner = Planner::kRrtConnect;  ///< one that samples
   double radius = 0.0;                     ///< of the robot, metres; to be given
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;                  ///< of the planner's random numbers
   double time_limit = 10.0;  ///< seconds of sampling; infinite: only the other limit counts
   /// Rounds of the planner's main loop. Runs that this limit ends, or that end by themselves,
   /// repeat exactly: same map, query and configuration, same path. Those that time ends do not.
@@ -37,7 +37,7 @@ struct SamplingConfig {
 
 /// The best path that was found; `plan.seconds.attach` is the time to set the planner up.
 struct SamplingResult {
-  PlanResult plan;
+  PlanResult plan;             ///< as plan() has it
   std::size_t iterations = 0;  ///< rounds of the main loop
   double first_seconds = 0.0;  ///< until the first path, from the beginning of the search
   double first_length = 0.0;   ///< of the first path as it was found, metres

@@ -13,9 +13,12 @@ namespace ridgeway {
 /// From pixels to rays and back, without distortion. The frame: x right, y down, z forward; the
 /// centre of the first pixel is (0, 0).
 struct PinholeCamera {
-  int width = 320, height = 240;  ///< pixels
-  double fx = 160.0, fy = 160.0;  ///< pixels; 90 degrees across
-  double cx = 159.5, cy = 119.5;  ///< pixels
+  int width = 320;    ///< pixels
+  int height = 240;   ///< pixels
+  double fx = 160.0;  ///< focal length, pixels; across 320 of them 90 degrees
+  double fy = 160.0;  ///< focal length, pixels
+  double cx = 159.5;  ///< of the optical axis, pixels
+  double cy = 119.5;  ///< of the optical axis, pixels
 
   /// The point of a pixel's ray at depth 1.
   Eigen::Vector3d ray(double u, double v) const { return {(u - cx) / fx, (v - cy) / fy, 1.0}; }
@@ -26,9 +29,11 @@ struct PinholeCamera {
 
 /// Depths along the optical axis in metres, row by row; 0 where nothing was measured.
 struct DepthImage {
-  int width = 0, height = 0;
-  std::vector<float> depth;
+  int width = 0;             ///< pixels
+  int height = 0;            ///< pixels
+  std::vector<float> depth;  ///< width * height metres, row by row
 
+  /// Of the pixel in column u and row v, which must be there.
   float at(int u, int v) const {
     return depth[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
                  static_cast<std::size_t>(u)];
@@ -37,7 +42,7 @@ struct DepthImage {
 
 /// What a simulated depth camera sees and how well.
 struct DepthSensor {
-  PinholeCamera camera;
+  PinholeCamera camera;          ///< its optics
   double min_range = 0.0;        ///< metres along the ray; nothing nearer is measured
   double max_range = 10.0;       ///< metres along the ray; nothing beyond is measured
   double range_sigma = 0.0;      ///< metres; independent Gaussian noise on every range

@@ -23,16 +23,18 @@ class TriangleTree {
   /// the tree's own order.
   TriangleTree(std::vector<Point> vertices, std::vector<Triangle> triangles);
 
+  /// As they were given, by the numbers that triangles() has.
   std::span<const Point> vertices() const { return vertices_; }
+  /// In the tree's own order.
   std::span<const Triangle> triangles() const { return triangles_; }
   const Point& low() const { return nodes_.front().low; }    ///< of the box around all
   const Point& high() const { return nodes_.front().high; }  ///< of the box around all
 
   /// The place of a triangle that is nearest to a point.
   struct Nearest {
-    Point point = Point::Zero();
-    double squared_distance = std::numeric_limits<double>::infinity();
-    std::uint32_t triangle = 0;
+    Point point = Point::Zero();                                        ///< on the triangle
+    double squared_distance = std::numeric_limits<double>::infinity();  ///< to there
+    std::uint32_t triangle = 0;  ///< its place in triangles()
     /// Bit i: corner i takes part. One corner is the point itself, two are the ends of the edge
     /// that it lies on, all three stand for the triangle's inside.
     unsigned corners = 0;
@@ -42,7 +44,9 @@ class TriangleTree {
 
   /// A place on a triangle that a ray meets.
   struct Hit {
+    /// along the ray, of a direction of length one
     double range = std::numeric_limits<double>::infinity();
+    /// its place in triangles(); of no meaning where the range is infinite
     std::uint32_t triangle = 0;
   };
   /// Where a ray along a direction of length one first meets a triangle, from either side; infinite
@@ -81,6 +85,7 @@ class SolidMesh {
 
   /// Whether every edge has exactly two triangles, one on each side.
   bool is_closed() const { return !neighbours_.empty(); }
+  /// Triangles that are left when those without area and doubles are gone.
   std::size_t triangle_count() const { return tree_.triangles().size(); }
   const Point& low() const { return tree_.low(); }    ///< of the box around it
   const Point& high() const { return tree_.high(); }  ///< of the box around it

@@ -15,33 +15,33 @@ namespace ridgeway {
 /// Everything behind a plane is solid: normal . x < offset. The normal has length one and points
 /// into the open.
 struct SolidPlane {
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
-  double offset = 0.0;  ///< metres
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of length one, into the open
+  double offset = 0.0;                                ///< metres
 };
 
 /// A box along the axes.
 struct SolidBox {
-  Point centre = Point::Zero();
+  Point centre = Point::Zero();                    ///< metres
   Eigen::Vector3d size = Eigen::Vector3d::Ones();  ///< metres, all above 0
 };
 
 /// A ball.
 struct SolidSphere {
-  Point centre = Point::Zero();
-  double radius = 1.0;
+  Point centre = Point::Zero();  ///< metres
+  double radius = 1.0;           ///< metres, above 0
 };
 
 /// An upright cylinder.
 struct SolidCylinder {
-  Point centre = Point::Zero();
-  double radius = 1.0;
-  double height = 1.0;
+  Point centre = Point::Zero();  ///< metres, of the whole: half of it lies above
+  double radius = 1.0;           ///< metres, above 0
+  double height = 1.0;           ///< metres, above 0
 };
 
 /// A mesh at a place of its own; many may share its triangles.
 struct PlacedMesh {
-  std::shared_ptr<const SolidMesh> mesh;
-  double scale = 1.0;  ///< metres of the world a unit of the mesh, above 0
+  std::shared_ptr<const SolidMesh> mesh;  ///< there must be one
+  double scale = 1.0;                     ///< metres of the world a unit of the mesh, above 0
   Eigen::Isometry3d T_world_mesh = Eigen::Isometry3d::Identity();  ///< after scaling
   std::string file = {};  ///< where it was read; may be empty
 };
@@ -50,20 +50,20 @@ struct PlacedMesh {
 struct TimedSolids {
   double from = -std::numeric_limits<double>::infinity();  ///< seconds
   double until = std::numeric_limits<double>::infinity();  ///< seconds; no longer there then
-  std::vector<SolidBox> boxes;
-  std::vector<SolidSphere> spheres;
-  std::vector<SolidCylinder> cylinders;
+  std::vector<SolidBox> boxes;                             ///< that are there meanwhile
+  std::vector<SolidSphere> spheres;                        ///< that are there meanwhile
+  std::vector<SolidCylinder> cylinders;                    ///< that are there meanwhile
 };
 
 /// A simulated world: the union of solids, metres, z up. Plain data; thread-safe to read.
 struct World {
-  std::string name;
-  std::vector<SolidPlane> planes;
-  std::vector<SolidBox> boxes;
-  std::vector<SolidSphere> spheres;
-  std::vector<SolidCylinder> cylinders;
-  std::vector<PlacedMesh> meshes;
-  std::vector<TimedSolids> timed;  ///< which only world_at() sees
+  std::string name;                      ///< for people; may be empty
+  std::vector<SolidPlane> planes;        ///< half-spaces
+  std::vector<SolidBox> boxes;           ///< along the axes
+  std::vector<SolidSphere> spheres;      ///< balls
+  std::vector<SolidCylinder> cylinders;  ///< upright
+  std::vector<PlacedMesh> meshes;        ///< surfaces of triangles
+  std::vector<TimedSolids> timed;        ///< which only world_at() sees
 };
 
 /// The world as it is at a time, seconds: with the timed solids that are there then, and none that

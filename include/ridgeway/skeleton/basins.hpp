@@ -17,14 +17,15 @@ inline constexpr Direction kNotTraversable = 27;
 /// A place where two basins meet: the widest move between them.
 struct Pass {
   SquaredHalves clearance;  ///< of that move
-  VoxelId from = kNoVoxel;
-  VoxelId to = kNoVoxel;
+  VoxelId from = kNoVoxel;  ///< the voxel of one basin
+  VoxelId to = kNoVoxel;    ///< that of the other, a neighbour of it
 };
 
 /// Order of a queue whose top is the widest pass; equally wide ones in the order of their voxels.
 struct NarrowerPass {
-  const BlockLayout* layout;
+  const BlockLayout* layout;  ///< that the voxels are of; not null
 
+  /// Whether `a` is the narrower one, so that `b` comes first.
   bool operator()(const Pass& a, const Pass& b) const {
     if (a.clearance != b.clearance) return a.clearance < b.clearance;
     return a.from != b.from ? layout->order_of(a.from) > layout->order_of(b.from)
@@ -35,6 +36,7 @@ struct NarrowerPass {
 /// The number of each traversable voxel's basin: one for all of a block, or where several meet in
 /// it one for each voxel.
 struct BasinNumbers {
+  /// in place of the number of a block's one basin
   static constexpr std::uint32_t kSeveral = 0xfffffffeu;
 
   /// The basins of a block in which several meet.
@@ -42,12 +44,13 @@ struct BasinNumbers {
     std::vector<std::uint32_t> basins;  ///< that meet in the block
     std::vector<std::uint16_t> place;   ///< among those, by voxel
 
-    friend bool operator==(const InBlock&, const InBlock&) = default;
+    friend bool operator==(const InBlock&, const InBlock&) = default;  ///< Equal in every field.
   };
   std::vector<std::uint32_t>
       whole;                     ///< by block; kSeveral: by voxel; any where none is traversable
   std::vector<InBlock> several;  ///< by block
 
+  /// The number of a traversable voxel's basin.
   std::uint32_t operator[](VoxelId id) const {
     const std::uint32_t slot = id / kBlockVoxels;
     if (whole[slot] != kSeveral) return whole[slot];
@@ -69,6 +72,7 @@ struct Basins {
   std::vector<Pass> passes;      ///< widest first
   /// Voxels that compute_kernel cannot delete at their first turn, even if all it asks before went.
   VoxelMask not_simple_at_first_turn;
+  /// Parts of traversable space that no pass joins.
   std::size_t components() const {
     const auto unused = std::count(peaks.begin(), peaks.end(), kNoVoxel);
     return peaks.size() - static_cast<std::size_t>(unused) - passes.size();

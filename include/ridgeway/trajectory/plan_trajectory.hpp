@@ -21,6 +21,7 @@ struct CostTerms {
   double smoothness = 0.0;  ///< integral of squared snap or jerk
   double collision = 0.0;   ///< CHOMP's potential, integrated over arc length
   double limits = 0.0;      ///< squared excess of squared speed, acceleration, jerk over time
+  /// Their sum: what is made least.
   double total() const { return time + smoothness + collision + limits; }
 };
 
@@ -43,15 +44,15 @@ enum class TrajectoryStep : std::uint8_t {
 /// Names as in the JSON output: "ok", "path_not_free", "cannot_stop_in_time"; "smooth", "pushed",
 /// "inserted", "with_stops", "stop_and_go".
 std::string_view name_of(TrajectoryStatus status);
-std::string_view name_of(TrajectoryStep step);
+std::string_view name_of(TrajectoryStep step);  ///< The same of a step.
 
 /// The robot, its limits of motion, and how it starts.
 struct TrajectoryConfig {
-  double radius = 0.3;  ///< of the robot, metres
-  MotionLimits limits;
-  Smoothness smoothness = Smoothness::kSnap;
-  Point start_velocity = Point::Zero();      ///< m/s
-  Point start_acceleration = Point::Zero();  ///< m/s^2
+  double radius = 0.3;                        ///< of the robot, metres
+  MotionLimits limits;                        ///< of the robot
+  Smoothness smoothness = Smoothness::kSnap;  ///< what is made least along the way
+  Point start_velocity = Point::Zero();       ///< m/s
+  Point start_acceleration = Point::Zero();   ///< m/s^2
   /// Radians; not given: the direction of travel at first.
   std::optional<double> start_yaw = std::nullopt;
   /// Yaw follows the direction of travel, as fast as its limit lets it; otherwise it stays.
@@ -67,17 +68,17 @@ struct TrajectoryConfig {
 
 /// Seconds that the parts of planning a trajectory took.
 struct TrajectorySeconds {
-  double optimise = 0.0;
-  double verify = 0.0;
-  double total = 0.0;
+  double optimise = 0.0;  ///< to optimise splines
+  double verify = 0.0;    ///< to verify them in continuous time
+  double total = 0.0;     ///< of all
 };
 
 /// A verified trajectory, or the one reason why there is none.
 struct TrajectoryResult {
-  TrajectoryStatus status = TrajectoryStatus::kPathNotFree;
-  TrajectoryStep step = TrajectoryStep::kSmooth;
-  Trajectory trajectory;              ///< empty unless ok
-  double duration = 0.0;              ///< seconds
+  TrajectoryStatus status = TrajectoryStatus::kPathNotFree;  ///< kOk, or why there is none
+  TrajectoryStep step = TrajectoryStep::kSmooth;             ///< what it took to get it
+  Trajectory trajectory;                                     ///< empty unless ok
+  double duration = 0.0;                                     ///< seconds
   double stop_and_go_duration = 0.0;  ///< seconds; from rest `duration` is never longer
   double clearance = 0.0;             ///< metres: D is nowhere smaller
   MotionPeaks peaks;                  ///< certified
@@ -87,8 +88,9 @@ struct TrajectoryResult {
   int optimisations = 0;              ///< of all stretches and steps,
   int converged = 0;                  ///< those of them that did,
   int evaluations = 0;                ///< and how often they asked for the cost
-  TrajectorySeconds seconds;
+  TrajectorySeconds seconds;          ///< what it took
 
+  /// Whether there is a trajectory.
   bool ok() const { return status == TrajectoryStatus::kOk; }
 };
 

@@ -27,6 +27,7 @@ enum class Smoothness : std::uint8_t {
 /// sum over k of coefficients(d, k) t^k.
 struct TrajectorySegment {
   double duration = 0.0;  ///< seconds, >= 0
+  /// A row for each output, a column for each power of t; SI units, radians.
   Eigen::Matrix<double, kFlatOutputs, kCoefficients> coefficients =
       Eigen::Matrix<double, kFlatOutputs, kCoefficients>::Zero();
 
@@ -47,7 +48,7 @@ struct TrajectoryState {
 /// A motion in time: polynomial pieces one after another. Those that plan_trajectory makes join
 /// with four continuous derivatives (three where jerk is minimised), and are plain data.
 struct Trajectory {
-  std::vector<TrajectorySegment> segments;
+  std::vector<TrajectorySegment> segments;  ///< in the order of time
 
   double duration() const;  ///< seconds
   /// Times before the start and after the end are those of the ends. Needs a segment.
@@ -66,8 +67,8 @@ struct MotionPeaks {
   double jerk = 0.0;          ///< m/s^3
   double yaw_rate = 0.0;      ///< rad/s
 };
-MotionPeaks find_peaks(const TrajectorySegment& segment);
-MotionPeaks find_peaks(const Trajectory& trajectory);
+MotionPeaks find_peaks(const TrajectorySegment& segment);  ///< Of one piece.
+MotionPeaks find_peaks(const Trajectory& trajectory);      ///< Of all pieces together.
 
 /// What a trajectory may ask of the robot: magnitudes of the vectors, not of single axes.
 struct MotionLimits {
@@ -79,6 +80,7 @@ struct MotionLimits {
   /// Throws InputError naming the field that is not above 0 (only the last two may be infinite).
   void validate() const;
 
+  /// Whether a motion with such peaks keeps every limit.
   bool hold(const MotionPeaks& peaks) const {
     return peaks.speed <= max_speed && peaks.acceleration <= max_acceleration &&
            peaks.jerk <= max_jerk && peaks.yaw_rate <= max_yaw_rate;

@@ -39,19 +39,24 @@ class BlockLayout {
   bool is_in_order() const { return rank_.empty(); }
   /// A block's place in the order of all blocks, and the slot at a place.
   std::uint32_t rank(std::uint32_t slot) const { return rank_.empty() ? slot : rank_[slot]; }
+  /// The inverse of `rank`.
   std::uint32_t slot_at(std::uint32_t rank) const { return rank_.empty() ? rank : by_rank_[rank]; }
   /// A voxel's place in the order of all voxels, by block and then by place in it, and the voxel at
   /// a place.
   std::uint32_t order_of(VoxelId id) const {
     return rank_.empty() ? id : rank_[id / kBlockVoxels] * kBlockVoxels + id % kBlockVoxels;
   }
+  /// The inverse of `order_of`.
   VoxelId voxel_at_order(std::uint32_t order) const {
     return slot_at(order / kBlockVoxels) * kBlockVoxels + order % kBlockVoxels;
   }
 
+  /// Allocated blocks.
   std::uint32_t block_count() const { return static_cast<std::uint32_t>(blocks_.size()); }
+  /// Voxels in them.
   std::size_t voxel_count() const { return blocks_.size() * kBlockVoxels; }
   std::span<const BlockIndex> blocks() const { return blocks_; }  ///< by slot
+  /// The block in a slot.
   const BlockIndex& block(std::uint32_t slot) const { return blocks_[slot]; }
 
   /// Slot of a block, or kNoBlock.
@@ -72,6 +77,7 @@ class BlockLayout {
     const std::uint32_t slot = find_block(block_of(voxel));
     return slot == kNoBlock ? kNoVoxel : slot * kBlockVoxels + local_of(voxel);
   }
+  /// The voxel of a handle, which must be one of this layout.
   VoxelIndex index_of(VoxelId id) const {
     return voxel_of(blocks_[id / kBlockVoxels], static_cast<int>(id % kBlockVoxels));
   }
@@ -97,9 +103,11 @@ class BlockLayout {
     return slot * kBlockVoxels + static_cast<VoxelId>((x & 7) | (y & 7) << 3 | (z & 7) << 6);
   }
 
-  std::size_t memory_bytes() const;
+  std::size_t memory_bytes() const;  ///< Bytes that the layout takes, those of fields not counted.
 
+  /// Stands for a block that is not allocated.
   static constexpr std::uint32_t kNoBlock = 0xffffffffu;
+  /// So many have handles of 32 bits, kNoVoxel left out.
   static constexpr std::uint32_t kMostBlocks = (1u << 23) - 1;
   /// One more than maps reach: where unknown space is ignored, blocks are put around the map's.
   static constexpr int kFarthestBlock = kMaxVoxelIndex / kBlockSide + 1;
@@ -145,6 +153,7 @@ class BlockLayout {
 /// For one thread.
 class VoxelFinder {
  public:
+  /// The layout must outlive it, and stay as it is.
   explicit VoxelFinder(const BlockLayout& layout) : layout_(layout) {}
 
   /// Handle of a voxel, or kNoVoxel where its block is not allocated.

@@ -22,25 +22,29 @@ using Point = Eigen::Vector3d;
 /// Voxels along one side of a block. Eight wastes less than sixteen on real scans (1.84 against
 /// 2.57 allocated voxels per known one), and a row of eight voxels is one byte of a bit mask.
 inline constexpr int kBlockSide = 8;
-inline constexpr int kBlockBits = 3;
-inline constexpr int kBlockVoxels = kBlockSide * kBlockSide * kBlockSide;
+inline constexpr int kBlockBits = 3;  ///< Bits of a voxel's place along one side of its block.
+inline constexpr int kBlockVoxels = kBlockSide * kBlockSide * kBlockSide;  ///< Voxels of a block.
 
 /// Three integers on a lattice; the tag keeps voxels and blocks apart. Ordered by (z, y, x).
 template <typename Tag>
 struct Index3 {
-  int x = 0;
-  int y = 0;
-  int z = 0;
+  int x = 0;  ///< along x
+  int y = 0;  ///< along y
+  int z = 0;  ///< along z
 
+  /// Equal in every field.
   friend constexpr bool operator==(const Index3&, const Index3&) = default;
+  /// By z, then y, then x.
   friend constexpr std::strong_ordering operator<=>(const Index3& a, const Index3& b) {
     if (const auto by_z = a.z <=> b.z; by_z != 0) return by_z;
     if (const auto by_y = a.y <=> b.y; by_y != 0) return by_y;
     return a.x <=> b.x;
   }
+  /// Along each axis; must not overflow.
   friend constexpr Index3 operator+(const Index3& a, const Index3& b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
   }
+  /// Along each axis; must not overflow.
   friend constexpr Index3 operator-(const Index3& a, const Index3& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
   }
@@ -60,6 +64,7 @@ using BlockIndex = Index3<struct BlockTag>;
 
 /// A voxel inside the allocated blocks of one BlockLayout: slot of the block * 512 + place in it.
 using VoxelId = std::uint32_t;
+/// Stands for a voxel whose block is not allocated.
 inline constexpr VoxelId kNoVoxel = 0xffffffffu;
 
 /// Block that holds a voxel.
@@ -89,6 +94,7 @@ constexpr std::uint64_t hash_of(const BlockIndex& b) {
 }
 /// For hash tables of blocks.
 struct BlockHash {
+  /// The hash of a block.
   std::size_t operator()(const BlockIndex& b) const { return hash_of(b); }
 };
 

@@ -22,11 +22,11 @@ constexpr int bit_count(std::uint64_t bits) {
 /// The 3x3x3 cube around a voxel as 27 bits: bit (dx+1) + 3 (dy+1) + 9 (dz+1). The same number
 /// names a direction; 13 is the voxel itself.
 using Cube27 = std::uint32_t;
-using Direction = std::uint8_t;
+using Direction = std::uint8_t;  ///< One of the 27 cells of such a cube, by its bit.
 
-inline constexpr Direction kCentre = 13;
-inline constexpr Cube27 kCentreBit = 1u << kCentre;
-inline constexpr Cube27 kAllCells = (1u << 27) - 1;
+inline constexpr Direction kCentre = 13;             ///< The voxel itself.
+inline constexpr Cube27 kCentreBit = 1u << kCentre;  ///< The cube with that cell alone.
+inline constexpr Cube27 kAllCells = (1u << 27) - 1;  ///< The full cube.
 
 namespace detail {
 inline constexpr std::array<VoxelIndex, 27> kOffsets = [] {
@@ -45,14 +45,17 @@ inline constexpr std::array<std::int8_t, 27> kSquaredLengths = [] {
 }();
 }  // namespace detail
 
+/// The step in a direction, -1, 0 or 1 along each axis.
 constexpr const VoxelIndex& offset_of(int direction) {
   return detail::kOffsets[static_cast<std::size_t>(direction)];
 }
 
+/// The inverse of `offset_of`.
 constexpr int direction_of(const VoxelIndex& offset) {
   return (offset.x + 1) + 3 * (offset.y + 1) + 9 * (offset.z + 1);
 }
 
+/// The direction of the step back.
 constexpr int opposite(int direction) { return 26 - direction; }
 
 /// Squared length of the step in a direction, voxels: 0 to 3.
@@ -115,10 +118,14 @@ constexpr Cube27 cells_where(int axis, int value) {
 }
 }  // namespace detail
 
+/// Cells that share a face with the centre.
 inline constexpr Cube27 kCells6 = detail::cells_up_to(1);
+/// Those that share a face or an edge with it.
 inline constexpr Cube27 kCells18 = detail::cells_up_to(2);
+/// Those that share a face, an edge or a corner with it.
 inline constexpr Cube27 kCells26 = detail::cells_up_to(3);
 
+/// The directions of kCells6, ascending.
 inline constexpr std::array<Direction, 6> kFaceDirections = {4, 10, 12, 14, 16, 22};
 
 /// All cells 26-adjacent to (or in) a set of cells of the cube. `Cells`: a cube, or a vector of

@@ -43,6 +43,7 @@ class VoxelField {
 
  public:
   VoxelField() = default;
+  /// One value for all voxels of a layout.
   explicit VoxelField(const BlockLayout& layout, Value initial = {}, Pages pages = Pages::kUsual)
       : VoxelField(unset(layout, pages)) {
     parallel_for_each_index(
@@ -60,14 +61,16 @@ class VoxelField {
     return field;
   }
 
+  /// The same values in memory of its own.
   VoxelField(const VoxelField& other) : stamp_(other.stamp_) {
     take_memory(other.blocks_.size(), Pages::kUsual);
     for (std::size_t slot = 0; slot < blocks_.size(); ++slot)
       std::copy_n(other.blocks_[slot], kBlockVoxels, blocks_[slot]);
   }
-  VoxelField(VoxelField&&) noexcept = default;
+  VoxelField(VoxelField&&) noexcept = default;  ///< Leaves an empty field.
+  /// The same values in memory of its own.
   VoxelField& operator=(const VoxelField& other) { return *this = VoxelField(other); }
-  VoxelField& operator=(VoxelField&&) noexcept = default;
+  VoxelField& operator=(VoxelField&&) noexcept = default;  ///< Leaves an empty field.
   ~VoxelField() = default;
 
   /// A field with the same values in the same memory, in time that follows the number of blocks.
@@ -108,13 +111,17 @@ class VoxelField {
     return stamp_ == layout.stamp() && blocks_.size() == layout.block_count();
   }
 
+  /// Of a voxel, by its handle in the layout.
   Value& operator[](VoxelId id) { return blocks_[id / kBlockVoxels][id % kBlockVoxels]; }
+  /// Of a voxel, by its handle in the layout.
   const Value& operator[](VoxelId id) const {
     return blocks_[id / kBlockVoxels][id % kBlockVoxels];
   }
+  /// Voxels that have a value.
   std::size_t size() const { return blocks_.size() * kBlockVoxels; }
   /// The 512 values of a block, x fastest.
   Value* block(std::uint32_t slot) { return blocks_[slot]; }
+  /// The 512 values of a block, x fastest.
   const Value* block(std::uint32_t slot) const { return blocks_[slot]; }
   /// All of them, by handle: a copy.
   std::vector<Value> values() const {

@@ -18,9 +18,11 @@ namespace ridgeway {
 /// thinning fast.
 class VoxelMask {
  public:
+  /// One word for each layer [z], bit x + 8 y of it for each voxel.
   using Block = std::array<std::uint64_t, kBlockSide>;  // [z], bit x + 8 y
 
   VoxelMask() = default;
+  /// The empty set on a layout.
   explicit VoxelMask(const BlockLayout& layout)
       : blocks_(layout.block_count()), stamp_(layout.stamp()) {}
 
@@ -35,14 +37,21 @@ class VoxelMask {
     return stamp_ == layout.stamp() && blocks_.size() == layout.block_count();
   }
 
+  /// Whether a voxel is a member.
   bool test(VoxelId id) const { return word(id) >> (id & 63) & 1; }
+  /// Makes it one.
   void set(VoxelId id) { word(id) |= 1ull << (id & 63); }
+  /// Makes it none.
   void reset(VoxelId id) { word(id) &= ~(1ull << (id & 63)); }
 
+  /// The members in a slot.
   Block& block(std::uint32_t slot) { return blocks_[slot]; }
+  /// The members in a slot.
   const Block& block(std::uint32_t slot) const { return blocks_[slot]; }
+  /// Blocks of the layout.
   std::size_t block_count() const { return blocks_.size(); }
 
+  /// How many voxels are members.
   std::size_t count() const {
     std::size_t total = 0;
     for (const Block& block : blocks_)
@@ -65,7 +74,9 @@ class VoxelMask {
     return ids;
   }
 
+  /// The same members in the same slots.
   friend bool operator==(const VoxelMask& a, const VoxelMask& b) { return a.blocks_ == b.blocks_; }
+  /// Bytes that the mask takes.
   std::size_t memory_bytes() const { return blocks_.capacity() * sizeof(Block); }
 
  private:

@@ -46,6 +46,9 @@ class enumerable_thread_specific {
   Value value_;
 };
 
+/// Nobody cancels anything.
+inline bool is_current_task_group_canceling() { return false; }
+
 class task_arena {
  public:
   static constexpr int automatic = -1;

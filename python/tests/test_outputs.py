@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 The Ridgeway authors
+"""Pictures, missions, files of others, and what is said of paths and places."""
+
+import json
+import os
+import struct
+import subprocess
+
+import numpy as np
+import pytest
+
+import ridgeway
+from conftest import GOAL, START
+
+
+def size_of_png(file):
+    data = file.read_bytes()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    return struct.unpack(">II", data[16:24])
+
+
+def test_pictures_are_those_of_the_command_line(roadmap, program, tmp_path):
+    plan = roadmap.plan(START, GOAL)
+    roadmap.draw(tmp_path / "a.png", plan, width=800)
+    assert size_of_png(tmp_path / "a.png")[0] == 800
+    roadmap.save(tmp_path / "rooms.ridge")
+    plan.save(tmp_path / "path.json")
+    subprocess.run([program, "export", tmp_path / "rooms.ridge", "--picture", tmp_path / "b.png",
+                    "--path", tmp_path / "path.json"], check=True)
+    roadmap.draw(tmp_path / "c.png", plan, title="rooms.ridge")
+    assert size_of_png(tmp_path / "b.png") == size_of_png(tmp_path / "c.png")
+    roadmap.draw(tmp_path / "c.svg", plan.waypoints, {"one": plan, "two": [START, GOAL]}, sides=True,
+                 band=(0.5, 1.5), diagram_colour="component", title="Two rooms")
+    drawn = (tmp_path / "c.svg").read_text()
+    assert drawn.lstrip().startswith("<?xml") and "</svg>" in drawn
+
+
+@pytest.mark.parametrize(
+    "call, error, words",
+    [
+        (lambda r, f: r.draw(f / "a.bmp"), ValueError, "bmp"),
+        (lambda r, f: r.draw(f / "a.png", width=1), ValueError, "width"),
+        (lambda r, f: r.draw(f / "a.png", band=(2, 1)), ValueError, "band"),
+        (lambda r, f: r.draw(f / "a.png", band=1), ValueError, "band"),
+        (lambda r, f: r.draw(f / "a.png", diagram_colour="red"), ValueError, "diagram_colour"),
+        (lambda r, f: r.draw(f / "a.png", r.plan((0, 0, 0), GOAL)), ValueError, "path: is no path"),
+        (lambda r, f: r.draw(f / "a.png", paths=[START]), TypeError, "paths: expected a dict"),
+        (lambda r, f: r.draw(f / "a.png", colour="red"), TypeError, "diagram_colour|colour"),
+        (lambda r, f: r.draw(f / "none/a.png"), ValueError, "a.png"),
+        (lambda r, f: r.plan(START, GOAL).save_mission(f / "a.csv", 47, 8), ValueError, ".plan"),
+        (lambda r, f: r.plan(START, GOAL).save_mission(f / "a.plan", 97, 8), ValueError, "latitude"),
+        (lambda r, f: r.plan((0, 0, 0), GOAL).save_mission(f / "a.plan", 47, 8), ValueError, "no waypoints"),
+        (lambda r, f: r.describe((0, np.nan, 0)), ValueError, "point"),
+        (lambda r, f: r.esdf.surroundings([], 0.3), ValueError, "path"),
+        (lambda r, f: r.esdf.surroundings([START], -1), ValueError, "radius"),
+        (lambda r, f: ridgeway.open_scans(f), ValueError, "poses.txt"),
+    ],
+)
+def test_bad_input_names_argument_and_expectation(roadmap, tmp_path, call, error, words):
+    with pytest.raises(error, match=words):
+        call(roadmap, tmp_path)
+    assert not list(tmp_path.glob("a.*"))
+
+
+def test_missions_are_where_the_world_lies(roadmap, tmp_path):
+    plan = roadmap.plan(START, GOAL)
+    plan.save_mission(tmp_path / "m.plan", 47.0, 8.0, altitude=400.0)
+    items = json.loads((tmp_path / "m.plan").read_text())["mission"]["items"]
+    assert len(items) == len(plan.waypoints)
+    assert items[0]["params"][6] == pytest.approx(400.0 + START[2], abs=1e-5)
+    north = items[0]["params"][4] - 47.0
+    assert north * 111_170 == pytest.approx(START[1], abs=0.01)  # metres a degree, there
+
+
+def test_surroundings_tell_the_known_from_the_unknown():
+    states = np.full((60, 40, 30), ridgeway.FREE)
+    states[:, :, 0] = ridgeway.OCCUPIED
+    states[:, 20:] = ridgeway.UNKNOWN
+    grid = ridgeway.OccupancyMap.from_numpy(states, 0.1)
+    roadmap = ridgeway.build(grid, min_clearance=0.3, unknown="ignore")
+    beside = roadmap.esdf.surroundings([(1.0, 1.5, 1.0), (5.0, 1.5, 1.0)], 0.6)
+    assert beside["known"] == pytest.approx(0.9) and beside["unknown"] == pytest.approx(0.5)
+    assert beside["unknown_share"] == pytest.approx(1.0) and beside["unknown_inside"] == 0.0
+    assert roadmap.esdf.surroundings([(1.0, 1.0, 1.5)], 0.3)["unknown_share"] == 0.0
+
+
+def test_places_are_described(roadmap, rooms):
+    here = roadmap.describe(START)
+    assert here["status"] == "ok" and here["state"] == "free" and here["component"] == 0
+    assert here["clearance"] == pytest.approx(roadmap.esdf.clearance([START]))
+    assert roadmap.describe((0.05, 0.05, 0.05))["state"] == "occupied"
+    rooms[31:33, 18:26, 2:22] = ridgeway.OCCUPIED
+    rooms[31:33, 20:24, 8:12] = ridgeway.FREE  # a window 0.4 m wide, too narrow
+    window = ridgeway.build(ridgeway.OccupancyMap.from_numpy(rooms, 0.1), min_clearance=0.25)
+    (way,) = window.describe(START)["ways"]
+    assert way["radius"] == pytest.approx(0.15) and way["by"] == "obstacle"
+    assert np.allclose(way["place"], (3.2, 2.2, 1.0), atol=0.15)
+
+
+def test_scans_are_arrays(tmp_path):
+    (tmp_path / "one.xyz").write_text("1 2 3\n4 5 6\n")
+    (tmp_path / "poses.txt").write_text("one.xyz 1 0 0 0 0 0 1\n")
+    scans = ridgeway.open_scans(tmp_path)
+    assert len(scans) == 1 and scans.layout == "scans" and scans.without_pose == 0
+    points, pose = scans[-1]
+    assert np.array_equal(points, [[1, 2, 3], [4, 5, 6]]) and pose[0, 3] == 1.0
+    with pytest.raises(IndexError):
+        scans[1]
+
+
+def test_files_of_voxblox_are_read_back(roadmap, tmp_path):
+    roadmap.export_voxblox(tmp_path / "rooms.vxblx")
+    roadmap.export_graph(tmp_path / "rooms.pb")
+    assert (tmp_path / "rooms.pb").stat().st_size > 0
+    with pytest.warns(UserWarning, match="esdf"):  # of two layers
+        again = ridgeway.load_map(tmp_path / "rooms.vxblx")
+    assert again.voxel_size == pytest.approx(roadmap.voxel_size)
+    assert again.counts["free"] == (roadmap.esdf.states().values == ridgeway.FREE).sum()
+
+
+@pytest.mark.filterwarnings("ignore::UserWarning")  # which tell what was taken for granted
+def test_meshes_have_units_and_open_places(source, program, monkeypatch):
+    monkeypatch.setenv("RIDGEWAY_MESH_READER", os.path.join(os.path.dirname(program), "ridgeway-mesh-reader"))
+    mesh = source / "data/levine.stl"
+    metres = ridgeway.load_map(mesh, voxel_size=0.2)
+    coarse = ridgeway.load_map(mesh, voxel_size=0.2, units=0.5, up="z")
+    assert np.ptp(np.array(coarse.bounds), 0)[0] == pytest.approx(np.ptp(np.array(metres.bounds), 0)[0] / 2, rel=0.1)
+    with pytest.raises(ValueError, match="up"):
+        ridgeway.load_map(mesh, up="north")
+    with pytest.raises(ValueError, match="inside"):
+        ridgeway.load_map(mesh, inside=(1, 2))
+
+
+def test_pockets_and_surfaces(rooms, source, tmp_path):
+    rooms[10:12, 10:12, 0] = ridgeway.FREE
+    rooms[0, 0, 0] = ridgeway.FREE
+    grid = ridgeway.OccupancyMap.from_numpy(rooms, 0.1)
+    for least, gone in ((0.002, 1), (0.01, 5)):
+        assert grid.counts["free"] - grid.without_pockets(least).counts["free"] == gone
+    fusion = ridgeway.TsdfFusion(voxel_size=0.2)
+    image, pose = ridgeway.open_sequence(source / "data/house_depth")[0]
+    fusion.integrate_depth(image, ridgeway.open_sequence(source / "data/house_depth").camera, pose)
+    fusion.map().save_surface(tmp_path / "house.ply")
+    assert (tmp_path / "house.ply").read_bytes().startswith(b"ply")
+    fusion.map().export_voxblox(tmp_path / "house.vxblx")
+    assert ridgeway.load_map(tmp_path / "house.vxblx").counts["free"] > 0
