@@ -14,8 +14,7 @@ void Explorer::State::look_around(const Point& here, bool thorough) {
   diagram.update(*roadmap);
   places = diagram.places();
   if (thorough) {
-    constexpr std::uint64_t kOffDiagram = std::uint64_t{1} << 62;
-    const std::vector<Place> more = detail::widest_places(*roadmap, config.spacing, kOffDiagram);
+    const std::vector<Place> more = detail::widest_places(*roadmap, config.spacing);
     places.insert(places.end(), more.begin(), more.end());
   }
   views.update(*roadmap, frontiers, config.least_frontier, places, here,
