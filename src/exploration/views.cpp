@@ -213,7 +213,7 @@ void Views::for_each_asked(PartViews& views, const Visit& visit) const {
 }
 
 /// Casts the rays that are missing, part by part, as long as there are some left.
-void Views::serve(const Roadmap& roadmap, std::span<const FrontierPart> parts,
+bool Views::serve(const Roadmap& roadmap, std::span<const FrontierPart> parts,
                   std::span<const Waiting> waiting, std::size_t& rays_left) const {
   for (const Waiting& next : waiting) {
     bool is_served = true;
@@ -221,9 +221,10 @@ void Views::serve(const Roadmap& roadmap, std::span<const FrontierPart> parts,
       is_served = look(roadmap, parts[next.part], candidate, *next.views, rays_left);
       return is_served;
     });
-    if (!is_served) return;
+    if (!is_served) return false;
     next.views->served = updates_ + 1;
   }
+  return true;
 }
 
 /// What is seen of a part from a place, if that is not known; false where rays do not suffice.
@@ -273,27 +274,28 @@ void Views::gather(std::span<const Waiting> waiting) {
               [](const Sight& a, const Sight& b) { return a.part < b.part; });
 }
 
-void Views::update(const Roadmap& roadmap, const Frontiers& frontiers, std::size_t least,
-                   std::span<const Place> places, const Point& near, std::size_t most_rays) {
+bool Views::update(const Roadmap& roadmap, const Frontiers& frontiers, std::size_t least,
+                   std::span<const Place> places, const Point& near, std::size_t most_rays,
+                   bool thorough) {
   note_changes(roadmap, frontiers);
   ++updates_;
   follow_places(places);
   const Bounds changed = std::exchange(changed_, Bounds{});
   mark_changed(roadmap, changed);
-  const bool thorough = most_rays == kAllRays;
   const std::span<const FrontierPart> parts = frontiers.parts();
   std::vector<Waiting> waiting = follow_parts(roadmap, frontiers, least, near, thorough, changed);
   std::erase_if(of_part_, [&](const auto& entry) { return entry.second.live != updates_; });
-  std::size_t of_late = thorough ? 0 : most_rays / 3, of_near = most_rays - of_late;
+  std::size_t of_late = most_rays / 3, of_near = most_rays - of_late;
   serve(roadmap, parts, waiting, of_near);
   std::vector<Waiting> late = waiting;
   std::stable_sort(late.begin(), late.end(), [](const Waiting& a, const Waiting& b) {
     return a.views->served < b.views->served;
   });
   of_late += of_near;
-  serve(roadmap, parts, late, of_late);
+  const bool all_served = serve(roadmap, parts, late, of_late);
   part_count_ = parts.size();
   gather(waiting);
+  return all_served;
 }
 
 double Views::gain_now(const Roadmap& roadmap, const Frontiers& frontiers, std::size_t least,

@@ -64,10 +64,11 @@ class Views {
   /// `places` must stay until the next update. Looks at the parts of clusters with `least` voxels
   /// or more from the nearest places, and from farther ones where none of these sees a part, with
   /// no more than so many rays: two thirds of them at parts near to a point first, the others at
-  /// those that have waited longest. With kAllRays at all targets from all places.
-  static constexpr std::size_t kAllRays = std::numeric_limits<std::size_t>::max();
-  void update(const Roadmap& roadmap, const Frontiers& frontiers, std::size_t least,
-              std::span<const Place> places, const Point& near, std::size_t most_rays);
+  /// those that have waited longest. A thorough look is one at all targets from all places. Returns
+  /// whether the rays were enough.
+  bool update(const Roadmap& roadmap, const Frontiers& frontiers, std::size_t least,
+              std::span<const Place> places, const Point& near, std::size_t most_rays,
+              bool thorough);
 
   /// To be called after every update of the frontiers.
   void note_changes(const Roadmap& roadmap, const Frontiers& frontiers);
@@ -135,7 +136,7 @@ class Views {
   bool is_banned(const Place& place, const FrontierPart& part) const;
   template <typename Visit>
   void for_each_asked(PartViews& views, const Visit& visit) const;
-  void serve(const Roadmap& roadmap, std::span<const FrontierPart> parts,
+  bool serve(const Roadmap& roadmap, std::span<const FrontierPart> parts,
              std::span<const Waiting> waiting, std::size_t& rays_left) const;
   bool look(const Roadmap& roadmap, const FrontierPart& part, Candidate& candidate,
             PartViews& views, std::size_t& rays_left) const;
