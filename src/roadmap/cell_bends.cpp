@@ -162,7 +162,9 @@ std::span<const CellGraph::Bend> bends_from(const CellGraph& graph, CellId place
                        [](const CellGraph::Bend& bend, CellId from) { return bend.from < from; });
   auto last = first;
   while (last != graph.bends.end() && last->from == place) ++last;
-  return {first, last};
+  return std::span(graph.bends)
+      .subspan(static_cast<std::size_t>(first - graph.bends.begin()),
+               static_cast<std::size_t>(last - first));
 }
 
 PlaceRange nooks_of(const CellGraph& graph, CellId cell) {

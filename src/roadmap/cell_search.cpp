@@ -158,7 +158,8 @@ class CellSearch {
 
   Approach::Join& add_join(CellId cell, Approach& approach) const {
     const double length = (point_of(cell) - approach.place).norm() / esdf_.voxel_size;
-    return approach.joins.emplace_back(cell, static_cast<float>(length));
+    approach.joins.push_back({cell, static_cast<float>(length)});
+    return approach.joins.back();
   }
 
   /// Moves in the place's own cell lead to one of its places, whatever is in sight.

@@ -198,7 +198,7 @@ class LevelPeeling {
 
   /// A round: sub-field by sub-field.
   void ask_again(std::vector<VoxelId>& work, std::uint32_t level, std::vector<VoxelId>& deleted) {
-    tbb::parallel_sort(work.begin(), work.end(), [](VoxelId a, VoxelId b) {
+    parallel_sort(work.begin(), work.end(), [](VoxelId a, VoxelId b) {
       return std::pair(sub_field(a), a) < std::pair(sub_field(b), b);
     });
     work.erase(std::unique(work.begin(), work.end()), work.end());

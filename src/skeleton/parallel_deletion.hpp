@@ -2,13 +2,12 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
 
+#include "common/parallel_sort.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
 #include "sub_field.hpp"
@@ -57,7 +56,7 @@ std::vector<VoxelId> delete_round(const BlockLayout& layout, VoxelMask& voxels,
 
 /// Leaves each voxel once, in ascending order.
 inline void sort_out_doubles(std::vector<VoxelId>& ids) {
-  tbb::parallel_sort(ids.begin(), ids.end());
+  parallel_sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
