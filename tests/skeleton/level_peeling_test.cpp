@@ -42,7 +42,7 @@ TEST(LevelPeeling, LeavesThatAlsoWhereManyVoxelsHaveOneTurn) {
   for (unsigned seed = 0; seed < 3; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
-    const OccupancyMap map = testing::make_map(1.0, {0, 0, 0}, {47, 47, 23},
+    const OccupancyMap map = testing::make_map(1.0, {0, 0, 0}, {47, 47, 15},
                                                [](VoxelIndex) { return VoxelState::kFree; });
     EsdfMap esdf;
     esdf.voxel_size = 1.0;
@@ -53,7 +53,7 @@ TEST(LevelPeeling, LeavesThatAlsoWhereManyVoxelsHaveOneTurn) {
     for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id) {
       if (random() % 10 == 0) continue;
       traversable.set(id);
-      esdf.squared[id] = 1 + random() % (1 + seed);
+      esdf.squared[id] = 1 + static_cast<std::uint32_t>(random()) % (1 + seed);
     }
     const VoxelMask not_simple =
         detail::find_watershed(esdf, traversable).basins.not_simple_at_first_turn;
