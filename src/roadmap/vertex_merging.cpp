@@ -47,7 +47,7 @@ bool VertexMerging::run() {
   return changed;
 }
 
-/// Those of which one is fresh, but for those that were refused and are as they were then.
+/// Those of which one is fresh, the shortest first.
 std::vector<NeighbourPair> VertexMerging::pairs_to_ask(const std::vector<char>& fresh) const {
   std::vector<NeighbourPair> pairs;
   for (Number v = 0; v < graph_.size(); ++v)
