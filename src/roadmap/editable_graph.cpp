@@ -2,12 +2,11 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "editable_graph.hpp"
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <limits>
 #include <tuple>
 
+#include "common/parallel_sort.hpp"
 #include "voxel/disjoint_sets.hpp"
 
 namespace ridgeway::detail {
@@ -60,7 +59,7 @@ void EditableGraph::mark_widest_ways(const std::function<double(double)>& width)
   for (Number v = 0; v < links_.size(); ++v)
     for (const auto& [w, link] : links_[v])
       if (v < w) edges.emplace_back(-width(link.clearance), length(v, w), v, w);
-  tbb::parallel_sort(edges.begin(), edges.end());
+  parallel_sort(edges.begin(), edges.end());
   DisjointSets parts(links_.size());
   for (const auto& [narrowness, length, v, w] : edges) {
     const bool widest = parts.find(v) != parts.find(w);

@@ -2,8 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "vertex_merging.hpp"
 
-#include <tbb/parallel_sort.h>
-
+#include "common/parallel_sort.hpp"
 #include "ridgeway/common/parallel.hpp"
 
 namespace ridgeway::detail {
@@ -47,13 +46,13 @@ bool VertexMerging::run() {
   return changed;
 }
 
-/// Those of which one is fresh, but for those that were refused and are as they were then.
+/// Those of which one is fresh, the shortest first.
 std::vector<NeighbourPair> VertexMerging::pairs_to_ask(const std::vector<char>& fresh) const {
   std::vector<NeighbourPair> pairs;
   for (Number v = 0; v < graph_.size(); ++v)
     for (const auto& [w, link] : graph_.links_of(v))
       if (fresh[v] || fresh[w]) pairs.push_back({graph_.length(v, w), v, w});
-  tbb::parallel_sort(pairs.begin(), pairs.end());
+  parallel_sort(pairs.begin(), pairs.end());
   return pairs;
 }
 

@@ -92,11 +92,11 @@ class KnownNeighbours {
 };
 
 /// When a voxel is asked first: by its level and sub-field, in one number.
-using Turn = std::uint64_t;
-Turn turn_of(const EsdfMap& esdf, VoxelId id) {
+using FirstTurn = std::uint64_t;
+FirstTurn turn_of(const EsdfMap& esdf, VoxelId id) {
   return std::uint64_t{esdf.squared[id]} << 3 | sub_field(id);
 }
-std::uint32_t level_of(Turn turn) { return static_cast<std::uint32_t>(turn >> 3); }
+std::uint32_t level_of(FirstTurn turn) { return static_cast<std::uint32_t>(turn >> 3); }
 
 /// body(i) for all i below a count, by all threads where they are many.
 template <typename Body>
@@ -143,14 +143,14 @@ class LevelPeeling {
   };
 
   bool has_turns() const { return next_ < first_turns_.size() || !more_turns_.empty(); }
-  Turn next_turn() const {
+  FirstTurn next_turn() const {
     if (next_ == first_turns_.size()) return more_turns_.begin()->first;
-    const Turn first = first_turns_[next_].first;
+    const FirstTurn first = first_turns_[next_].first;
     return more_turns_.empty() ? first : std::min(first, more_turns_.begin()->first);
   }
   /// Those whose turn is next.
   std::vector<VoxelId> take_turn() {
-    const Turn turn = next_turn();
+    const FirstTurn turn = next_turn();
     std::vector<VoxelId> ids;
     if (!more_turns_.empty() && more_turns_.begin()->first == turn)
       ids = std::move(more_turns_.extract(more_turns_.begin()).mapped());
@@ -249,9 +249,10 @@ class LevelPeeling {
   const KnownNeighbours around_;
   VoxelMask queued_;  // those whose turn is, or has been, played
   VoxelMask left_;    // those whose first turn is over and that are still there
-  std::vector<std::pair<Turn, VoxelId>> first_turns_;  // of those not simple at their first turn
-  std::size_t next_ = 0;                               // of these
-  std::map<Turn, std::vector<VoxelId>> more_turns_;    // of others
+  std::vector<std::pair<FirstTurn, VoxelId>>
+      first_turns_;                                       // of those not simple at their first turn
+  std::size_t next_ = 0;                                  // of these
+  std::map<FirstTurn, std::vector<VoxelId>> more_turns_;  // of others
   std::vector<Asked> asked_;
 };
 

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
+#include <atomic>
+#include <cstdint>
 #include <vector>
 
-#include "common/parallel_sort.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
 #include "sub_field.hpp"
@@ -54,32 +54,35 @@ std::vector<VoxelId> delete_round(const BlockLayout& layout, VoxelMask& voxels,
   return deleted;
 }
 
-/// Leaves each voxel once, in ascending order.
-inline void sort_out_doubles(std::vector<VoxelId>& ids) {
-  parallel_sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-}
-
-/// Members of `voxels` 26-adjacent to the given ones, each once, in ascending order.
+/// Members of `voxels` 26-adjacent to the given ones, each once, in no order that means
+/// anything.
 inline std::vector<VoxelId> neighbours_of(const BlockLayout& layout, const VoxelMask& voxels,
                                           const std::vector<VoxelId>& ids) {
-  // Each part of the ids by itself, then what the parts have in common.
-  constexpr std::size_t kPart = 4 * kParallelFrom;
-  std::vector<std::vector<VoxelId>> found((ids.size() + kPart - 1) / kPart);
-  parallel_for_each_index(found.size(), [&](std::size_t part) {
-    const auto first = ids.begin() + static_cast<std::ptrdiff_t>(part * kPart);
-    const auto last = part + 1 == found.size() ? ids.end() : first + kPart;
-    std::for_each(first, last, [&](VoxelId id) {
-      for (Cube27 cube = cube_around(layout, voxels, id) & kCells26; cube != 0; cube &= cube - 1)
-        found[part].push_back(layout.neighbour(id, std::countr_zero(cube)));
-    });
-    sort_out_doubles(found[part]);
-  });
-  if (found.empty()) return {};
-  for (std::size_t part = 1; part < found.size(); ++part)
-    found[0].insert(found[0].end(), found[part].begin(), found[part].end());
-  if (found.size() > 1) sort_out_doubles(found[0]);
-  return std::move(found[0]);
+  const auto for_each_neighbour = [&](VoxelId id, const auto& body) {
+    for (Cube27 cube = cube_around(layout, voxels, id) & kCells26; cube != 0; cube &= cube - 1)
+      body(layout.neighbour(id, std::countr_zero(cube)));
+  };
+  // A mask, which all threads mark, is faster than to sort, unless there are many blocks for each.
+  constexpr std::size_t kBlocksEach = 16;
+  if (ids.size() >= kParallelFrom && kBlocksEach * ids.size() >= layout.block_count()) {
+    VoxelMask neighbours(layout);
+    parallel_for_each_index(
+        ids.size(),
+        [&](std::size_t i) {
+          for_each_neighbour(ids[i], [&](VoxelId id) {
+            std::atomic_ref(neighbours.block(id / kBlockVoxels)[id / 64 % kBlockSide])
+                .fetch_or(std::uint64_t{1} << id % 64, std::memory_order_relaxed);
+          });
+        },
+        128);
+    return neighbours.members(layout);
+  }
+  std::vector<VoxelId> result;
+  for (const VoxelId id : ids)
+    for_each_neighbour(id, [&](VoxelId neighbour) { result.push_back(neighbour); });
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
 }
 
 /// Deletes rounds of voxels until none of them may go; after the first round only neighbours of

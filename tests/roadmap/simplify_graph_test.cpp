@@ -4,11 +4,16 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <random>
+#include <tuple>
+#include <vector>
 
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/roadmap/build_graph.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
+#include "skeleton/compute_skeleton.hpp"
 #include "support/pillars.hpp"
 #include "support/random_maps.hpp"
 #include "support/shapes.hpp"
@@ -175,6 +180,29 @@ TEST(SimplifyGraph, LooksTheSameTheSecondTime) {
     EXPECT_EQ(again.vertices.size(), pair.simple.vertices.size()) << shape.name;
     EXPECT_EQ(again.edges.size(), pair.simple.edges.size()) << shape.name;
   }
+}
+
+TEST(SimplifyGraph, IsTheSameForAnyNumberOfThreads) {
+  constexpr double kVoxel = 0.1, kRadius = 1.2 * kVoxel;
+  std::mt19937 random(1);
+  const OccupancyMap map = testing::make_map(kVoxel, {0, 0, 0}, {60, 60, 20}, [&](VoxelIndex) {
+    return random() % 60 == 0 ? VoxelState::kOccupied : VoxelState::kFree;
+  });
+  const EsdfMap esdf = compute_esdf(map, {});
+  const VoxelMask diagram = compute_skeleton(esdf, kRadius, {});
+  const SparseGraph fitted = build_graph(esdf, diagram, {.min_clearance = kRadius});
+  ASSERT_GT(fitted.edges.size(), 1000u);  // so that not all are asked at once
+  const auto run = [&] {
+    const SparseGraph graph = simplify_graph(esdf, fitted, {});
+    std::vector<std::tuple<VoxelIndex, VoxelIndex, double>> edges;
+    for (const Edge& edge : graph.edges)
+      edges.emplace_back(graph.vertices[number(edge.from)].voxel,
+                         graph.vertices[number(edge.to)].voxel, edge.clearance);
+    return edges;
+  };
+  const auto one = with_threads(1, run);
+  EXPECT_LT(one.size(), fitted.edges.size());
+  EXPECT_EQ(one, with_threads(2, run));
 }
 
 }  // namespace

@@ -4,9 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "random_levels.hpp"
+#include "ridgeway/common/parallel.hpp"
 #include "skeleton/plain_peeling.hpp"
 #include "skeleton/watershed.hpp"
+#include "support/random_maps.hpp"
 
 namespace ridgeway {
 namespace {
@@ -32,6 +36,35 @@ TEST(LevelPeeling, LeavesWhatPeelingInOrderLeavesWhateverTheLevels) {
   EXPECT_GT(left, 10000u);
   EXPECT_GT(gone, 100000u);
   EXPECT_GT(kept, 1000u);
+}
+
+TEST(LevelPeeling, LeavesThatAlsoWhereManyVoxelsHaveOneTurn) {
+  for (unsigned seed = 0; seed < 3; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const OccupancyMap map = testing::make_map(1.0, {0, 0, 0}, {47, 47, 15},
+                                               [](VoxelIndex) { return VoxelState::kFree; });
+    EsdfMap esdf;
+    esdf.voxel_size = 1.0;
+    esdf.layout = map.layout;
+    esdf.squared = VoxelField<std::uint32_t>(esdf.layout, 0);
+    VoxelMask traversable(esdf.layout);
+    const VoxelMask keep(esdf.layout);
+    for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id) {
+      if (random() % 10 == 0) continue;
+      traversable.set(id);
+      esdf.squared[id] = 1 + static_cast<std::uint32_t>(random()) % (1 + seed);
+    }
+    const VoxelMask not_simple =
+        detail::find_watershed(esdf, traversable).basins.not_simple_at_first_turn;
+    const VoxelMask plain = detail::peel_in_order(esdf, traversable, keep);
+    ASSERT_GT(traversable.count() - plain.count(), 5000u);
+    for (const int threads : {1, 2})
+      ASSERT_EQ(
+          with_threads(threads,
+                       [&] { return detail::peel_levels(esdf, traversable, not_simple, keep); }),
+          plain);
+  }
 }
 
 }  // namespace
