@@ -8,7 +8,6 @@
 
 #include "by_height.hpp"
 #include "parallel_deletion.hpp"
-#include "ridgeway/common/parallel.hpp"
 #include "simple_point.hpp"
 
 namespace ridgeway::detail {
@@ -73,7 +72,6 @@ void remove_redundant_voxels(const RememberedSpace& space, SquaredHalves thresho
     sort_lowest_first(esdf, work);
     std::vector<VoxelId> deleted;
     for (const VoxelId id : work) {
-      stop_if_cancelled();
       if (basins.next[id] == kCentre) continue;
       const Cube27 cube = cube_around(esdf.layout, diagram, id);
       if (!is_simple(cube) || is_curve_end(cube)) continue;
