@@ -193,7 +193,10 @@ void update_not_simple(const EsdfMap& esdf, const VoxelMask& voxels,
 void join_background(const EsdfMap& esdf, VoxelMask& voxels, VoxelMask& not_simple) {
   BackgroundJoining joining(esdf, voxels);
   if (joining.has_nothing_to_join()) return;
-  for (const Contact& contact : find_contacts(esdf, voxels, not_simple)) joining.join_at(contact);
+  for (const Contact& contact : find_contacts(esdf, voxels, not_simple)) {
+    detail::stop_if_cancelled();
+    joining.join_at(contact);
+  }
   update_not_simple(esdf, voxels, joining.removed(), not_simple);
 }
 

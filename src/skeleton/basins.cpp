@@ -80,6 +80,7 @@ class PassFinder {
 
   void run(const std::vector<Saddle>& saddles) {
     for (const Saddle& saddle : saddles) {
+      detail::stop_if_cancelled();
       join_waiting(esdf_.squared[saddle.id]);
       for_each_part(saddle.higher, [&](Cube27 part) { connect(saddle.id, part); });
     }

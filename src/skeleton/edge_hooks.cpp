@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "by_height.hpp"
+#include "ridgeway/common/parallel.hpp"
 #include "voxel/disjoint_sets.hpp"
 #include "voxel/flat_table.hpp"
 
@@ -35,6 +36,7 @@ class EdgeHooks {
     const std::vector<VoxelId> voxels = highest_first(esdf_, edges);
     piece_.reserve(voxels.size());
     for (const VoxelId id : voxels) {
+      stop_if_cancelled();
       sink_to(esdf_.squared[id]);
       if (!diagram_.test(id)) add(id);
     }

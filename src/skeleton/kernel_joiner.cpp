@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "by_height.hpp"
+#include "ridgeway/common/parallel.hpp"
 #include "voxel/disjoint_sets.hpp"
 #include "voxel/flat_table.hpp"
 
@@ -55,6 +56,7 @@ class KernelJoiner {
       }
     };
     for (const VoxelId id : voxels) {
+      stop_if_cancelled();
       sink_to(esdf_.squared[id]);
       if (!diagram_.test(id)) add_wanted(id);
     }

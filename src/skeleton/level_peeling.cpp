@@ -130,7 +130,10 @@ class LevelPeeling {
   }
 
   VoxelMask run() {
-    while (has_turns()) peel(level_of(next_turn()));
+    while (has_turns()) {
+      stop_if_cancelled();
+      peel(level_of(next_turn()));
+    }
     return std::move(left_);
   }
 
