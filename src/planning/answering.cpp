@@ -153,10 +153,14 @@ class Answering {
 
   /// Makes what is known shorter by way of the cells, as far as they have something shorter: first
   /// by searches that go straight for the goal, wider ones only while what is known is too long to
-  /// be believed.
+  /// be believed. Where one came to its end, no straighter one finds anything shorter.
   void search_cells(Route& known) {
-    for (const CellEffort& effort : kPlanning.cell_efforts)
-      if (over_expected(known) > effort.over) search_cells(known, effort);
+    double ended = std::numeric_limits<double>::infinity();  // least weight of a search that did
+    for (const CellEffort& effort : kPlanning.cell_efforts) {
+      if (effort.weight >= ended || over_expected(known) <= effort.over) continue;
+      search_cells(known, effort);
+      if (cells_ != Cells::kGaveUp) ended = effort.weight;
+    }
     known = improve(std::move(known));
   }
   void search_cells(Route& known, const CellEffort& effort) {

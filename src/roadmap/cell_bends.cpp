@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "cell_walks.hpp"
@@ -178,6 +179,25 @@ PlaceRange nooks_of(const CellGraph& graph, CellId cell) {
                                static_cast<std::size_t>(nook - graph.nooks.begin()));
   };
   return {place(first), place(last)};
+}
+
+std::vector<VoxelIndex> way_over_bend(const CellGraph& graph, const FreeSpace& space, CellId from,
+                                      CellId to, SquaredHalves threshold) {
+  const CellLattice lattice(space.map().layout);
+  const VoxelIndex step = lattice.first_voxel(cell_of_place(graph, to)) -
+                          lattice.first_voxel(cell_of_place(graph, from));
+  const bool is_onward = step.x + step.y + step.z > 0;
+  if (!is_onward) std::swap(from, to);
+  const CellId first = cell_of_place(graph, from), second = cell_of_place(graph, to);
+  const int axis = step.x != 0 ? 0 : step.y != 0 ? 1 : 2;
+  const CellWalks walks(
+      {fitting_voxels(space, first, threshold), fitting_voxels(space, second, threshold)}, axis);
+  const auto goal = static_cast<std::uint8_t>(64 + number_in_cell(graph, to));
+  std::vector<VoxelIndex> way;
+  for (const std::uint8_t place : walks.walk(number_in_cell(graph, from), goal))
+    way.push_back(lattice.first_voxel(first) + step_to(place, axis));
+  if (!is_onward) std::reverse(way.begin(), way.end());
+  return way;
 }
 
 }  // namespace ridgeway::detail

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "cell_neighbours.hpp"
 #include "ridgeway/esdf/free_space.hpp"
@@ -33,5 +34,9 @@ struct PlaceRange {
   CellId first, last;
 };
 PlaceRange nooks_of(const CellGraph& graph, CellId cell);
+
+/// The voxels on the way over a bend at a radius that it lets through, both places included.
+std::vector<VoxelIndex> way_over_bend(const CellGraph& graph, const FreeSpace& space, CellId from,
+                                      CellId to, SquaredHalves threshold);
 
 }  // namespace ridgeway::detail

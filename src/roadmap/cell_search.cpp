@@ -9,51 +9,11 @@
 #include "cell_bends.hpp"
 #include "cell_neighbours.hpp"
 #include "cell_walks.hpp"
+#include "met_cells.hpp"
 #include "paths/planning_constants.hpp"
 
 namespace ridgeway::detail {
 namespace {
-
-constexpr float kFar = std::numeric_limits<float>::infinity();
-
-/// What a search knows of the cells that it has met: a hash table, as they are few of many.
-class MetCells {
- public:
-  struct Met {
-    CellId cell = kNoCell, from = kNoCell;
-    float cost = kFar;  ///< voxels
-  };
-
-  Met& operator[](CellId cell) {
-    if (2 * count_ >= table_.size()) grow();
-    return place_of(cell);
-  }
-
- private:
-  Met& place_of(CellId cell) {
-    std::size_t i = cell * 2654435761u & (table_.size() - 1);  // Knuth's multiplicative hash
-    while (table_[i].cell != cell) {
-      if (table_[i].cell == kNoCell) {
-        table_[i].cell = cell;
-        ++count_;
-        break;
-      }
-      i = (i + 1) & (table_.size() - 1);
-    }
-    return table_[i];
-  }
-
-  void grow() {
-    std::vector<Met> old(4 * table_.size());
-    old.swap(table_);
-    count_ = 0;
-    for (const Met& met : old)
-      if (met.cell != kNoCell) place_of(met.cell) = met;
-  }
-
-  std::vector<Met> table_ = std::vector<Met>(512);
-  std::size_t count_ = 0;
-};
 
 /// Places of cells around a place on the way from an end. Whether they are in sight of it is looked
 /// at only where that counts.
@@ -323,7 +283,9 @@ class CellSearch {
     for (;; cell = met_[cell].from) {
       route.push_back(point_of(cell));
       if (met_[cell].from == cell) break;
-      if (!has_edge(cell, met_[cell].from)) add_bend(cell, met_[cell].from, route);
+      if (has_edge(cell, met_[cell].from)) continue;
+      for (const VoxelIndex& v : way_over_bend(graph_, space_, cell, met_[cell].from, threshold_))
+        route.push_back(centre_of(v, esdf_.voxel_size));
     }
     walk = end_walk(out, cell);
     route.insert(route.end(), walk.rbegin(), walk.rend());
@@ -337,17 +299,12 @@ class CellSearch {
   /// The moves from an end to the place of a cell that it does not see.
   std::vector<Point> end_walk(const Approach& approach, CellId place) const {
     std::vector<Point> walk;
+    const VoxelIndex first = first_voxel(place);
     for (const Approach::Join& join : approach.joins)
       if (join.cell == place && join.sight == Approach::Sight::kWalk)
-        add_walk(cell_of_place(graph_, place), 0, walk_to(approach, place), walk);
+        for (const std::uint8_t passed : walk_to(approach, place))
+          walk.push_back(centre_of(first + step_to(passed, 0), esdf_.voxel_size));
     return walk;
-  }
-
-  void add_walk(CellId cell, int axis, const std::vector<std::uint8_t>& walk,
-                std::vector<Point>& points) const {
-    for (const std::uint8_t place : walk)
-      points.push_back(
-          centre_of(lattice_.first_voxel(cell) + step_to(place, axis), esdf_.voxel_size));
   }
 
   bool has_edge(CellId a, CellId b) const {
@@ -356,22 +313,6 @@ class CellSearch {
     const int d = direction_of(
         {step.x / CellGraph::kSide, step.y / CellGraph::kSide, step.z / CellGraph::kSide});
     return edge_width(cells_, a, b, d) >= least_width_;
-  }
-
-  void add_bend(CellId from, CellId to, std::vector<Point>& points) const {
-    const CellId a = cell_of_place(graph_, from), b = cell_of_place(graph_, to);
-    const VoxelIndex step = lattice_.first_voxel(b) - lattice_.first_voxel(a);
-    const int axis = step.x != 0 ? 0 : step.y != 0 ? 1 : 2;
-    const bool is_onward = step.x + step.y + step.z > 0;
-    const CellId first = is_onward ? a : b, second = is_onward ? b : a;
-    const std::uint8_t begin = number_in_cell(graph_, is_onward ? from : to);
-    const auto end = static_cast<std::uint8_t>(64 + number_in_cell(graph_, is_onward ? to : from));
-    const CellWalks walks(
-        {fitting_voxels(space_, first, threshold_), fitting_voxels(space_, second, threshold_)},
-        axis);
-    std::vector<std::uint8_t> walk = walks.walk(begin, end);
-    if (!is_onward) std::reverse(walk.begin(), walk.end());
-    add_walk(first, axis, walk, points);
   }
 
   const EsdfMap& esdf_;

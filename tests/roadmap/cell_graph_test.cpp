@@ -10,8 +10,10 @@
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "ridgeway/roadmap/roadmap.hpp"
+#include "roadmap/cell_bends.hpp"
 #include "roadmap/cell_neighbours.hpp"
 #include "roadmap/cell_search.hpp"
+#include "roadmap/cell_walks.hpp"
 #include "support/pillars.hpp"
 #include "support/places.hpp"
 
@@ -62,11 +64,17 @@ TEST(CellGraph, EveryPlaceAndEdgeKeepsItsClearance) {
 
 TEST(CellGraph, IsTheSameForAnyNumberOfThreads) {
   const Roadmap roadmap = pillar_roadmap(1);
-  const auto run = [&] { return build_cell_graph(roadmap.esdf, kClearance).cells; };
-  const std::vector<CellGraph::Cell> one = with_threads(1, run), two = with_threads(2, run);
-  EXPECT_TRUE(std::equal(one.begin(), one.end(), two.begin(), two.end(),
+  const auto run = [&] { return build_cell_graph(roadmap.esdf, kClearance); };
+  const CellGraph one = with_threads(1, run), two = with_threads(2, run);
+  EXPECT_TRUE(std::equal(one.cells.begin(), one.cells.end(), two.cells.begin(), two.cells.end(),
                          [](const CellGraph::Cell& a, const CellGraph::Cell& b) {
                            return a.place == b.place && a.widths == b.widths && a.parts == b.parts;
+                         }));
+  EXPECT_FALSE(one.bends.empty());
+  EXPECT_TRUE(std::equal(one.bends.begin(), one.bends.end(), two.bends.begin(), two.bends.end(),
+                         [](const CellGraph::Bend& a, const CellGraph::Bend& b) {
+                           return a.from == b.from && a.to == b.to && a.length == b.length &&
+                                  a.width == b.width;
                          }));
 }
 
@@ -101,6 +109,122 @@ TEST(CellGraph, RoutesAreFreeAtTheirRadius) {
     }
   }
   EXPECT_GT(found, 150);
+}
+
+/// Voxels of 1 m, two fifths of them occupied: passages a voxel wide, for a robot that just fits.
+Roadmap clutter(unsigned seed) {
+  std::mt19937 random(seed);
+  OccupancyBuilder voxels(1.0);
+  for (int z = 0; z < 16; ++z)
+    for (int y = 0; y < 16; ++y)
+      for (int x = 0; x < 16; ++x)
+        voxels.set({x, y, z}, random() % 5 < 2 ? VoxelState::kOccupied : VoxelState::kFree);
+  Roadmap roadmap;
+  roadmap.min_clearance = 0.5;
+  roadmap.esdf = compute_esdf(std::move(voxels).finish());
+  roadmap.cells = build_cell_graph(roadmap.esdf, roadmap.min_clearance);
+  return roadmap;
+}
+
+/// The part at the smallest radius that moves within a voxel's cell lead to.
+std::uint16_t part_around(const Roadmap& roadmap, const VoxelIndex& v) {
+  const CellGraph& graph = roadmap.cells;
+  const detail::CellLattice lattice(roadmap.esdf.layout);
+  const detail::CellId cell = lattice.cell_of(v);
+  const FreeSpace space(roadmap.esdf);
+  const SquaredHalves threshold = least_clearance(roadmap.min_clearance, roadmap.esdf.voxel_size);
+  const auto place = static_cast<std::uint8_t>((v.x & 3) | (v.y & 3) << 2 | (v.z & 3) << 4);
+  const detail::CellMask inside =
+      detail::flood(detail::bit_of(place), detail::fitting_voxels(space, cell, threshold));
+  if ((inside & detail::bit_of(graph.cells[cell].place)) != 0) return graph.cells[cell].parts[0];
+  for (const CellGraph::Nook& nook : graph.nooks)
+    if (nook.cell == cell && (inside & detail::bit_of(nook.place)) != 0) return nook.parts[0];
+  return CellGraph::kNoPart;
+}
+
+TEST(CellGraph, ConnectsWhatMovesAcrossFacesConnect) {
+  std::size_t nooks = 0, moves = 0;
+  for (unsigned seed = 0; seed < 3; ++seed) {
+    SCOPED_TRACE(seed);
+    const Roadmap roadmap = clutter(seed);
+    const EsdfMap& esdf = roadmap.esdf;
+    nooks += roadmap.cells.nooks.size();
+    for (const VoxelId from : testing::traversable_places(esdf, roadmap.min_clearance)) {
+      const VoxelIndex v = esdf.layout.index_of(from);
+      const std::uint16_t part = part_around(roadmap, v);
+      ASSERT_NE(part, CellGraph::kNoPart);
+      for (const VoxelIndex& step : {VoxelIndex{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) {
+        const VoxelId to = esdf.layout.find(v + step);
+        if (to == kNoVoxel || esdf.state[to] != VoxelState::kFree) continue;
+        ++moves;
+        ASSERT_EQ(part_around(roadmap, v + step), part);
+      }
+    }
+  }
+  EXPECT_GT(nooks, 100u);
+  EXPECT_GT(moves, 5000u);
+}
+
+TEST(CellGraph, BendsAreMovesThatKeepTheirRadius) {
+  std::size_t bends = 0;
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    SCOPED_TRACE(seed);
+    const Roadmap roadmap = seed < 2 ? clutter(seed) : pillar_roadmap(seed);
+    const EsdfMap& esdf = roadmap.esdf;
+    const FreeSpace space(esdf);
+    const CellGraph& graph = roadmap.cells;
+    const detail::CellLattice lattice(esdf.layout);
+    const auto voxel_of = [&](detail::CellId place) {
+      return lattice.voxel_at(detail::cell_of_place(graph, place),
+                              detail::number_in_cell(graph, place));
+    };
+    for (const CellGraph::Bend& bend : graph.bends) {
+      ASSERT_GE(bend.width, 1);
+      const double radius = roadmap.min_clearance * detail::kRadiusLevels[bend.width - 1u];
+      const std::vector<VoxelIndex> way = detail::way_over_bend(
+          graph, space, bend.from, bend.to, least_clearance(radius, esdf.voxel_size));
+      ASSERT_GE(way.size(), 2u);
+      EXPECT_EQ(way.front(), voxel_of(bend.from));
+      EXPECT_EQ(way.back(), voxel_of(bend.to));
+      for (std::size_t i = 1; i < way.size(); ++i)
+        EXPECT_TRUE(space.is_free(centre_of(way[i - 1], esdf.voxel_size),
+                                  centre_of(way[i], esdf.voxel_size), radius));
+      EXPECT_LE(bend.length, static_cast<float>(way.size() - 1));
+      EXPECT_GE(bend.length * esdf.voxel_size * (1.0 + 1e-6),
+                (centre_of(way.back(), esdf.voxel_size) - centre_of(way.front(), esdf.voxel_size))
+                    .norm());
+      ++bends;
+    }
+  }
+  EXPECT_GT(bends, 500u);
+}
+
+TEST(CellGraph, LeadsThroughPassagesAVoxelWide) {
+  const Roadmap roadmap = clutter(7);
+  const EsdfMap& esdf = roadmap.esdf;
+  const FreeSpace space(esdf);
+  const double radius = roadmap.min_clearance;
+  const std::vector<VoxelId> places = testing::traversable_places(esdf, radius);
+  std::mt19937 random(7);
+  int found = 0;
+  for (int i = 0; i < 40; ++i) {
+    const VoxelId from = places[random() % places.size()], to = places[random() % places.size()];
+    const VoxelIndex a = esdf.layout.index_of(from), b = esdf.layout.index_of(to);
+    if (part_around(roadmap, a) != part_around(roadmap, b)) continue;
+    const Point start = centre_of(a, esdf.voxel_size), goal = centre_of(b, esdf.voxel_size);
+    detail::AttachWay out, in;  // ways that stop where they begin
+    out.voxels = {from};
+    in.voxels = {to};
+    const std::vector<Point> route =
+        detail::search_cells(roadmap, space, {start, goal, out, in, radius}).waypoints;
+    ASSERT_FALSE(route.empty());
+    EXPECT_EQ(route.front(), start);
+    EXPECT_EQ(route.back(), goal);
+    for (std::size_t k = 1; k < route.size(); ++k)
+      EXPECT_TRUE(space.is_free(route[k - 1], route[k], radius));
+    ++found;
+  }
+  EXPECT_GT(found, 15);
 }
 
 }  // namespace

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "cell_neighbours.hpp"
+
+namespace ridgeway::detail {
+
+/// What a search knows of the cells that it has met: a hash table, as they are few of many.
+class MetCells {
+ public:
+  struct Met {
+    CellId cell = kNoCell, from = kNoCell;
+    float cost = std::numeric_limits<float>::infinity();  ///< voxels
+  };
+
+  Met& operator[](CellId cell) {
+    if (2 * count_ >= table_.size()) grow();
+    return place_of(cell);
+  }
+
+ private:
+  Met& place_of(CellId cell) {
+    std::size_t i = cell * 2654435761u & (table_.size() - 1);  // Knuth's multiplicative hash
+    while (table_[i].cell != cell) {
+      if (table_[i].cell == kNoCell) {
+        table_[i].cell = cell;
+        ++count_;
+        break;
+      }
+      i = (i + 1) & (table_.size() - 1);
+    }
+    return table_[i];
+  }
+
+  void grow() {
+    std::vector<Met> old(4 * table_.size());
+    old.swap(table_);
+    count_ = 0;
+    for (const Met& met : old)
+      if (met.cell != kNoCell) place_of(met.cell) = met;
+  }
+
+  std::vector<Met> table_ = std::vector<Met>(512);
+  std::size_t count_ = 0;
+};
+
+}  // namespace ridgeway::detail
