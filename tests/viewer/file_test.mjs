@@ -80,6 +80,21 @@ test("plans as a person uses it", async () => {
   assert.ok(difference(before, await pixels(page)) > 200);
 });
 
+test("where frames are slow, a surface is drawn finer when it is looked at from near", async () => {
+  const is_fine = (frame_time, farther) => page.evaluate(([frame_time, farther]) => {
+    const { stage, surface } = window.ridgeway;
+    stage.turn(0, 0, farther);
+    Object.assign(stage, { frame_time, coarse: false });
+    stage.changed();
+    stage.draw();
+    return surface.mesh.geometry === surface.fine.geometry;
+  }, [frame_time, farther]);
+  assert.equal(await page.evaluate(() => window.ridgeway.surface.fine === window.ridgeway.surface.coarse), false);
+  assert.equal(await is_fine(0, 2), true);
+  assert.equal(await is_fine(1000, 1), false);
+  assert.equal(await is_fine(1000, 0.05), true);
+});
+
 test("is refused where it would write over the map", () => {
   const refused = run("export", map, "-o", map);
   assert.equal(refused.status, 1);

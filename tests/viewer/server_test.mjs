@@ -224,7 +224,7 @@ test("is not held up by the slow", async () => {
   const slow = Array.from({ length: 50 }, (_, i) => {
     const socket = net.connect(served.port, "127.0.0.1");
     socket.on("error", () => {});
-    socket.closed = new Promise((resolve) => socket.on("close", resolve));
+    socket.gone = new Promise((resolve) => socket.on("close", resolve));
     // Half send a byte now and then, half ask for much and read nothing.
     if (i % 2 === 0) socket.timer = setInterval(() => socket.write("G"), 300);
     else socket.pause().write(`GET /page.js HTTP/1.1\r\nHost: 127.0.0.1:${served.port}\r\n\r\n`);
@@ -233,7 +233,7 @@ test("is not held up by the slow", async () => {
   await sleep(300);
   for (let i = 0; i < 10; ++i) await still_answers();
   // A request that is not whole in five seconds is given up, however busily it is sent.
-  const ends = await Promise.all(slow.filter((socket) => socket.timer).map((socket) => comes(socket.closed, 60_000)));
+  const ends = await Promise.all(slow.filter((socket) => socket.timer).map((socket) => comes(socket.gone, 60_000)));
   assert.ok(ends.every((is_closed) => is_closed), "a slow request is never given up");
   for (const socket of slow) {
     clearInterval(socket.timer);

@@ -20,6 +20,11 @@ interface Layer {
   on_switch?: () => Promise<void>;
 }
 
+/** Small parts are parts, too. */
+function volume_text(volume: number): string {
+  return `${metres(volume, volume < 1 ? 3 : 1)} m³`;
+}
+
 /** Lets go of what the graphics card holds of a drawing; it is made again where it is drawn again. */
 function dispose(drawing: THREE.Object3D): void {
   drawing.traverse((part) => {
@@ -195,7 +200,7 @@ export class LayerPanel {
       const item = document.createElement("li");
       const button = document.createElement("button");
       button.type = "button";
-      button.textContent = join_text(join, (i) => `${metres(components[i]!.volume, 1)} m³`);
+      button.textContent = join_text(join, (i) => volume_text(components[i]!.volume));
       button.addEventListener("click", () => this.fly_to(join.place));
       item.append(button);
       list.append(item);

@@ -10,6 +10,9 @@ import { ask_json, find_source, type MapSource } from "./source";
 import { Stage } from "./stage";
 import { SurfaceMesh } from "./surface";
 
+/** Pixels: where frames are slow, cells are not drawn finer as long as they are smaller. */
+const kSmall = 3;
+
 /** For tests, and for who looks with the console. */
 function show_to_tests(parts: object): void {
   Object.assign(window, { ridgeway: { THREE, ...parts } });
@@ -30,7 +33,8 @@ async function begin_map(source: MapSource, stage: Stage, info: Info): Promise<v
   const asked_fine = source.ask("/api/surface").then(read_surface, (error: Error) => error);
   surface.cut = surface.height_below_ceilings();
   stage.scene.add(surface.mesh);
-  stage.before_frame.push((is_coarse) => surface.draw_coarse(is_coarse));
+  const is_coarse_enough = () => stage.is_slow && stage.pixels_of(surface.coarse_cell) < kSmall;
+  stage.before_frame.push((is_coarse) => surface.draw_coarse(is_coarse || is_coarse_enough()));
   stage.look_from_side();
   const app = new App(source, stage, info, base, surface);
   show_to_tests({ app, stage, surface });
@@ -40,9 +44,13 @@ async function begin_map(source: MapSource, stage: Stage, info: Info): Promise<v
   performance.mark("first-frame");
   const fine = await asked_fine;
   if (fine instanceof Error) throw fine;
+  const draw_again = () => {
+    stage.changed();
+    stage.draw();
+  };
+  if (stage.is_slow) draw_again(); // it may have been the shaders, which are compiled now
   surface.refine(fine);
-  stage.changed();
-  stage.draw();
+  if (!is_coarse_enough()) draw_again();
   is_ready();
 }
 

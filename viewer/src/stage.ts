@@ -22,8 +22,8 @@ export class Stage {
   readonly controls: OrbitControls;
   /** Space that is worth looking at. */
   readonly box = new THREE.Box3(new THREE.Vector3(), new THREE.Vector3(1, 1, 1));
-  /** Called before a frame; it is coarse while the view moves and frames are slow. */
-  readonly before_frame: ((is_coarse: boolean) => void)[] = [];
+  /** Called before a frame, which is coarse while the view moves and frames are slow: whether less than all is drawn. */
+  readonly before_frame: ((is_coarse: boolean) => boolean | void)[] = [];
   frames = 0;
   /** Frames for which all that stands was drawn. */
   stills = 0;
@@ -72,6 +72,19 @@ export class Stage {
     paint();
   }
 
+  /** Whether frames are slow when all that stands is drawn. */
+  get is_slow(): boolean {
+    return this.frame_time > kSlowFrame;
+  }
+
+  /** How many pixels of the canvas a length takes, metres, where the view turns around. */
+  pixels_of(length: number): number {
+    const height = this.renderer.domElement.height;
+    if (this.is_orthographic) return (length * height * this.orthographic.zoom) / (2 * this.orthographic.top);
+    const distance = this.perspective.position.distanceTo(this.controls.target);
+    return (length * height) / (2 * distance * Math.tan(THREE.MathUtils.degToRad(this.perspective.fov / 2)));
+  }
+
   get camera(): THREE.Camera {
     return this.camera_now;
   }
@@ -81,7 +94,7 @@ export class Stage {
 
   /** Something moves: where frames are slow, coarse ones are drawn until it is still. */
   moves(): void {
-    this.coarse = this.frame_time > kSlowFrame;
+    this.coarse = this.is_slow;
     this.changed();
     clearTimeout(this.still_timer);
     if (!this.coarse) return;
@@ -118,14 +131,19 @@ export class Stage {
     if (width === 0 || height === 0) return;
     const started = performance.now();
     this.fit_canvas(width, height);
+    let is_less = false;
     if (this.is_still_old) {
-      for (const act of this.before_frame) act(this.coarse);
+      for (const act of this.before_frame) if (act(this.coarse)) is_less = true;
       this.still.take(this.renderer, this.scene, this.camera_now);
       ++this.stills;
     }
     this.still.put(this.renderer);
     this.renderer.render(this.overlay, this.camera_now);
-    if (this.is_still_old && !this.coarse && !this.is_moving_over) this.frame_time = this.wait_for_picture() - started;
+    if (this.is_still_old && !this.coarse && !this.is_moving_over) {
+      const time = this.wait_for_picture() - started;
+      // How long all takes is not less than a part of it does.
+      this.frame_time = is_less ? Math.max(this.frame_time, time) : time;
+    }
     this.is_still_old = false;
     ++this.frames;
   }
@@ -139,7 +157,7 @@ export class Stage {
 
   /** Setting a size empties the canvas, so it is set only where it is another. */
   private fit_canvas(width: number, height: number): void {
-    const has_few_pixels = this.coarse || (this.is_moving_over && this.frame_time > kSlowFrame);
+    const has_few_pixels = this.coarse || (this.is_moving_over && this.is_slow);
     const ratio = has_few_pixels ? 0.5 : Math.min(devicePixelRatio, 2);
     const now = this.renderer.getSize(new THREE.Vector2());
     if (this.renderer.getPixelRatio() === ratio && now.x === width && now.y === height) return;

@@ -106,8 +106,8 @@ function expanded({ cells, sizes, count }: Surface, order: Uint32Array): { corne
 }
 
 /**
- * Obstacles as rectangles, cut off above a height: a coarse surface, which is there first and is
- * drawn while the view moves, where frames are slow; and the fine one.
+ * Obstacles as rectangles, cut off above a height: a coarse surface, which is there first and, where
+ * frames are slow, is drawn while the view moves or is far; and the fine one.
  */
 export class SurfaceMesh {
   readonly mesh: THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>;
@@ -149,6 +149,11 @@ export class SurfaceMesh {
     };
   }
 
+  /** Side of the coarse surface's cells, metres. */
+  get coarse_cell(): number {
+    return this.coarse.surface.cell;
+  }
+
   get cut(): number {
     return this.material.uniforms.cut!.value;
   }
@@ -176,8 +181,10 @@ export class SurfaceMesh {
     this.draw_coarse(false);
   }
 
-  draw_coarse(is_coarse: boolean): void {
+  /** Returns whether that is less than there is. */
+  draw_coarse(is_coarse: boolean): boolean {
     this.mesh.geometry = (is_coarse ? this.coarse : this.fine).geometry;
+    return is_coarse && this.coarse !== this.fine;
   }
 
   /** Just below most ceilings, so that rooms can be looked into: half the faces that look down are higher. */
