@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 #include <algorithm>
+#include <limits>
 
 #include "explorer_state.hpp"
 #include "planning/endpoint.hpp"
@@ -9,9 +10,37 @@
 namespace ridgeway {
 namespace {
 
-/// The widest of the free voxels of a part's block that touch its targets.
-VoxelId free_voxel_of(const EsdfMap& esdf, const FrontierPart& part) {
-  return esdf.layout.find(part.first);
+/// Traversable voxels, by cluster, from which some of it would be seen: the widest. None for
+/// others.
+std::vector<VoxelId> widest_views_of(const Roadmap& roadmap, const Frontiers& frontiers,
+                                     const ExplorerConfig& config) {
+  const std::vector<detail::Place> places = detail::widest_places(roadmap, config.spacing);
+  detail::Views views(config.view, config.headings, config.within, 0.0);
+  views.update(roadmap, frontiers, config.least_frontier, places, Point::Zero(),
+               std::numeric_limits<std::size_t>::max(), true);
+  std::vector<VoxelId> widest(frontiers.clusters().size(), kNoVoxel);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    for (const detail::Sight& sight : views.from_places()[i]) {
+      VoxelId& best = widest[frontiers.parts()[sight.part].cluster];
+      const VoxelId voxel = roadmap.esdf.layout.find(places[i].voxel);
+      if (best == kNoVoxel || roadmap.esdf.squared[voxel] > roadmap.esdf.squared[best])
+        best = voxel;
+    }
+  return widest;
+}
+
+/// The widest free voxel of the blocks that a cluster lies in.
+VoxelId widest_beside(const EsdfMap& esdf, const Frontiers& frontiers,
+                      const FrontierCluster& cluster) {
+  VoxelId best = esdf.layout.find(frontiers.parts()[cluster.parts[0]].first);
+  for (const std::size_t i : cluster.parts) {
+    const std::uint32_t slot = esdf.layout.find_block(frontiers.parts()[i].block);
+    for (VoxelId local = 0; local < kBlockVoxels; ++local) {
+      const VoxelId voxel = slot * kBlockVoxels + local;
+      if (esdf.is_open(voxel) && esdf.squared[voxel] > esdf.squared[best]) best = voxel;
+    }
+  }
+  return best;
 }
 
 }  // namespace
@@ -26,7 +55,9 @@ std::vector<UnseenFrontier> Explorer::unseen() const {
   const auto home = state.config.home
                         ? detail::find_endpoint(esdf, to_local(esdf, *state.config.home), radius)
                         : detail::Endpoint{};
-  for (const FrontierCluster& cluster : state.frontiers.clusters()) {
+  const std::vector<VoxelId> views = widest_views_of(*state.roadmap, state.frontiers, state.config);
+  for (std::size_t c = 0; c < state.frontiers.clusters().size(); ++c) {
+    const FrontierCluster& cluster = state.frontiers.clusters()[c];
     if (cluster.voxels < state.config.least_frontier) continue;
     UnseenFrontier found = {to_world(esdf, cluster.centroid), cluster.voxels};
     std::size_t looked_at = 0, targets = 0;
@@ -38,7 +69,8 @@ std::vector<UnseenFrontier> Explorer::unseen() const {
     if (2 * looked_at > targets) found.reason = UnseenReason::kLookedInVain;
     if (home.voxel != kNoVoxel) {
       if (!parts) parts.emplace(esdf);
-      const VoxelId voxel = free_voxel_of(esdf, state.frontiers.parts()[cluster.parts[0]]);
+      const VoxelId voxel =
+          views[c] != kNoVoxel ? views[c] : widest_beside(esdf, state.frontiers, cluster);
       const std::optional<Pass> pass = parts->narrowest_move(home.voxel, voxel);
       if (pass) {
         const SpaceParts::Narrow narrow = parts->look_at(*pass);

@@ -54,16 +54,25 @@ double profile_duration(double length, double from, double to, const MotionLimit
 
 std::vector<Point> place_knots(std::span<const Point> path, double spacing) {
   std::vector<Point> knots{path.front()};
+  Point farthest = path.front();  // of those that were passed over since the last knot
   for (std::size_t i = 1; i < path.size(); ++i) {
     const bool is_goal = i + 1 == path.size();
+    const double passed_over = (farthest - knots.back()).norm();
+    if (is_goal && (path[i] - knots.back()).norm() < passed_over) knots.push_back(farthest);
     const Point from = knots.back(), along = path[i] - from;
     const double length = along.norm();
-    if (length < kLeastPiece * spacing && !is_goal) continue;
+    if (length < kLeastPiece * spacing && !is_goal) {
+      if (length > passed_over) farthest = path[i];
+      continue;
+    }
+    farthest = path[i];
     const int pieces = std::max(1, static_cast<int>(std::ceil(length / spacing)));
     for (int k = 1; k < pieces; ++k) knots.emplace_back(from + along * k / pieces);
     knots.push_back(path[i]);
   }
-  if (knots.size() > 2 && (knots.back() - knots[knots.size() - 2]).norm() < kLeastPiece * spacing)
+  const std::size_t n = knots.size();
+  const auto to_goal = [&](std::size_t i) { return (knots.back() - knots[i]).norm(); };
+  if (n > 2 && to_goal(n - 2) < kLeastPiece * spacing && to_goal(n - 2) < to_goal(n - 3))
     knots.erase(knots.end() - 2);
   return knots;
 }

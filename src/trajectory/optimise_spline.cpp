@@ -76,6 +76,7 @@ OptimisationResult optimise_spline(SpaceSpline spline, const SplineCostConfig& c
   result.report.before = objective.terms();
 
   Search search(objective);
+  search.best = variables;  // where no step of the search has a cost
   const Optimiser optimiser(nlopt_create(NLOPT_LD_LBFGS, static_cast<unsigned>(variables.size())));
   search.optimiser = optimiser.get();
   nlopt_set_min_objective(optimiser.get(), evaluate, &search);
@@ -86,7 +87,6 @@ OptimisationResult optimise_spline(SpaceSpline spline, const SplineCostConfig& c
   const nlopt_result outcome = nlopt_optimize(optimiser.get(), variables.data(), &cost);
   if (search.failure) std::rethrow_exception(search.failure);
 
-  if (search.best.empty()) search.best = objective.variables();
   objective(search.best, {});  // a failed line search may have ended elsewhere
   result.report.after = objective.terms();
   result.report.evaluations = search.evaluations;

@@ -236,6 +236,19 @@ TEST(PlanTrajectory, DegeneratePathsGetATrajectory) {
   EXPECT_EQ(plan_trajectory(esdf(), paths[0], config).duration, 0.0);
 }
 
+/// A way out that is shorter than the knots are apart, and back to where it began.
+TEST(PlanTrajectory, ThereAndBackGetsATrajectory) {
+  const TrajectoryConfig config;
+  for (const double way : {1e-3, 0.05, 0.2, 0.3, 0.6, 2.0}) {
+    SCOPED_TRACE(way);
+    const std::vector<Point> path{{2, 5, 2}, {2 + way, 5, 2}, {2, 5, 2}};
+    expect_flown(plan_trajectory(esdf(), path, config), path, config);
+    const std::vector<Point> twice{
+        {2, 5, 2}, {2 + way, 5, 2}, {2, 5 + way, 2}, {2 + way, 5, 2}, {2, 5, 2}};
+    expect_flown(plan_trajectory(esdf(), twice, config), twice, config);
+  }
+}
+
 TEST(PlanTrajectory, ThousandWaypointsTakeSeconds) {
   std::vector<Point> spiral, dense;
   for (int i = 0; i < 1000; ++i) {
