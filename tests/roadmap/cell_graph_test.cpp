@@ -8,6 +8,7 @@
 #include "paths/planning_constants.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "ridgeway/roadmap/roadmap.hpp"
 #include "roadmap/cell_bends.hpp"
