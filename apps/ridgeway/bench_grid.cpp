@@ -90,6 +90,7 @@ Json json_of(const GridRow& row) {
           {"fallbacks", graph.fallbacks},
           {"length_over_optimum", cli::json_of(graph.length_over_optimum)},
           {"longest_scenario", longest_scenario(row)},
+          {"within_violations", graph.within_violations},
           {"microseconds", cli::json_of(graph.microseconds)},
           {"raw",
            {{"solved", row.raw.solved},

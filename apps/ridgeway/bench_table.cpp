@@ -74,7 +74,8 @@ std::string cell_text(const Json& value) {
 
 }  // namespace
 
-void BenchTable::print() const {
+void BenchTable::print(const std::string& title) const {
+  if (!title.empty()) std::printf("%s\n", title.c_str());
   Lines lines;
   for (const Json& row : rows_) {
     const Json cells = flat(row);

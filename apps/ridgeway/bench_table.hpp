@@ -30,8 +30,10 @@ class BenchTable {
   int report(const Globals& globals, const std::string& folder, const std::string& name, Json facts,
              bool complete) const;
 
+  /// The rows alone, to stdout, under a line with a title where there is one.
+  void print(const std::string& title = {}) const;
+
  private:
-  void print() const;
   std::string csv() const;
 
   Json rows_ = Json::array();

@@ -17,6 +17,7 @@
 #include "ridgeway/pictures/picture.hpp"
 #include "ridgeway/planning/check.hpp"
 #include "ridgeway/recordings/depth_sequence.hpp"
+#include "ridgeway/recordings/scan_sequence.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
 #include "view/follow.hpp"
 
@@ -169,23 +170,30 @@ int run(const ExploreOptions& options, const Globals& globals) {
   const World world = load_world(options.world);
   config.validate();
   FollowedRun followed(options.follow, options.output, globals);
-  std::optional<SequenceWriter> writer;
-  if (!options.record.empty()) writer.emplace(options.record, config.sensor.camera);
+  std::optional<SequenceWriter> images;
+  std::optional<ScanWriter> scans;
+  if (!options.record.empty() && config.lidar) scans.emplace(options.record);
+  if (!options.record.empty() && !config.lidar)
+    images.emplace(options.record, config.sensor.camera);
   ProgressBar bar(globals);
   const ExplorationFlight flight = explore(
       world, config, bar.callback(),
       [&](const DepthImage& image, const Eigen::Isometry3d& T_world_camera) {
-        if (writer) writer->add(image, T_world_camera);
+        if (images) images->add(image, T_world_camera);
       },
       followed.is_followed()
           ? [&](const ExplorationMoment& moment) { followed.show(scene_of(moment)); }
-          : OnMoment{});
+          : OnMoment{},
+      [&](std::span<const Point> points, const Eigen::Isometry3d& T_world_sensor) {
+        if (scans) scans->add(points, T_world_sensor);
+      });
   bar.clear();
   if (!flight.roadmap)
     throw InputError(options.world, "shows no place that the drone fits",
                      "give a smaller --radius or --voxel-size");
   save_roadmap(*flight.roadmap, options.output);
-  if (writer) writer->finish();
+  if (images) images->finish();
+  if (scans) scans->finish();
   if (!options.flight.empty()) write_text_file(options.flight, flight_csv(flight));
   if (!options.volume.empty()) write_text_file(options.volume, volume_csv(flight));
   if (!options.picture.empty()) draw(flight, world.name, options.picture);
@@ -213,8 +221,9 @@ void add_explore_command(Command& program) {
   command.path("--volume", options->volume, "Mapped volume over time, .csv");
   command.path("--picture", options->picture,
                "Map, flight and graph from above, and mapped volume over time, .png or .svg");
-  command.path("--record", options->record,
-               "Folder, new or empty, for the depth images and poses, as `ridgeway live` takes it");
+  command.path(
+      "--record", options->record,
+      "Folder, new or empty, for images or scans and their poses, as `ridgeway live` takes it");
   add_follow_options(command, options->follow);
   command.footer(
       "Example:\n"

@@ -17,6 +17,12 @@ ExplorationFlightConfig ExploreSettings::flight() const {
   sensor.camera.cy = 0.5 * (sensor.camera.height - 1);
   sensor.range_sigma = sigma;
   sensor.max_range = max_range;
+  if (camera == "lidar")
+    flight.lidar = {.rows = rows,
+                    .columns = 4 * width,
+                    .vertical = vertical_angle * std::numbers::pi / 180.0,
+                    .max_range = max_range,
+                    .range_sigma = sigma};
   flight.bounds = bounds;
   flight.explorer.limits.max_yaw_rate = max_yaw_rate * std::numbers::pi / 180.0;
   if (planner == "frontier") flight.planner = ExplorationPlanner::kFrontier;
@@ -40,10 +46,14 @@ void add_explore_settings(Command& command, ExploreSettings& settings) {
                  "Metres a second^2");
   command.number("--max-yaw-rate", settings.max_yaw_rate, {.least = 1e-3, .most = 1e6},
                  "Degrees a second");
-  command.choice("--camera", settings.camera, {"pinhole", "stereo"},
-                 "A perfect one, or a stereo pair");
+  command.choice("--camera", settings.camera, {"pinhole", "stereo", "lidar"},
+                 "A perfect one, a stereo pair, or a lidar that spins");
   command.whole("--width", settings.width, {4, 4096},
-                "Pixels across, of 90 degrees; 3/4 as many down");
+                "Pixels across, of 90 degrees; 3/4 as many down, of a lidar --rows");
+  command.whole("--rows", settings.rows, {2, 4096}, "Of a lidar, one above the other");
+  command.number("--vertical-angle", settings.vertical_angle,
+                 {.least = 0.0, .most = 179.0, .above = true},
+                 "Of a lidar, from the lowest row to the highest, degrees");
   command.number("--sigma", settings.sigma, kLengthsFromZero,
                  "Gaussian noise on every range, metres");
   command.number("--max-range", settings.max_range, kLengths,

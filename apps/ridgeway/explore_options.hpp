@@ -13,7 +13,8 @@ namespace ridgeway::cli {
 /// Of drone, camera and planner: what `explore` and `bench explore` share.
 struct ExploreSettings {
   std::string camera = "pinhole", planner = "ridgeway";
-  int width = 160;
+  int width = 160, rows = 32;
+  double vertical_angle = 60.0;  // degrees
   double sigma = 0.01, max_range = 10.0, max_yaw_rate = 90.0;
   std::optional<Box> bounds;
   ExplorationFlightConfig config;

@@ -1,25 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "experiments/live_queries.hpp"
 #include "files/atomic_file.hpp"
 #include "files/read_file.hpp"
 #include "files/temporary.hpp"
+#include "formats/build_record.hpp"
 #include "growing_recording.hpp"
 #include "json.hpp"
+#include "limit_options.hpp"
+#include "live_report.hpp"
 #include "recording.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/live/live_roadmap.hpp"
-#include "ridgeway/planning/check.hpp"
 #include "ridgeway/recordings/depth_sequence.hpp"
 #include "ridgeway/recordings/scan_sequence.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
@@ -31,19 +38,56 @@ namespace {
 struct LiveOptions {
   std::string folder, output, csv;
   std::string unknown = "obstacle";
+  LimitOptions limits;
   int verify = 0;
+  std::size_t queries = 0;
+  bool realtime = false;
   double follow = 0.0;  // seconds
   std::string until;
   LiveConfig live;
   FollowOptions follow_by_page;
 };
 
-struct Replay {
-  std::vector<UpdateReport> updates;
-  std::size_t unreadable = 0, without_pose = 0;
-  std::size_t verified = 0;
-  std::vector<double> batch_seconds;  // of the builds that verified
-  Stopwatch watch;
+/// Keeps a replay to the recording's own clock.
+class Pace {
+ public:
+  explicit Pace(bool keeps) : keeps_(keeps) {}
+
+  /// Waits until a time of the recording's clock, seconds. `bar`: asked meanwhile whether the user
+  /// still does.
+  void wait_until(double time, ProgressBar& bar, LiveReplay& replay) {
+    if (!keeps_) return;
+    if (!first_) first_ = time;
+    const double due = time - *first_;
+    for (double left; (left = due - replay.watch.seconds()) > 0.0;) {
+      bar.show("wait", 0.0);
+      std::this_thread::sleep_for(std::chrono::duration<double>(std::min(left, 0.05)));
+    }
+    replay.behind = std::max(replay.behind, replay.watch.seconds() - due);
+  }
+
+ private:
+  const bool keeps_;
+  std::optional<double> first_;
+};
+
+constexpr double kImagesASecond = 30.0, kScansASecond = 10.0;  // of recordings without times
+
+/// What every frame needs.
+struct Run {
+  const LiveOptions& options;
+  LiveRoadmap live;
+  FollowedRun followed;
+  LiveReplay replay;
+  LiveQueryLoad load;
+  Pace pace;
+
+  Run(const LiveOptions& given, const Globals& globals)
+      : options(given),
+        live(given.live),
+        followed(given.follow_by_page, given.output, globals),
+        load(live, 0, 1, replay.queries),
+        pace(given.realtime) {}
 };
 
 /// Whether two roadmaps have the same file, made beside the output.
@@ -56,17 +100,21 @@ bool have_same_file(const Roadmap& a, const Roadmap& b, const std::string& outpu
   return read_file(folder.path() / "live.ridge") == read_file(folder.path() / "batch.ridge");
 }
 
-/// Builds the map in batch; throws where that gives another roadmap.
-void verify_by_batch(LiveRoadmap& live, const LiveOptions& options, const std::string& frame,
-                     Replay& replay) {
-  const std::shared_ptr<const Roadmap> snapshot = live.settled();
+/// Builds the map in batch, and notes whether that gives the same roadmap.
+void verify_by_batch(Run& run, const std::string& frame) {
+  const std::shared_ptr<const Roadmap> snapshot = run.live.settled();
   if (!snapshot) return;
+  const LiveConfig& config = run.options.live;
   const Stopwatch watch;
-  const BuildResult batch = build_roadmap(live.map(), options.live.build);
-  replay.batch_seconds.push_back(watch.seconds());
-  ++replay.verified;
-  if (!have_same_file(*snapshot, batch.roadmap, options.output))
-    throw std::logic_error("after " + frame + " a batch build gives another roadmap");
+  BuildResult batch = build_roadmap(run.live.map(), config.build);
+  run.replay.batch_seconds.push_back(watch.seconds());
+  batch.roadmap.source = config.source;
+  batch.roadmap.config = config.record;
+  ++run.replay.verified;
+  if (have_same_file(*snapshot, batch.roadmap, run.options.output))
+    ++run.replay.identical;
+  else if (run.replay.first_other.empty())
+    run.replay.first_other = frame;
 }
 
 /// Where a sensor is that looks along an axis of its own.
@@ -75,166 +123,121 @@ LiveScene scene_at(const Eigen::Isometry3d& T_world_sensor, const Eigen::Vector3
   return {.position = T_world_sensor.translation(), .yaw = std::atan2(towards.y(), towards.x())};
 }
 
-/// Runs one update, and shows what it has made; complaints name the file.
+/// Runs one update, and shows what it has made; complaints name the file. `scans`: of the whole
+/// recording; 0 where that is not known.
 template <typename Update>
-void replay_frame(LiveRoadmap& live, const LiveOptions& options, const std::filesystem::path& frame,
-                  Replay& replay, FollowedRun& followed, LiveScene scene, const Update& update) {
+void replay_frame(Run& run, const std::filesystem::path& frame, std::size_t scans, LiveScene scene,
+                  const Update& update) {
+  LiveReplay& replay = run.replay;
   try {
     replay.updates.push_back(update());
   } catch (const InputError& error) {
     throw error.within(frame.string());
   }
-  scene.roadmap = live.snapshot();
-  scene.scan = replay.updates.size();
+  const std::size_t done = replay.updates.size();
+  // As many of all as of the scans.
+  run.load.allow(scans == 0 ? run.options.queries : run.options.queries * done / scans);
+  scene.roadmap = run.live.snapshot();
+  scene.scans = scans;
+  scene.scan = done;
   scene.seconds = replay.watch.seconds();
-  followed.show(std::move(scene));
-  if (options.verify > 0 && replay.updates.size() % static_cast<std::size_t>(options.verify) == 0)
-    verify_by_batch(live, options, frame.string(), replay);
+  run.followed.show(std::move(scene));
+  if (run.options.verify > 0 && done % static_cast<std::size_t>(run.options.verify) == 0)
+    verify_by_batch(run, frame.string());
 }
 
-void replay_images(const LiveOptions& options, const Globals& globals, LiveRoadmap& live,
-                   Replay& replay, FollowedRun& followed) {
+double share_of(std::size_t done, std::size_t all) {
+  return static_cast<double>(done) / static_cast<double>(all);
+}
+
+void replay_images(Run& run, const Globals& globals) {
+  const LiveOptions& options = run.options;
   DepthSequence sequence;
   std::vector<DepthFrame> next;
   GrowingRecording frames(options.folder, options.follow, options.until);
   ProgressBar bar(globals);
+  std::size_t place = 0;
   while (frames.find(sequence, next, bar)) {
-    replay.without_pose = sequence.without_pose;
+    run.replay.without_pose = sequence.without_pose;
     for (const DepthFrame& frame : next) {
       frames.done(frame);
-      bar.show("live", static_cast<double>(replay.updates.size()) /
-                           static_cast<double>(sequence.frames.size()));
+      run.pace.wait_until(frame.time.value_or(static_cast<double>(place++) / kImagesASecond), bar,
+                          run.replay);
+      bar.show("live", share_of(run.replay.updates.size(), sequence.frames.size()));
       const std::optional<DepthImage> image = read_when_whole(sequence, frame, options.follow);
-      if (image) {
-        LiveScene scene = scene_at(frame.T_world_camera, Eigen::Vector3d::UnitZ());
-        if (options.follow == 0.0) scene.scans = sequence.frames.size();
-        replay_frame(live, options, frame.image, replay, followed, std::move(scene),
-                     [&] { return live.integrate(*image, sequence.camera, frame.T_world_camera); });
-      }
-      replay.unreadable += !image;
+      if (image)
+        replay_frame(run, frame.image, options.follow == 0.0 ? sequence.frames.size() : 0,
+                     scene_at(frame.T_world_camera, Eigen::Vector3d::UnitZ()), [&] {
+                       return run.live.integrate(*image, sequence.camera, frame.T_world_camera);
+                     });
+      run.replay.unreadable += !image;
       if (frames.is_last(frame)) return;
     }
     if (options.follow == 0.0) return;
   }
 }
 
-void replay_scans(const LiveOptions& options, const Globals& globals, LiveRoadmap& live,
-                  Replay& replay, FollowedRun& followed) {
-  const ScanSequence sequence = open_scans(options.folder);
-  replay.without_pose = sequence.without_pose;
+void replay_scans(Run& run, const Globals& globals) {
+  const ScanSequence sequence = open_scans(run.options.folder);
+  run.replay.without_pose = sequence.without_pose;
   ProgressBar bar(globals);
+  std::size_t place = 0;
   for (const Scan& scan : sequence.scans) {
-    bar.show("live", static_cast<double>(replay.updates.size()) /
-                         static_cast<double>(sequence.scans.size()));
+    run.pace.wait_until(static_cast<double>(place++) / kScansASecond, bar, run.replay);
+    bar.show("live", share_of(run.replay.updates.size(), sequence.scans.size()));
     const PointCloud cloud = read_scan(scan);
-    LiveScene scene = scene_at(scan.T_world_sensor, Eigen::Vector3d::UnitX());
-    scene.scans = sequence.scans.size();
-    replay_frame(live, options, scan.cloud, replay, followed, std::move(scene),
-                 [&] { return live.integrate(cloud.points, scan.T_world_sensor); });
+    replay_frame(run, scan.cloud, sequence.scans.size(),
+                 scene_at(scan.T_world_sensor, Eigen::Vector3d::UnitX()),
+                 [&] { return run.live.integrate(cloud.points, scan.T_world_sensor); });
   }
 }
 
-struct Column {
-  const char* name;
-  double (*value)(const UpdateReport&);
-};
-constexpr Column kColumns[] = {
-    {"changed_voxels", [](const UpdateReport& r) { return static_cast<double>(r.changed_voxels); }},
-    {"changed_distances",
-     [](const UpdateReport& r) { return static_cast<double>(r.changed_distances); }},
-    {"in_batch", [](const UpdateReport& r) { return static_cast<double>(r.in_batch); }},
-    {"fusion_ms", [](const UpdateReport& r) { return 1e3 * r.fusion_seconds; }},
-    {"map_ms", [](const UpdateReport& r) { return 1e3 * r.map_seconds; }},
-    {"field_ms", [](const UpdateReport& r) { return 1e3 * r.build.seconds.esdf; }},
-    {"ridges_ms",
-     [](const UpdateReport& r) {
-       return 1e3 * (r.build.seconds.gvd + r.build.seconds.edges + r.build.seconds.thin);
-     }},
-    {"copy_ms", [](const UpdateReport& r) { return 1e3 * r.copy_seconds; }},
-    {"kernel_ms", [](const UpdateReport& r) { return 1e3 * r.build.seconds.kernel; }},
-    {"graph_ms", [](const UpdateReport& r) { return 1e3 * r.build.seconds.graph; }},
-    {"attach_ms", [](const UpdateReport& r) { return 1e3 * r.build.seconds.attach; }},
-    {"waiting_voxels", [](const UpdateReport& r) { return static_cast<double>(r.waiting_voxels); }},
-    {"total_ms", [](const UpdateReport& r) { return 1e3 * r.seconds; }}};
-
-std::string csv_of(const Replay& replay) {
-  std::string text = "frame";
-  for (const Column& column : kColumns) text.append(",").append(column.name);
-  for (std::size_t i = 0; i < replay.updates.size(); ++i) {
-    text.append("\n").append(std::to_string(i + 1));
-    for (const Column& column : kColumns)
-      text.append(",").append(nlohmann::json(column.value(replay.updates[i])).dump());
-  }
-  return text.append("\n");
-}
-
-Spread spread_of_column(const Replay& replay, const Column& column) {
-  std::vector<double> values;
-  for (const UpdateReport& update : replay.updates) values.push_back(column.value(update));
-  return spread_of(std::move(values));
-}
-
-void print(const LiveOptions& options, const Replay& replay, const Roadmap& roadmap,
-           const Globals& globals) {
-  if (globals.json) {
-    nlohmann::ordered_json json = {{"file", options.output},
-                                   {"frames", replay.updates.size()},
-                                   {"unreadable", replay.unreadable},
-                                   {"without_pose", replay.without_pose},
-                                   {"verified", replay.verified},
-                                   {"vertices", roadmap.graph.vertices.size()},
-                                   {"edges", roadmap.graph.edges.size()}};
-    for (const Column& column : kColumns) {
-      const Spread spread = spread_of_column(replay, column);
-      json[column.name] = {{"median", spread.median}, {"p99", spread.p99}, {"max", spread.max}};
-    }
-    if (replay.verified > 0)
-      json["batch_ms"] = {{"median", 1e3 * spread_of(replay.batch_seconds).median}};
-    print_json(json);
-    return;
-  }
-  const Spread total = spread_of_column(replay, kColumns[std::size(kColumns) - 1]);
-  print_row("frames", count_text(replay.updates.size()));
-  print_row("graph", count_text(roadmap.graph.vertices.size()) + " vertices, " +
-                         count_text(roadmap.graph.edges.size()) + " edges");
-  print_row("time", seconds_text(1e-3 * total.median) + " from scan to roadmap, at most " +
-                        seconds_text(1e-3 * total.max));
-  if (replay.verified > 0)
-    print_row("verified", count_text(replay.verified) + " snapshots, a batch build of them takes " +
-                              seconds_text(spread_of(replay.batch_seconds).median));
-  print_row("file", options.output);
-}
-
-int run(const LiveOptions& options, const Globals& globals) {
-  const RecordingKind kind =
-      options.follow > 0.0 ? RecordingKind::kImages : kind_of_recording(options.folder);
-  LiveConfig config = options.live;
-  if (options.unknown == "ignore") config.build.unknown = UnknownPolicy::kIgnore;
-  if (kind == RecordingKind::kScans) config.fusion.integrator = Integrator::kRayCasting;
-  require_outside(options.output, options.folder);
-  require_writable({options.output}, {});
-  require_extension(options.output, "a roadmap", {".ridge"});
+/// What was asked for, with what follows from the recording.
+LiveOptions completed(const LiveOptions& options, RecordingKind kind) {
   LiveOptions all = options;
-  all.live = config;
-  LiveRoadmap live(config);
-  FollowedRun followed(options.follow_by_page, options.output, globals);
-  Replay replay;
+  LiveConfig& config = all.live;
+  if (options.unknown == "ignore") config.build.unknown = UnknownPolicy::kIgnore;
+  if (options.unknown == "free") config.build.unknown = UnknownPolicy::kFree;
+  config.build.limits = limits_of(options.limits);
+  if (kind == RecordingKind::kScans) config.fusion.integrator = Integrator::kRayCasting;
+  config.source = (std::filesystem::path(options.folder) / "").parent_path().filename().string();
+  nlohmann::ordered_json record = build_record(config.build, config.fusion.voxel_size);
+  if (options.limits.any()) record["limits"] = limits_record(config.build.limits);
+  config.record = record.dump();
+  return all;
+}
+
+int run(const LiveOptions& given, const Globals& globals) {
+  const RecordingKind kind =
+      given.follow > 0.0 ? RecordingKind::kImages : kind_of_recording(given.folder);
+  require_outside(given.output, given.folder);
+  require_writable({given.output}, {});
+  require_extension(given.output, "a roadmap", {".ridge"});
+  const LiveOptions options = completed(given, kind);
+  Run run(options, globals);
   if (kind == RecordingKind::kScans)
-    replay_scans(all, globals, live, replay, followed);
+    replay_scans(run, globals);
   else
-    replay_images(all, globals, live, replay, followed);
-  if (std::isfinite(config.window)) live.catch_up();
-  const std::shared_ptr<const Roadmap> snapshot = live.settled();
+    replay_images(run, globals);
+  if (std::isfinite(options.live.window)) run.live.catch_up();
+  run.load.allow(options.queries);
+  run.load.finish();
+  const std::shared_ptr<const Roadmap> snapshot = run.live.settled();
   if (!snapshot)
     throw InputError(options.folder, "shows no place that the robot fits",
                      "give a smaller --min-clearance, or --unknown ignore");
+  const LiveReplay& replay = run.replay;
   if (replay.unreadable > 0)
     warn(globals, count_text(replay.unreadable) + " images could not be read and were passed over");
   save_roadmap(*snapshot, options.output);
   if (!options.csv.empty()) write_text_file(options.csv, csv_of(replay));
-  print(options, replay, *snapshot, globals);
-  followed.show_last(snapshot);
-  followed.stay();
+  print(replay, *snapshot, options.output, globals);
+  if (replay.identical != replay.verified)
+    throw std::logic_error("after " + replay.first_other + " a batch build gives another roadmap");
+  if (replay.queries.wrong > 0)
+    throw std::logic_error("a path that was planned meanwhile is not free");
+  run.followed.show_last(snapshot);
+  run.followed.stay();
   return kExitDone;
 }
 
@@ -260,9 +263,11 @@ void add_live_command(Command& program) {
                  "Smallest robot radius that the roadmap is for, metres");
   command.number("--max-distance", build.max_distance, kReaches,
                  "Distances to obstacles are known up to here, metres");
-  command.choice("--unknown", options->unknown, {"obstacle", "ignore"},
-                 "Unknown space is an obstacle, or is kept out of without a distance to it (then "
-                 "every scan builds anew)");
+  command.choice(
+      "--unknown", options->unknown, {"obstacle", "ignore", "free"},
+      "Unknown space is an obstacle, is kept out of without a distance to it, or is free "
+      "(with the last two every scan builds anew)");
+  add_limit_options(command, options->limits);
   command.number("--window", options->live.window, kReaches,
                  "What lies farther from the sensor along any axis follows when it comes nearer, "
                  "and in the end, metres");
@@ -271,6 +276,13 @@ void add_live_command(Command& program) {
   command.path("--until", options->until, "Stop after the image of this name");
   command.whole("--verify", options->verify, {0, 1'000'000},
                 "Build in batch after every so many scans and compare the bytes; 0: never");
+  command.whole(
+      "--queries", options->queries, {0, 100'000'000},
+      "So many plans between random places, in another thread while the map changes, each "
+      "path held against the map that it was asked of");
+  command.flag("--realtime", options->realtime,
+               "No frame comes earlier than the recording's times say (30 images or 10 scans a "
+               "second where it has none)");
   command.path("--csv", options->csv, "Table to write, a row a scan");
   add_follow_options(command, options->follow_by_page);
   command.footer(

@@ -13,15 +13,15 @@
 namespace ridgeway::cli {
 namespace {
 
-constexpr std::size_t kFirst = 9;  // scans before this one find little but the unknown
+constexpr std::size_t kFirst = 9;  // scans before this one
 
 /// A row of the table: what a number of each scan is over the flight.
 template <typename Value>
 void add_row(BenchTable& table, const std::vector<LiveScan>& scans, const std::string& what,
              const Value& value, bool of_judged = false) {
   std::vector<double> values;
-  for (std::size_t i = std::min(kFirst, scans.size()); i < scans.size(); ++i)
-    if (scans[i].is_judged || !of_judged) values.push_back(static_cast<double>(value(scans[i])));
+  for (const LiveScan& scan : later_scans(scans))
+    if (scan.is_judged || !of_judged) values.push_back(static_cast<double>(value(scan)));
   if (values.empty()) return;
   const Spread spread = spread_of(std::move(values));
   table.add({{"what", what},
@@ -133,6 +133,10 @@ std::string csv_of(const std::vector<LiveScan>& scans) {
 
 }  // namespace
 
+std::span<const LiveScan> later_scans(const std::vector<LiveScan>& scans) {
+  return std::span(scans).subspan(scans.size() > kFirst ? kFirst : 0);
+}
+
 BenchTable live_table(const std::vector<LiveScan>& scans) {
   BenchTable table;
   if (scans.empty()) return table;
@@ -141,10 +145,11 @@ BenchTable live_table(const std::vector<LiveScan>& scans) {
   return table;
 }
 
-void write_scans(const std::vector<LiveScan>& scans, const std::string& folder) {
+void write_scans(const std::vector<LiveScan>& scans, const std::string& folder,
+                 const std::string& name) {
   if (folder.empty() || scans.empty()) return;
   const std::filesystem::path path = folder;
-  write_text_file(path / "live_scans.csv", csv_of(scans));
+  write_text_file(path / (name + ".csv"), csv_of(scans));
   constexpr std::size_t kMostPoints = 50;
   const std::size_t together = (scans.size() + kMostPoints - 1) / kMostPoints;
   ScatterChart chart;
@@ -167,8 +172,7 @@ void write_scans(const std::vector<LiveScan>& scans, const std::string& folder) 
     }
     if (time.is_drawn && !series.points.empty()) chart.series.push_back(series);
   }
-  for (const char* extension : {".png", ".svg"})
-    draw_scatter(chart, path / (std::string("live") + extension));
+  for (const char* extension : {".png", ".svg"}) draw_scatter(chart, path / (name + extension));
 }
 
 }  // namespace ridgeway::cli

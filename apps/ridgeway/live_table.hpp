@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,11 +11,15 @@
 
 namespace ridgeway::cli {
 
-/// Counts and milliseconds over the scans of a flight.
+/// Those that count: of a flight the first few find little but the unknown.
+std::span<const LiveScan> later_scans(const std::vector<LiveScan>& scans);
+
+/// Counts and milliseconds over the later scans of a flight.
 BenchTable live_table(const std::vector<LiveScan>& scans);
 
-/// Writes live_scans.csv, a row a scan, and charts of the milliseconds by scan (live.png, live.svg)
-/// into a folder.
-void write_scans(const std::vector<LiveScan>& scans, const std::string& folder);
+/// Writes NAME.csv, a row a scan, and charts of the milliseconds by scan (NAME.png, NAME.svg) into
+/// a folder; nothing where it is empty.
+void write_scans(const std::vector<LiveScan>& scans, const std::string& folder,
+                 const std::string& name);
 
 }  // namespace ridgeway::cli

@@ -96,13 +96,15 @@ RETURNS = {
     "from_numpy from_points resampled cropped with_no_fly without_isolated without_pockets flattened transformed "
     "occupancy": "OccupancyMap",
     "to_numpy distances states": "Grid", "state_at": "NDArray[np.uint8]",
-    "is_free": "NDArray[np.bool_]", "path_is_free may_invalidate": "bool", "clearance": "float",
+    "is_free": "NDArray[np.bool_]", "path_is_free may_invalidate is_correction_ready": "bool", "clearance": "float",
     "distance_at": "Tuple[NDArray[np.float64], NDArray[np.float64]]", "block": "NDArray[np.uint32]",
     "plan": "PlanResult", "plan_many": "List[PlanResult]",
     "plan_nearest": "Tuple[Optional[int], PlanResult]", "plan_via": "Tuple[PlanResult, Optional[int]]",
     "alternatives": "Alternatives", "explain": "Optional[BlockedRoute]", "trajectory": "Trajectory",
-    "save save_mission save_surface export_graph export_voxblox draw": "None", "components": "List[Dict[str, Any]]",
-    "check integrate_depth integrate_points set_voxels correct_poses catch_up": "Dict[str, Any]",
+    "save save_mission save_surface export_graph export_voxblox draw begin_correcting": "None",
+    "components": "List[Dict[str, Any]]",
+    "check integrate_depth integrate_points set_voxels correct_poses finish_correcting catch_up":
+        "Dict[str, Any]",
     "sample": "TrajectorySamples", "surface": "Surface", "to_networkx": "Any",
     "snapshot settled": "Optional[Roadmap]", "render_depth": "NDArray[np.float32]",
     "__len__": "int", "__bool__ __eq__": "bool", "__repr__": "str", "__init__": "None",

@@ -47,6 +47,9 @@ struct RoadmapFace {
   std::optional<BuildReport> report = {};  ///< where it was built here
 };
 
+/// The configuration as a roadmap keeps it, JSON text.
+std::string record_of(const BuildConfig& config, double voxel_size);
+
 /// A map of its own for a stage that takes maps by value. Stages that only read and move the states
 /// share their memory, the others get a copy.
 inline OccupancyMap taken(const OccupancyMap& map, UnknownPolicy unknown) {

@@ -22,6 +22,7 @@ py::dict dict_of(const UpdateReport& report) {
   dict["flipped_voxels"] = report.flipped_voxels;
   dict["added_blocks"] = report.added_blocks;
   dict["waiting_voxels"] = report.waiting_voxels;
+  dict["fused_again"] = report.fused_again;
   dict["changed_distances"] = report.changed_distances;
   dict["seconds"] = report.seconds;
   dict["fusion_seconds"] = report.fusion_seconds;
@@ -56,6 +57,17 @@ std::vector<VoxelChange> changes_from(py::handle voxels, py::handle states) {
   return changes;
 }
 
+std::vector<PoseCorrection> corrections_from(const py::dict& poses) {
+  std::vector<PoseCorrection> corrections;
+  for (const auto& [frame, pose] : poses) {
+    const std::int64_t number = whole_from(frame, "poses: frame");
+    if (number < 1)
+      throw InputError("poses: frame " + std::to_string(number), "is none", "frames count from 1");
+    corrections.push_back({static_cast<std::uint64_t>(number), pose_from(pose, "poses")});
+  }
+  return corrections;
+}
+
 /// Updates come one after the other, whoever calls from Python.
 class LiveFace {
  public:
@@ -76,15 +88,22 @@ class LiveFace {
     return update([&] { return live_.set_voxels(changes); });
   }
   py::dict correct_poses(const py::dict& poses) {
-    std::vector<PoseCorrection> corrections;
-    for (const auto& [frame, pose] : poses) {
-      const std::int64_t number = whole_from(frame, "poses: frame");
-      if (number < 1)
-        throw InputError("poses: frame " + std::to_string(number), "is none",
-                         "frames count from 1");
-      corrections.push_back({static_cast<std::uint64_t>(number), pose_from(pose, "poses")});
-    }
+    const std::vector<PoseCorrection> corrections = corrections_from(poses);
     return update([&] { return live_.correct_poses(corrections); });
+  }
+  void begin_correcting(const py::dict& poses) {
+    const std::vector<PoseCorrection> corrections = corrections_from(poses);
+    const py::gil_scoped_release release;
+    const std::scoped_lock lock(mutex_);
+    live_.begin_correcting(corrections);
+  }
+  bool is_correction_ready() {
+    const py::gil_scoped_release release;
+    const std::scoped_lock lock(mutex_);
+    return live_.is_correction_ready();
+  }
+  py::dict finish_correcting() {
+    return update([&] { return live_.finish_correcting(); });
   }
   py::dict catch_up() {
     return update([&] { return live_.catch_up(); });
@@ -175,7 +194,9 @@ void add_live(py::module_& module) {
        live_fields().docs())
           .c_str())
       .def(py::init([](const py::kwargs& keywords) {
-             return std::make_unique<LiveFace>(live_fields().read_all(keywords));
+             LiveConfig config = live_fields().read_all(keywords);
+             config.record = record_of(config.build, config.fusion.voxel_size);
+             return std::make_unique<LiveFace>(config);
            }),
            ("__init__(self, *, " + signature + ")\n--\n\n").c_str())
       .def("integrate_depth", &LiveFace::integrate_depth, py::arg("image"), py::arg("camera"),
@@ -195,6 +216,16 @@ void add_live(py::module_& module) {
            "correct_poses(self, poses)\n--\n\n"
            "Fuses frames again with other poses: {frame, counted from 1: (4, 4)}. Needs "
            "log_folder.")
+      .def("begin_correcting", &LiveFace::begin_correcting, py::arg("poses"),
+           "begin_correcting(self, poses)\n--\n\n"
+           "Begins the same in a thread of its own and returns at once: scans may be fused "
+           "meanwhile.")
+      .def("is_correction_ready", &LiveFace::is_correction_ready,
+           "is_correction_ready(self)\n--\n\n"
+           "Whether finish_correcting would not wait for that thread.")
+      .def("finish_correcting", &LiveFace::finish_correcting,
+           "finish_correcting(self)\n--\n\n"
+           "Waits for that thread and updates the roadmap.")
       .def("catch_up", &LiveFace::catch_up,
            "catch_up(self)\n--\n\nFollows what waits outside of the window.")
       .def("snapshot", &LiveFace::snapshot,

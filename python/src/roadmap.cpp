@@ -19,13 +19,14 @@
 #include "ridgeway/roadmap/components.hpp"
 
 namespace ridgeway::python {
-namespace {
 
 std::string record_of(const BuildConfig& config, double voxel_size) {
   nlohmann::ordered_json record = build_record(config, voxel_size);
   if (config.limits.any()) record["limits"] = limits_record(config.limits);
   return record.dump();
 }
+
+namespace {
 
 RoadmapFace build_from(OccupancyMap map, const std::string& source, const BuildConfig& config,
                        const py::object& progress, int threads) {

@@ -102,6 +102,28 @@ def test_fusion_is_that_of_the_live_map(house, tmp_path):
         house[len(house)]
 
 
+def test_poses_are_corrected_while_scans_go_on(house, tmp_path):
+    def roadmap(name, **config):
+        return ridgeway.LiveRoadmap(voxel_size=0.2, max_range=6.0, min_clearance=0.3,
+                                    log_folder=str(tmp_path / name), **config)
+
+    live, true = roadmap("live"), roadmap("true")
+    for i in range(4):
+        image, pose = house[i]
+        off = pose.copy()
+        off[0, 3] += 0.5 * (i == 1)
+        live.integrate_depth(image, house.camera, off)
+        true.integrate_depth(image, house.camera, pose)
+        if i == 2:
+            live.begin_correcting({2: house[1][1]})
+    assert live.finish_correcting()["fused_again"] > 0 and live.is_correction_ready()
+    assert live.map().counts == true.map().counts
+    live.settled().save(tmp_path / "live.ridge")
+    ridgeway.build(live.map(), min_clearance=0.3).save(tmp_path / "batch.ridge")
+    assert (tmp_path / "live.ridge").read_bytes() == (tmp_path / "batch.ridge").read_bytes()
+    assert live.finish_correcting()["fused_again"] == 0
+
+
 def test_points_fuse_as_images_do():
     fusion = ridgeway.TsdfFusion(voxel_size=0.1, integrator="ray_casting")
     y, z = np.meshgrid(np.linspace(-1, 1, 80), np.linspace(-1, 1, 80))

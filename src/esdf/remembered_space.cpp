@@ -154,15 +154,16 @@ double RememberedSpace::clearance(const Point& a, const Point& b, double at_most
 }
 
 SquaredHalves RememberedSpace::move_clearance(VoxelId from, VoxelId to, int direction) const {
-  const SquaredHalves a = esdf_.squared[from], b = esdf_.squared[to];
-  const SquaredHalves low = std::min(a, b);
-  if (memory_ == nullptr || low == SquaredHalves(kNoSite) ||
-      FreeSpace::move_bound(a, b, squared_length(direction)) >= low)
-    return space_.move_clearance(from, to, direction);
+  const SquaredHalves low = std::min(esdf_.squared[from], esdf_.squared[to]);
+  if (is_level(from, to, direction)) return low;
   if (direction < kCentre) {  // both ways are one question
     std::swap(from, to);
     direction = opposite(direction);
   }
+  const OfMove move = move_from(from, direction);
+  if (moves_ != nullptr)
+    if (const double* known = moves_->find(move)) return SquaredHalves(*known);
+  if (memory_ == nullptr) return space_.move_clearance(from, to, direction);
   const auto holds = [&](double) {
     const VoxelIndex v = esdf_.layout.index_of(from);
     const Point centre(v.x, v.y, v.z);
@@ -170,7 +171,6 @@ SquaredHalves RememberedSpace::move_clearance(VoxelId from, VoxelId to, int dire
     return !memory_->touches_change(centre - Eigen::Vector3d::Constant(reach),
                                     centre + Eigen::Vector3d::Constant(reach));
   };
-  const SegmentMemory::OfMove move = std::uint64_t{from} << 5 | static_cast<unsigned>(direction);
   return SquaredHalves(memory_->answer(
       move, holds, [&] { return space_.move_clearance(from, to, direction).value; }));
 }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <mutex>
@@ -9,6 +10,7 @@
 #include <tuple>
 #include <vector>
 
+#include "measured_moves.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "voxel/flat_table.hpp"
 
@@ -29,8 +31,6 @@ class SegmentMemory {
 
   /// A segment and a number that says what is asked of it.
   using OfSegment = std::array<double, 7>;
-  /// A move between neighbours: the voxel from which, 32 times, and the direction.
-  using OfMove = std::uint64_t;
 
   /// The answer to a question, or what `find` gives. `holds(answer)`: whether the answer of before
   /// the last change still is right.
@@ -88,19 +88,27 @@ class SegmentMemory {
   std::vector<std::uint32_t> sums_;
 };
 
-/// FreeSpace, with a memory or without.
+/// FreeSpace, with a memory or without. `moves`: those that have been measured already.
 class RememberedSpace {
  public:
-  RememberedSpace(const EsdfMap& esdf, SegmentMemory* memory)
-      : esdf_(esdf), space_(esdf), memory_(memory) {}
+  RememberedSpace(const EsdfMap& esdf, SegmentMemory* memory, const MeasuredMoves* moves = nullptr)
+      : esdf_(esdf), space_(esdf), memory_(memory), moves_(moves) {}
 
   const EsdfMap& map() const { return esdf_; }
+  SegmentMemory* memory() const { return memory_; }
 
   bool is_free(const Point& a, const Point& b, double radius) const;
   double clearance(const Point& a, const Point& b) const;
   /// Or `at_most` where it is larger.
   double clearance(const Point& a, const Point& b, double at_most) const;
   SquaredHalves move_clearance(VoxelId from, VoxelId to, int direction) const;
+  /// Whether distances alone tell that a move is as wide as its narrower end.
+  bool is_level(VoxelId from, VoxelId to, int direction) const {
+    const SquaredHalves a = esdf_.squared[from], b = esdf_.squared[to];
+    const SquaredHalves low = std::min(a, b);
+    return low == SquaredHalves(kNoSite) ||
+           FreeSpace::move_bound(a, b, squared_length(direction)) >= low;
+  }
 
  private:
   template <typename Reach, typename Find>
@@ -110,6 +118,7 @@ class RememberedSpace {
   const EsdfMap& esdf_;
   const FreeSpace space_;
   SegmentMemory* const memory_;
+  const MeasuredMoves* const moves_;
 };
 
 }  // namespace ridgeway::detail

@@ -67,13 +67,16 @@ void round_depths(DepthImage& image) {
 
 class ExplorationRun {
  public:
-  ExplorationRun(const World& world, const ExplorationFlightConfig& config, const Box& bounds)
+  ExplorationRun(const World& world, const ExplorationFlightConfig& config, const Box& bounds,
+                 const OnImage& on_image, const OnScan& on_scan)
       : world_(world),
         config_(config),
+        on_image_(on_image),
+        on_scan_(on_scan),
         within_(voxels_inside(bounds, config.voxel_size)),
         live_(live_config(config)),
         viewable_(world_at(world, 0.0), config.voxel_size, within_, config.start,
-                  config.clearance(), field_of_view(config.sensor, 1.0)),
+                  config.clearance(), config.whole_view()),
         explorer_(explorer_config()),
         next_best_(explorer_config(), config.seed) {
     live_.set_voxels(free_ball(config.start, config.free_radius(), config.voxel_size));
@@ -83,18 +86,17 @@ class ExplorationRun {
     flight_.viewable_volume = viewable_.volume();
     if (config.planner == ExplorationPlanner::kOffline)
       offline_.emplace(world_at(world, 0.0), config.voxel_size, within_, config.clearance(),
-                       config.max_distance, config.start, field_of_view(config.sensor),
-                       config.explorer.limits, viewable_);
+                       config.max_distance, config.start, config.view(), config.explorer.limits,
+                       viewable_);
   }
 
-  ExplorationFlight run(const Progress& progress, const OnImage& on_image,
-                        const OnMoment& on_moment) {
+  ExplorationFlight run(const Progress& progress, const OnMoment& on_moment) {
     const double step = 1.0 / config_.scan_rate;
     for (std::size_t scan = 0; flight_.end == ExplorationStatus::kKeep; ++scan) {
       const double time = static_cast<double>(scan) * step;
       if (time > config_.longest) break;
       const FlightState state = state_at(time);
-      look(state, scan, on_image);
+      look(state, scan);
       decide(state);
       if (on_moment)
         on_moment({live_.snapshot(), scan + 1, flight_.samples.back(), places_ahead(time)});
@@ -108,15 +110,15 @@ class ExplorationRun {
  private:
   static LiveConfig live_config(const ExplorationFlightConfig& config) {
     return {.fusion = {.voxel_size = config.voxel_size,
-                       .min_range = std::max(0.1, config.sensor.min_range),
-                       .max_range = config.sensor.max_range},
+                       .min_range = std::max(0.1, config.min_range()),
+                       .max_range = config.max_range()},
             .build = {.min_clearance = config.clearance(), .max_distance = config.max_distance},
             .origin = VoxelIndex{}};
   }
 
   ExplorerConfig explorer_config() const {
     ExplorerConfig explorer = config_.explorer;
-    explorer.view = field_of_view(config_.sensor);
+    explorer.view = config_.view();
     explorer.within = within_;
     explorer.kept_clearance = config_.radius + 0.5 * (config_.clearance() - config_.radius);
     if (config_.come_back) explorer.home = config_.start;
@@ -146,18 +148,34 @@ class ExplorationRun {
            std::to_string(last.frontiers) + " frontiers";
   }
 
-  void look(const FlightState& state, std::size_t scan, const OnImage& on_image) {
+  void look(const FlightState& state, std::size_t scan) {
+    const UpdateReport report = config_.lidar ? scan_around(state, scan) : take_image(state, scan);
+    ExplorationSample sample;
+    sample.state = state;
+    sample.update_seconds = report.seconds;
+    flight_.samples.push_back(sample);
+  }
+
+  UpdateReport take_image(const FlightState& state, std::size_t scan) {
     Eigen::Isometry3d pose = level_pose(state.position, state.yaw);
     pose.linear() = Eigen::Quaterniond(pose.linear()).normalized().toRotationMatrix();
     DepthImage image = render_depth(world_at(world_, state.time), config_.sensor, pose,
                                     Random(config_.seed, scan).bits());
     round_depths(image);
-    if (on_image) on_image(image, pose);
-    const UpdateReport report = live_.integrate(image, config_.sensor.camera, pose);
-    ExplorationSample sample;
-    sample.state = state;
-    sample.update_seconds = report.seconds;
-    flight_.samples.push_back(sample);
+    if (on_image_) on_image_(image, pose);
+    return live_.integrate(image, config_.sensor.camera, pose);
+  }
+
+  UpdateReport scan_around(const FlightState& state, std::size_t scan) {
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(state.yaw, Eigen::Vector3d::UnitZ()));
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.linear() = turn.normalized().toRotationMatrix();
+    pose.translation() = state.position;
+    std::vector<Point> points = scan_with(world_at(world_, state.time), *config_.lidar, pose,
+                                          Random(config_.seed, scan).bits());
+    for (Point& point : points) point = point.cast<float>().cast<double>();  // as it is recorded
+    if (on_scan_) on_scan_(points, pose);
+    return live_.integrate(points, pose);
   }
 
   ExplorationStep next_step(const std::shared_ptr<const Roadmap>& now, const FlightState& state) {
@@ -220,6 +238,8 @@ class ExplorationRun {
 
   const World& world_;
   const ExplorationFlightConfig& config_;
+  const OnImage& on_image_;
+  const OnScan& on_scan_;
   const VoxelRange within_;
   LiveRoadmap live_;
   ViewableVolume viewable_;
@@ -248,9 +268,11 @@ void ExplorationFlightConfig::validate() const {
   require(longest > 0.0 && std::isfinite(longest), "longest", longest, "give seconds above 0");
   require(max_distance > clearance(), "max_distance", max_distance,
           "give more than the radius and the margin");
-  sensor.validate();
-  require(sensor.max_range >= 2.0 * voxel_size, "max_range", sensor.max_range,
-          "give at least two voxels");
+  if (lidar)
+    lidar->validate();
+  else
+    sensor.validate();
+  require(max_range() >= 2.0 * voxel_size, "max_range", max_range(), "give at least two voxels");
   explorer.limits.validate();
   const double turn = 2.0 * std::numbers::pi / explorer.limits.max_yaw_rate;
   require(budget >= turn, "budget", budget,
@@ -258,10 +280,18 @@ void ExplorationFlightConfig::validate() const {
   if (bounds) validate_box(*bounds, "bounds");
 }
 
+FieldOfView ExplorationFlightConfig::view() const {
+  return lidar ? field_of_view(*lidar, 0.7, 2.0 * voxel_size) : field_of_view(sensor);
+}
+
+FieldOfView ExplorationFlightConfig::whole_view() const {
+  return lidar ? field_of_view(*lidar, 1.0) : field_of_view(sensor, 1.0);
+}
+
 double ExplorationFlightConfig::free_radius() const {
   if (start_radius > 0.0) return start_radius;
-  const FieldOfView view = field_of_view(sensor);
-  const double half_angle = 0.5 * std::min({view.vertical, view.horizontal, std::numbers::pi});
+  const FieldOfView seen = view();
+  const double half_angle = 0.5 * std::min({seen.vertical, seen.horizontal, std::numbers::pi});
   // Where the edges of the view leave the ball the robot must fit between them.
   return std::max(clearance() + 2.0 * voxel_size,
                   clearance() / std::sin(half_angle) + 0.25 * voxel_size);
@@ -269,13 +299,13 @@ double ExplorationFlightConfig::free_radius() const {
 
 ExplorationFlight explore(const World& world, const ExplorationFlightConfig& config,
                           const Progress& progress, const OnImage& on_image,
-                          const OnMoment& on_moment) {
+                          const OnMoment& on_moment, const OnScan& on_scan) {
   config.validate();
   const Box bounds = bounds_of(world, config);
   if (!bounds.min.allFinite() || !bounds.max.allFinite())
     throw InputError(world.name, "has no enclosure", "give bounds");
   require_start(world, config, bounds);
-  return ExplorationRun(world, config, bounds).run(progress, on_image, on_moment);
+  return ExplorationRun(world, config, bounds, on_image, on_scan).run(progress, on_moment);
 }
 
 double ExplorationFlight::seconds_to(double share) const {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -42,13 +43,19 @@ struct ExplorationFlightConfig {
   double scan_rate = 4.0;     ///< images a second
   std::optional<Box> bounds;  ///< what is to be mapped; else the world's enclosure
   DepthSensor sensor;
-  double longest = 3600.0;  ///< flights are cut off then
+  std::optional<SpinningLidar> lidar;  ///< in place of the camera
+  double longest = 3600.0;             ///< flights are cut off then
   ExplorationPlanner planner = ExplorationPlanner::kRidgeway;
   ExplorerConfig explorer;  ///< limits, sizes; what follows from the rest is set by the flight
   std::uint64_t seed = 1;   ///< of the sensor's noise, and of planners that sample
 
   double clearance() const { return radius + (margin > 0.0 ? margin : voxel_size); }
   double free_radius() const;
+  double min_range() const { return lidar ? lidar->min_range : sensor.min_range; }
+  double max_range() const { return lidar ? lidar->max_range : sensor.max_range; }
+  /// Of camera or lidar, as the explorer counts on it, or all that it may see.
+  FieldOfView view() const;
+  FieldOfView whole_view() const;
 
   /// Throws InputError naming the bad field.
   void validate() const;
@@ -88,6 +95,9 @@ struct ExplorationFlight {
 /// Each image as it is fused, with its pose (camera to world).
 using OnImage = std::function<void(const DepthImage&, const Eigen::Isometry3d&)>;
 
+/// Each scan of a lidar as it is fused, points in its frame, with its pose (sensor to world).
+using OnScan = std::function<void(std::span<const Point>, const Eigen::Isometry3d&)>;
+
 /// A scan, and what was decided after it.
 struct ExplorationMoment {
   std::shared_ptr<const Roadmap> roadmap;  ///< none where the robot fits nowhere
@@ -103,6 +113,6 @@ using OnMoment = std::function<void(const ExplorationMoment&)>;
 /// voxels, a budget in which nothing can be done.
 ExplorationFlight explore(const World& world, const ExplorationFlightConfig& config,
                           const Progress& progress = {}, const OnImage& on_image = {},
-                          const OnMoment& on_moment = {});
+                          const OnMoment& on_moment = {}, const OnScan& on_scan = {});
 
 }  // namespace ridgeway

@@ -45,7 +45,7 @@ void report(const Progress& progress, std::string_view stage, std::size_t done, 
 }
 
 GridAnswers answer(const Roadmap& roadmap, const Scenarios& scenarios, bool shorten,
-                   const Progress& progress) {
+                   double optimum_accuracy, const Progress& progress) {
   GridAnswers answers;
   std::vector<double> solved, microseconds;
   for (const GridScenario& scenario : scenarios) {
@@ -59,6 +59,7 @@ GridAnswers answer(const Roadmap& roadmap, const Scenarios& scenarios, bool shor
     if (!result.ok()) continue;
     ++answers.solved;
     answers.fallbacks += result.answered_by != Planner::kGraph;
+    answers.within_violations += answers.ratios.back() > result.within * (1.0 + optimum_accuracy);
     solved.push_back(answers.ratios.back());
   }
   answers.length_over_optimum = spread_of(std::move(solved));
@@ -108,8 +109,8 @@ GridRow run_grid(GridBenchmark benchmark, const GridExperimentConfig& config,
   row.build_seconds = built.report.seconds.total;
   row.vertices = roadmap.graph.vertices.size();
   row.edges = roadmap.graph.edges.size();
-  row.raw = answer(roadmap, scenarios, false, progress);
-  row.shortened = answer(roadmap, scenarios, true, progress);
+  row.raw = answer(roadmap, scenarios, false, config.optimum_accuracy, progress);
+  row.shortened = answer(roadmap, scenarios, true, config.optimum_accuracy, progress);
 
   Scenarios unsolved;
   for (std::size_t i = 0; i < scenarios.size(); ++i)

@@ -41,6 +41,7 @@ struct GridAnswers {
   std::size_t solved = 0, fallbacks = 0;  ///< fallbacks: solved, but not by the graph
   Spread length_over_optimum;             ///< of those solved; below 1 off the lattice's directions
   Spread microseconds;                    ///< a query
+  std::size_t within_violations = 0;      ///< longer than `within` says of a path by the optimum
   std::vector<double> ratios;             ///< by scenario; NaN where it was not solved
 };
 

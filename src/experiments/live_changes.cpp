@@ -3,10 +3,12 @@
 // Maps that change: a door, and anything at random.
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "common/random.hpp"
 #include "common/require.hpp"
 #include "live_flight.hpp"
+#include "process_memory.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/planning/plan.hpp"
@@ -87,15 +89,17 @@ DoorResult run_door(const DoorConfig& config, const Progress& progress) {
   const LiveConfig live_config = {
       .fusion = {.voxel_size = config.voxel_size, .forget_after = config.forget_after},
       .build = {.min_clearance = 0.3, .max_distance = 2.0, .tangent_pairs = 0}};
-  LiveRoadmap live(live_config);
-  LiveJudge judge(live_config.build, 1);
-  Random seeds(config.seed);
   DoorResult result;
+  result.flight.scans.reserve(kScans);
+  const std::uint64_t before = detail::allocated_bytes();
+  LiveRoadmap live(live_config);
+  auto judge = std::make_unique<LiveJudge>(live_config.build, 1);
+  Random seeds(config.seed);
   for (int scan = 0; scan < kScans; ++scan) {
     if (progress && !progress("door", static_cast<double>(scan) / kScans)) throw Cancelled();
     const Eigen::Isometry3d pose = pose_at(scan);
     const DepthImage image = render_depth(world_at(world, scan), sensor, pose, seeds.bits());
-    result.scans.push_back(judge.judge(live, live.integrate(image, sensor.camera, pose)));
+    result.flight.scans.push_back(judge->judge(live, live.integrate(image, sensor.camera, pose)));
     const std::shared_ptr<const Roadmap> now = live.snapshot();
     const bool has_path = now != nullptr && plan(*now, kHere, kThere).ok();
     if (scan == kClosed - 1) result.has_path_first = has_path;
@@ -103,6 +107,8 @@ DoorResult run_door(const DoorConfig& config, const Progress& progress) {
       result.until_no_path = scan - kClosed + 1;
     if (scan >= kOpen && has_path && result.until_path < 0) result.until_path = scan - kOpen + 1;
   }
+  judge.reset();
+  result.flight.memory_ratio = memory_ratio(live, live_config.build, before);
   return result;
 }
 

@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <utility>
 
 #include "common/random.hpp"
 #include "common/require.hpp"
 #include "live_queries.hpp"
+#include "process_memory.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/mapping/world_map.hpp"
 #include "ridgeway/planning/plan.hpp"
@@ -84,6 +87,14 @@ void LiveFlightConfig::validate() const {
   sensor.validate();
 }
 
+double memory_ratio(const LiveRoadmap& live, const BuildConfig& build, std::uint64_t before) {
+  const std::uint64_t with_live = detail::allocated_bytes();
+  const Roadmap batch = build_roadmap(live.map(), build).roadmap;
+  const std::uint64_t with_both = detail::allocated_bytes();
+  if (with_live <= before || with_both <= with_live) return 0.0;
+  return static_cast<double>(with_live - before) / static_cast<double>(with_both - with_live);
+}
+
 void run_live_flight(const World& world, const LiveFlightConfig& config, const Progress& progress,
                      LiveFlight& results) {
   results = {};
@@ -97,21 +108,27 @@ void run_live_flight(const World& world, const LiveFlightConfig& config, const P
                 .max_distance = config.max_distance,
                 .tangent_pairs = config.tangent_pairs},
       .origin = voxel_at(poses.front().translation(), config.voxel_size)};
+  results.scans.reserve(poses.size());
+  const std::uint64_t before = detail::allocated_bytes();
   LiveRoadmap live(live_config);
   if (const std::vector<VoxelChange> copies = copies_of(world, config); !copies.empty())
     live.set_voxels(copies);
-  LiveJudge judge(live_config.build, config.verify_every);
+  auto judge = std::make_unique<LiveJudge>(live_config.build, config.verify_every);
   Random seeds(config.seed);
+  constexpr std::size_t kAsFastAsItCan = std::numeric_limits<std::size_t>::max();
   {
-    const LiveQueryLoad load(live, config.queries, config.seed, results.queries);
+    LiveQueryLoad load(live, config.queries ? kAsFastAsItCan : 0, config.seed, results.queries);
     for (const Eigen::Isometry3d& pose : poses) {
       const auto done =
           static_cast<double>(results.scans.size()) / static_cast<double>(config.scans);
       if (progress && !progress("fly", done)) throw Cancelled();
       const DepthImage image = render_depth(world, sensor, pose, seeds.bits());
-      results.scans.push_back(judge.judge(live, live.integrate(image, sensor.camera, pose)));
+      results.scans.push_back(judge->judge(live, live.integrate(image, sensor.camera, pose)));
     }
+    load.ask_again();
   }
+  judge.reset();
+  results.memory_ratio = memory_ratio(live, live_config.build, before);
 }
 
 }  // namespace ridgeway

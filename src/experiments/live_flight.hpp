@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "live_judge.hpp"
@@ -41,7 +42,13 @@ struct LiveQueries {
 struct LiveFlight {
   std::vector<LiveScan> scans;
   LiveQueries queries;
+  /// Bytes that the live roadmap holds in the end, its snapshot included, over those of a batch
+  /// build of the same map; 0 where nothing tells.
+  double memory_ratio = 0.0;
 };
+
+/// The ratio above. `before`: allocated_bytes() before the live roadmap was made.
+double memory_ratio(const LiveRoadmap& live, const BuildConfig& build, std::uint64_t before);
 
 /// A forward camera flies between random places of a world, along paths planned on its exact map,
 /// and all it sees goes into a live roadmap. Where it is cancelled the results are those that were
@@ -60,7 +67,7 @@ struct DoorConfig {
   void validate() const;
 };
 struct DoorResult {
-  std::vector<LiveScan> scans;
+  LiveFlight flight;
   int until_no_path = -1;  ///< scans from the first of the closed door on; -1: never
   int until_path = -1;     ///< and from the first of the door that is open again
   bool has_path_first = false;

@@ -2,7 +2,9 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "live_queries.hpp"
 
+#include <chrono>
 #include <ctime>
+#include <utility>
 
 #include "common/random.hpp"
 #include "ridgeway/live/graph_delta.hpp"
@@ -33,15 +35,43 @@ Point random_place(const Roadmap& roadmap, Random& random) {
 
 }  // namespace
 
-LiveQueryLoad::LiveQueryLoad(const LiveRoadmap& live, bool asks, std::uint64_t seed,
+LiveQueryLoad::LiveQueryLoad(const LiveRoadmap& live, std::size_t allowed, std::uint64_t seed,
                              LiveQueries& results)
-    : results_(results) {
-  if (asks) thread_ = std::thread([this, &live, seed] { run(live, seed); });
+    : results_(results), allowed_(allowed), thread_([this, &live, seed] {
+        try {
+          run(live, seed);
+        } catch (...) {
+          const std::lock_guard lock(mutex_);
+          error_ = std::current_exception();
+        }
+      }) {}
+
+LiveQueryLoad::~LiveQueryLoad() { end(End::kNow); }
+
+void LiveQueryLoad::allow(std::size_t queries) {
+  {
+    const std::lock_guard lock(mutex_);
+    allowed_ = queries;
+  }
+  changed_.notify_one();
 }
 
-LiveQueryLoad::~LiveQueryLoad() {
-  is_over_ = true;
+void LiveQueryLoad::end(End when) {
+  {
+    const std::lock_guard lock(mutex_);
+    end_ = when;
+  }
+  changed_.notify_one();
   if (thread_.joinable()) thread_.join();
+}
+
+void LiveQueryLoad::finish() {
+  end(End::kWhenAllAreAsked);
+  if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+}
+
+void LiveQueryLoad::ask_again() {
+  end(End::kNow);
   for (const Asked& asked : asked_) {
     const double start = own_seconds();
     plan(*asked.roadmap, asked.start, asked.goal);
@@ -49,14 +79,25 @@ LiveQueryLoad::~LiveQueryLoad() {
   }
 }
 
+std::shared_ptr<const Roadmap> LiveQueryLoad::wait_for_next(const LiveRoadmap& live) {
+  constexpr std::chrono::milliseconds kPause{2};  // a first snapshot tells nobody that it is there
+  std::unique_lock lock(mutex_);
+  while (end_ != End::kNow) {
+    const bool is_allowed = results_.asked < allowed_;
+    if (is_allowed)
+      if (std::shared_ptr<const Roadmap> now = live.snapshot()) return now;
+    if (end_ == End::kWhenAllAreAsked) break;
+    if (is_allowed)
+      changed_.wait_for(lock, kPause);
+    else
+      changed_.wait(lock);
+  }
+  return nullptr;
+}
+
 void LiveQueryLoad::run(const LiveRoadmap& live, std::uint64_t seed) {
   Random random(seed, 1);
-  while (!is_over_) {
-    const std::shared_ptr<const Roadmap> now = live.snapshot();
-    if (!now) {
-      std::this_thread::yield();
-      continue;
-    }
+  while (const std::shared_ptr<const Roadmap> now = wait_for_next(live)) {
     const Asked asked{now, random_place(*now, random), random_place(*now, random)};
     const double start = own_seconds();
     const PlanResult path = plan(*now, asked.start, asked.goal);

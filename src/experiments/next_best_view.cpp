@@ -55,8 +55,9 @@ double NextBestView::unknown_in_view(const EsdfMap& esdf, const Point& from, dou
         if (!config_.within.contains(voxel + esdf.origin)) continue;
         const Eigen::Vector3d way = centre_of(voxel, s) - from;
         if (way.squaredNorm() > range * range) continue;
-        const double depth = way.head<2>().dot(forward);
-        if (depth < way.head<2>().norm() * across || std::abs(way.z()) > steepest * depth) continue;
+        const double level = way.head<2>().norm();
+        const double depth = config_.view.is_all_around() ? level : way.head<2>().dot(forward);
+        if (depth < level * across || std::abs(way.z()) > steepest * depth) continue;
         const VoxelId id = esdf.layout.find(voxel);
         if (id != kNoVoxel && esdf.state[id] != VoxelState::kUnknown) continue;
         if (is_clear(esdf, from, from + way)) volume += std::pow(kStride * s, 3);

@@ -26,6 +26,15 @@ namespace {
 
 }  // namespace
 
+std::uint64_t allocated_bytes() {
+#ifdef __GLIBC__
+  const struct mallinfo2 info = ::mallinfo2();
+  return info.uordblks + info.hblkhd;
+#else
+  return 0;
+#endif
+}
+
 void release_freed_memory() {
 #ifdef __GLIBC__
   ::malloc_trim(0);

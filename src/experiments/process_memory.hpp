@@ -8,6 +8,9 @@
 
 namespace ridgeway::detail {
 
+/// Bytes that this process has from the allocator and has not given back; 0 where it does not tell.
+std::uint64_t allocated_bytes();
+
 /// Gives memory that has been freed back to the system, so that the next one to ask for some pays
 /// for its pages, as in a new process.
 void release_freed_memory();

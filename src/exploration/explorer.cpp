@@ -18,11 +18,11 @@ using detail::Access;
 using detail::Place;
 using detail::Stop;
 
-constexpr double kDeepest = 3.0;     // metres of unknown space behind a frontier that count
+constexpr double kDeepest = 6.0;     // metres of unknown space behind a frontier that count
 constexpr double kTourPeriod = 1.0;  // seconds between tours while the goal is good
 constexpr double kNear = 1.25;       // times the spacing: so far off a stop may be passed
 constexpr double kFarOff = 1.5;      // seconds to a goal until which what follows it can wait
-constexpr int kMostTries = 3;        // stops that are tried to be flown to in one decision
+constexpr int kMostFlights = 3;      // trajectories that are tried in one decision
 
 void require_state(const FlightState& state) {
   if (!state.position.allFinite() || !state.velocity.allFinite() ||
@@ -49,13 +49,17 @@ Access Explorer::State::access_at(const Point& local) const {
 bool Explorer::State::choose(const FlightState& state, bool thorough, ExplorationStep& step) {
   double began = detail::thread_seconds_now();
   const Point here = to_local(roadmap->esdf, state.position);
-  look_around(here, thorough);
+  const bool all_looked_at = look_around(here, thorough);
   step.seconds.views += detail::thread_seconds_now() - began;
   began = detail::thread_seconds_now();
   const detail::WaysFrom ways(*roadmap, here, access_at(here));
   const double least_gain = thorough ? 0.0 : 0.5 * static_cast<double>(config.least_frontier);
   std::vector<TourStop> stops = cover(ways, least_gain);
   const bool can_see = !stops.empty();
+  if (thorough && !can_see && !all_looked_at) {
+    is_searching = true;
+    return true;
+  }
   if (std::isfinite(config.until))
     std::erase_if(stops, [&](const TourStop& stop) {
       const double looking = seconds_from_robot(stop, state) + config.persistence + 2.0;
@@ -81,16 +85,16 @@ bool Explorer::State::choose(const FlightState& state, bool thorough, Exploratio
         {to_world(roadmap->esdf, places[stop.place].position), views.yaw_of(stop.heading)});
   }
   const bool flies = fly_tour(stops, tour, state, step);
-  return flies || (can_see && state.velocity.norm() >= 1e-9);
+  return flies || (can_see && (is_searching || state.velocity.norm() >= 1e-9));
 }
 
-/// To the first stop that a trajectory leads to, on to the next where the first can be passed.
+/// To the first stop that a trajectory leads to, on to the next where the first can be passed. Only
+/// so many are tried; at rest the search goes on with the next scan.
 bool Explorer::State::fly_tour(const std::vector<TourStop>& stops,
                                const std::vector<std::size_t>& tour, const FlightState& state,
                                ExplorationStep& step) {
-  const bool at_rest = state.velocity.norm() < 1e-9;
-  const std::size_t tries = at_rest ? tour.size() : std::min<std::size_t>(tour.size(), kMostTries);
-  for (std::size_t i = 0; i < tries; ++i) {
+  int flights = kMostFlights;
+  for (std::size_t i = 0; i < tour.size(); ++i) {
     const Stop& stop = stops[tour[i]].stop;
     const Place& place = places[stop.place];
     const std::uint64_t next = i + 1 < tour.size() ? places[stops[tour[i + 1]].stop.place].id : 0;
@@ -106,7 +110,7 @@ bool Explorer::State::fly_tour(const std::vector<TourStop>& stops,
     const bool may_pass =
         config.strategy == ExplorationStrategy::kTour && !passed.contains({place.id, stop.heading});
     const double began = detail::thread_seconds_now();
-    auto passing = may_pass
+    auto passing = may_pass && flights-- > 0
                        ? detail::fly_past(*roadmap, config.limits, std::span(step.tour).subspan(i),
                                           state, kNear * config.spacing)
                        : std::nullopt;
@@ -116,6 +120,10 @@ bool Explorer::State::fly_tour(const std::vector<TourStop>& stops,
       goal = Goal{place, stop.heading, stop.gain, state.time + passing->time, next};
     } else {
       if (is_kept) return true;
+      if (flights-- <= 0) {
+        is_searching = state.velocity.norm() < 1e-9;
+        break;
+      }
       if (!fly_to(place.position, views.yaw_of(stop.heading), state, step)) {
         refused.push_back(place.id);
         continue;
@@ -151,16 +159,20 @@ void Explorer::State::go_on(const FlightState& state, bool arrived, ExplorationS
       return;
     if (arrived || is_resolved || step.was_in_doubt) goal.reset();
   }
-  const bool sees_something = choose(state, false, step);
+  is_searching = false;
+  const bool sees_something = thorough_looks == 0 && choose(state, false, step);
   if (!sees_something && arrived) {
-    if (!choose(state, true, step)) {
+    const bool sees_after_all = choose(state, true, step);
+    if (!is_searching) thorough_looks = 0;
+    if (!sees_after_all) {
       goal.reset();
       go_home(state, arrived, step);
       return;
     }
   }
   if (is_out_of_time) go_home(state, arrived, step);
-  if (step.status == ExplorationStatus::kKeep && arrived) step.status = ExplorationStatus::kStuck;
+  if (step.status == ExplorationStatus::kKeep && arrived && !is_searching)
+    step.status = ExplorationStatus::kStuck;
 }
 
 ExplorationStep Explorer::State::decide(std::shared_ptr<const Roadmap> now,

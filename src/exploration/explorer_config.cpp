@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "common/name_table.hpp"
 #include "common/require.hpp"
@@ -29,6 +31,14 @@ FieldOfView field_of_view(const DepthSensor& sensor, double share_of_range) {
           .vertical = 2.0 * std::atan(down),
           .nearest = sensor.min_range,
           .range = share_of_range * sensor.max_range};
+}
+
+FieldOfView field_of_view(const SpinningLidar& lidar, double share_of_range, double row_gap) {
+  const double between_rows = lidar.vertical / (lidar.rows - 1);
+  return {.horizontal = 2.0 * std::numbers::pi,
+          .vertical = lidar.vertical,
+          .nearest = lidar.min_range,
+          .range = std::min(share_of_range * lidar.max_range, row_gap / between_rows)};
 }
 
 void ExplorerConfig::validate() const {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
+#include <algorithm>
 #include <cmath>
 
 #include "explorer_state.hpp"
@@ -10,16 +11,18 @@ namespace ridgeway {
 
 using detail::Place;
 
-void Explorer::State::look_around(const Point& here, bool thorough) {
+/// Finds what is seen from where; false where rays do not suffice for all of it. Thorough looks in
+/// a row have more of them each time, so that they come to an end whatever changes meanwhile.
+bool Explorer::State::look_around(const Point& here, bool thorough) {
   diagram.update(*roadmap);
   places = diagram.places();
   if (thorough) {
-    constexpr std::uint64_t kOffDiagram = std::uint64_t{1} << 62;
-    const std::vector<Place> more = detail::widest_places(*roadmap, config.spacing, kOffDiagram);
+    const std::vector<Place> more = detail::widest_places(*roadmap, config.spacing);
     places.insert(places.end(), more.begin(), more.end());
   }
-  views.update(*roadmap, frontiers, config.least_frontier, places, here,
-               thorough ? detail::Views::kAllRays : config.most_rays);
+  thorough_looks = thorough ? thorough_looks + 1 : 0;
+  const std::size_t rays = config.most_rays << std::min(thorough_looks, 30);
+  return views.update(*roadmap, frontiers, config.least_frontier, places, here, rays, thorough);
 }
 
 /// Unknown voxels that are in view from a place, within a share of the range, after what was seen

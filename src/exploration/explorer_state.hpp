@@ -52,11 +52,14 @@ struct Explorer::State {
   Trajectory flying;  ///< world
   double flying_since = 0.0;
   double last_tour = -1e9;  ///< seconds, of the state's clock
+  /// At rest, and not done yet with what was begun: it goes on with the next scan.
+  bool is_searching = false;
+  int thorough_looks = 0;  ///< in a row, so far: at all there is, from everywhere
   bool is_returning = false;
   bool is_out_of_time = false;
 
  private:
-  void look_around(const Point& here, bool thorough);
+  bool look_around(const Point& here, bool thorough);
   void count_looks(const Point& from, int heading, double share, int weight,
                    const detail::Place* standing);
   void look_in_flight(const FlightState& state);

@@ -3,19 +3,18 @@
 #include "ridgeway/exploration/frontiers.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <numeric>
-#include <set>
-#include <unordered_set>
 #include <utility>
 
+#include "block_masks.hpp"
 #include "ridgeway/voxel/neighbourhood.hpp"
 
 namespace ridgeway {
 namespace {
-
-constexpr std::array<Direction, 6> kFaces = {4, 10, 12, 14, 16, 22};
 
 bool is_same_block(const Roadmap& a, std::uint32_t slot_a, const Roadmap& b, std::uint32_t slot_b) {
   const VoxelState* const states_a = a.esdf.state.block(slot_a);
@@ -23,55 +22,9 @@ bool is_same_block(const Roadmap& a, std::uint32_t slot_a, const Roadmap& b, std
   return states_a == states_b || std::memcmp(states_a, states_b, kBlockVoxels) == 0;
 }
 
-constexpr std::uint64_t kFirstColumn = 0x0101010101010101;  // x = 0 of all rows of a layer
-constexpr std::uint64_t kFirstRow = 0xff;                   // y = 0
-
-/// A bit for each voxel of a block that has a state; all of them are unknown where there is none.
-VoxelMask::Block mask_of(const EsdfMap& esdf, const BlockIndex& block, VoxelState state) {
-  VoxelMask::Block mask{};
-  const std::uint32_t slot = esdf.layout.find_block(block);
-  if (slot == BlockLayout::kNoBlock) {
-    if (state == VoxelState::kUnknown) mask.fill(~std::uint64_t{0});
-    return mask;
-  }
-  const VoxelState* const states = esdf.state.block(slot);
-  constexpr std::uint64_t kOnes = 0x0101010101010101;  // a row of eight states is one word
-  static_assert(kBlockSide == 8);
-  for (std::size_t row = 0; row < 64; ++row) {
-    std::uint64_t word = 0;
-    for (std::size_t x = 0; x < 8; ++x)
-      word |= std::uint64_t{static_cast<std::uint8_t>(states[8 * row + x])} << 8 * x;
-    word ^= kOnes * static_cast<std::uint8_t>(state);  // 0 where it is the state, else 1 to 3
-    const std::uint64_t is_state = ~(word | word >> 1) & kOnes;
-    mask[row / 8] |= is_state * 0x0102040810204080 >> 56 << 8 * (row % 8);  // eight bits in a byte
-  }
-  return mask;
-}
-
-/// A bit for each free voxel of a block with an unknown one across a face.
-VoxelMask::Block free_beside_unknown(const EsdfMap& esdf, const BlockIndex& block) {
-  const VoxelMask::Block free = mask_of(esdf, block, VoxelState::kFree);
-  VoxelMask::Block found{};
-  if (std::all_of(free.begin(), free.end(), [](std::uint64_t layer) { return layer == 0; }))
-    return found;
-  const auto unknown = [&](int x, int y, int z) {
-    return mask_of(esdf, block + BlockIndex{x, y, z}, VoxelState::kUnknown);
-  };
-  const VoxelMask::Block own = unknown(0, 0, 0), below = unknown(0, 0, -1),
-                         above = unknown(0, 0, 1), left = unknown(-1, 0, 0),
-                         right = unknown(1, 0, 0), front = unknown(0, -1, 0),
-                         back = unknown(0, 1, 0);
-  constexpr std::size_t kTop = kBlockSide - 1;
-  for (std::size_t z = 0; z < kBlockSide; ++z) {
-    const std::uint64_t u = own[z];
-    const std::uint64_t beside =
-        (z == 0 ? below[kTop] : own[z - 1]) | (z == kTop ? above[0] : own[z + 1]) |
-        (u << 1 & ~kFirstColumn) | (left[z] >> 7 & kFirstColumn) |          // unknown at x - 1
-        (u >> 1 & ~(kFirstColumn << 7)) | (right[z] & kFirstColumn) << 7 |  // at x + 1
-        u << 8 | front[z] >> 56 | u >> 8 | (back[z] & kFirstRow) << 56;     // at y - 1, y + 1
-    found[z] = free[z] & beside;
-  }
-  return found;
+BlockIndex block_at(const BlockIndex& block, int direction) {
+  const VoxelIndex& o = offset_of(direction);
+  return block + BlockIndex{o.x, o.y, o.z};
 }
 
 /// The first of a set that is joined with others.
@@ -82,20 +35,37 @@ std::size_t root_of(std::vector<std::size_t>& parent, std::size_t i) {
 
 }  // namespace
 
-void Frontiers::find_changed(const Roadmap& now) {
+/// Finds the blocks in another state than before; gives those whose frontier may be another: these,
+/// and those across a face at which something became known or unknown.
+std::vector<BlockIndex> Frontiers::find_changed(const Roadmap& now) {
   changed_.clear();
   const BlockLayout& layout = now.esdf.layout;
+  const BlockLayout* const old_layout = roadmap_ ? &roadmap_->esdf.layout : nullptr;
   for (std::uint32_t slot = 0; slot < layout.block_count(); ++slot) {
     const BlockIndex& block = layout.block(slot);
-    const std::uint32_t before =
-        roadmap_ ? roadmap_->esdf.layout.find_block(block) : BlockLayout::kNoBlock;
+    std::uint32_t before = BlockLayout::kNoBlock;
+    if (old_layout != nullptr)  // mostly where it was
+      before = slot < old_layout->block_count() && old_layout->block(slot) == block
+                   ? slot
+                   : old_layout->find_block(block);
     if (before == BlockLayout::kNoBlock || !is_same_block(*roadmap_, before, now, slot))
       changed_.push_back(block);
   }
-  if (roadmap_)
-    for (const BlockIndex& block : roadmap_->esdf.layout.blocks())
+  if (old_layout != nullptr)
+    for (const BlockIndex& block : old_layout->blocks())
       if (layout.find_block(block) == BlockLayout::kNoBlock) changed_.push_back(block);
   std::sort(changed_.begin(), changed_.end());
+  std::vector<BlockIndex> affected = changed_;
+  for (const BlockIndex& block : changed_) {
+    detail::BlockMask before;
+    before.fill(~std::uint64_t{0});
+    if (roadmap_) before = detail::mask_of(roadmap_->esdf, block, VoxelState::kUnknown);
+    const detail::BlockMask turned =
+        detail::difference(before, detail::mask_of(now.esdf, block, VoxelState::kUnknown));
+    for (const Direction face : kFaceDirections)
+      if (detail::reaches(turned, face)) affected.push_back(block_at(block, face));
+  }
+  return affected;
 }
 
 void Frontiers::update(std::shared_ptr<const Roadmap> roadmap) {
@@ -105,26 +75,16 @@ void Frontiers::update(std::shared_ptr<const Roadmap> roadmap) {
   }
   ++version_;
   if (!roadmap) return;
-  find_changed(*roadmap);
+  std::vector<BlockIndex> affected = find_changed(*roadmap);
   roadmap_ = std::move(roadmap);
-  std::set<BlockIndex> remade;
-  const auto add_with_neighbours = [&](const BlockIndex& block) {
-    remade.insert(block);
-    for (const Direction face : kFaces) {
-      const VoxelIndex& o = offset_of(face);
-      remade.insert(block + BlockIndex{o.x, o.y, o.z});
-    }
-  };
-  for (const BlockIndex& block : changed_) add_with_neighbours(block);
-  for (const BlockIndex& block : std::exchange(stale_, {})) add_with_neighbours(block);
-  for (const BlockIndex& block : remade) remake(block);
-  std::unordered_set<BlockIndex, BlockHash> linked;  // each by itself: in any order
-  for (const BlockIndex& block : remade)
-    for (int d = 0; d < 27; ++d) {
-      const VoxelIndex& o = offset_of(d);
-      linked.insert(block + BlockIndex{o.x, o.y, o.z});
-    }
-  for (const BlockIndex& block : linked) link(block);
+  for (const BlockIndex& block : std::exchange(stale_, {})) {
+    affected.push_back(block);
+    for (const Direction face : kFaceDirections) affected.push_back(block_at(block, face));
+  }
+  std::sort(affected.begin(), affected.end());
+  affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
+  for (const BlockIndex& block : affected) remake(block);
+  for (const BlockIndex& block : affected) link(block);
   gather();
 }
 
@@ -140,146 +100,131 @@ void Frontiers::ignore(std::span<const VoxelIndex> voxels) {
   }
 }
 
-bool Frontiers::is_unknown(const VoxelIndex& voxel, VoxelId id) const {
-  if (id != kNoVoxel && roadmap_->esdf.state[id] != VoxelState::kUnknown) return false;
-  if (!within_.contains(voxel + roadmap_->esdf.origin)) return false;
-  if (ignored_.empty()) return true;
-  const auto found = ignored_.find(block_of(voxel));
-  if (found == ignored_.end()) return true;
-  const auto local = static_cast<std::size_t>(local_of(voxel));
-  return (found->second[local / 64] >> local % 64 & 1) == 0;
+/// Those that are worth a look.
+detail::BlockMask Frontiers::unknown_in(const BlockIndex& block) const {
+  const EsdfMap& esdf = roadmap_->esdf;
+  detail::BlockMask unknown = detail::both(
+      detail::mask_of(esdf, block, VoxelState::kUnknown),
+      detail::mask_within(block, within_.min - esdf.origin, within_.max - esdf.origin));
+  if (const auto found = ignored_.find(block); found != ignored_.end())
+    for (std::size_t z = 0; z < unknown.size(); ++z) unknown[z] &= ~found->second[z];
+  return unknown;
 }
 
-bool Frontiers::is_frontier(VoxelId id, const VoxelIndex& voxel, Eigen::Vector3d& normal,
-                            std::vector<VoxelIndex>* targets) const {
-  bool is_one = false;
-  for (const Direction face : kFaces) {
-    const VoxelIndex& o = offset_of(face);
-    const VoxelIndex beyond = voxel + o;
-    if (!is_unknown(beyond, roadmap_->esdf.layout.neighbour(id, face))) continue;
-    is_one = true;
-    normal += Eigen::Vector3d(o.x, o.y, o.z);
-    if (targets != nullptr) targets->push_back(beyond);
+/// The parts of the frontier in a block, by their first voxels.
+std::vector<FrontierPart> Frontiers::parts_in(const BlockIndex& block, Entry& entry) const {
+  const EsdfMap& esdf = roadmap_->esdf;
+  std::vector<FrontierPart> parts;
+  const detail::BlockMask free = detail::both(
+      detail::mask_of(esdf, block, VoxelState::kFree),
+      detail::mask_within(block, within_.min - esdf.origin, within_.max - esdf.origin));
+  if (detail::is_empty(free)) return parts;
+  std::array<detail::BlockMask, kFaceDirections.size()> looks_out;  // by face
+  detail::BlockMask left{};
+  const detail::BlockMask own = unknown_in(block);
+  for (std::size_t f = 0; f < looks_out.size(); ++f) {
+    looks_out[f] = detail::both(
+        free,
+        detail::beside(own, unknown_in(block_at(block, kFaceDirections[f])), kFaceDirections[f]));
+    for (std::size_t z = 0; z < left.size(); ++z) left[z] |= looks_out[f][z];
   }
-  return is_one;
+  while (!detail::is_empty(left)) {
+    const detail::BlockMask piece = detail::first_piece(left);
+    FrontierPart part;
+    part.block = block;
+    part.version = version_;
+    for (std::size_t z = 0; z < left.size(); ++z)
+      for (std::uint64_t bits = piece[z]; bits != 0; bits &= bits - 1) {
+        const int local = static_cast<int>(64 * z) + std::countr_zero(bits);
+        const VoxelIndex voxel = voxel_of(block, local);
+        if (part.voxels == 0) part.first = voxel;
+        ++part.voxels;
+        part.centroid += centre_of(voxel, esdf.voxel_size);
+        for (std::size_t f = 0; f < looks_out.size(); ++f)
+          if ((looks_out[f][z] >> local % 64 & 1) != 0) {
+            const VoxelIndex& o = offset_of(kFaceDirections[f]);
+            part.normal += Eigen::Vector3d(o.x, o.y, o.z);
+            part.targets.push_back(voxel + o);
+          }
+      }
+    for (std::size_t z = 0; z < left.size(); ++z) left[z] &= ~piece[z];
+    part.centroid /= static_cast<double>(part.voxels);
+    part.normal /= static_cast<double>(part.targets.size());
+    std::sort(part.targets.begin(), part.targets.end());
+    part.targets.erase(std::unique(part.targets.begin(), part.targets.end()), part.targets.end());
+    parts.push_back(std::move(part));
+    entry.pieces.push_back(piece);
+  }
+  return parts;
 }
 
 void Frontiers::remake(const BlockIndex& block) {
-  std::vector<FrontierPart> before;
-  if (const auto found = entries_.find(block); found != entries_.end()) {
-    before = std::move(found->second.parts);
-    entries_.erase(found);
-  }
-  const EsdfMap& esdf = roadmap_->esdf;
-  const std::uint32_t slot = esdf.layout.find_block(block);
-  if (slot == BlockLayout::kNoBlock) return;
-  const VoxelMask::Block candidates = free_beside_unknown(esdf, block);  // within bounds or not
   Entry entry;
-  std::vector<int> members;
-  Eigen::Vector3d unused = Eigen::Vector3d::Zero();
-  for (int local = 0; local < kBlockVoxels; ++local) {
-    if ((candidates[static_cast<std::size_t>(local) / 64] >> local % 64 & 1) == 0) continue;
-    const VoxelIndex voxel = voxel_of(block, local);
-    if (!within_.contains(voxel + esdf.origin)) continue;
-    if (is_frontier(slot * kBlockVoxels + static_cast<VoxelId>(local), voxel, unused, nullptr))
-      members.push_back(local);
-  }
-  if (members.empty()) return;
-  constexpr std::uint8_t kWaiting = 255;  // no label: there are 64 parts of a block at most
-  for (const int local : members) entry.labels[static_cast<std::size_t>(local)] = kWaiting;
-  std::vector<int> stack;
-  for (const int first : members) {
-    if (entry.labels[static_cast<std::size_t>(first)] != kWaiting) continue;
-    FrontierPart part;
-    part.block = block;
-    part.first = voxel_of(block, first);
-    part.version = version_;
-    const auto label = static_cast<std::uint8_t>(entry.parts.size() + 1);
-    stack.push_back(first);
-    entry.labels[static_cast<std::size_t>(first)] = label;
-    while (!stack.empty()) {
-      const int local = stack.back();
-      stack.pop_back();
-      const VoxelIndex voxel = voxel_of(block, local);
-      ++part.voxels;
-      part.centroid += centre_of(voxel, esdf.voxel_size);
-      is_frontier(slot * kBlockVoxels + static_cast<VoxelId>(local), voxel, part.normal,
-                  &part.targets);
-      for (int d = 0; d < 27; ++d) {
-        const VoxelIndex next = voxel + offset_of(d);
-        if (block_of(next) != block) continue;
-        std::uint8_t& at = entry.labels[static_cast<std::size_t>(local_of(next))];
-        if (at != kWaiting) continue;
-        at = label;
-        stack.push_back(local_of(next));
-      }
+  entry.version = version_;
+  entry.made = parts_in(block, entry);
+  const auto found = entries_.find(block);
+  if (found != entries_.end())
+    for (std::size_t i = 0; i < found->second.pieces.size(); ++i) {
+      const FrontierPart& old = parts_[found->second.first + i];
+      for (FrontierPart& part : entry.made)
+        if (old.voxels == part.voxels && old.centroid == part.centroid &&
+            old.targets == part.targets)
+          part.version = old.version;  // it is the same
     }
-    part.centroid /= static_cast<double>(part.voxels);
-    part.normal /= static_cast<double>(std::max<std::size_t>(part.targets.size(), 1));
-    std::sort(part.targets.begin(), part.targets.end());
-    part.targets.erase(std::unique(part.targets.begin(), part.targets.end()), part.targets.end());
-    for (const FrontierPart& old : before)
-      if (old.voxels == part.voxels && old.centroid == part.centroid && old.targets == part.targets)
-        part.version = old.version;  // it is the same
-    entry.parts.push_back(std::move(part));
-  }
-  entries_.emplace(block, std::move(entry));
+  const auto drop_links_to = [&](const Entry& gone) {
+    for (int d = 0; d < kCentre; ++d)
+      if (const auto before = entries_.find(block_at(block, d)); before != entries_.end())
+        std::erase_if(before->second.links, [&](const Link& l) { return l.beyond == &gone; });
+  };
+  if (found != entries_.end()) drop_links_to(found->second);
+  if (!entry.made.empty())
+    entries_.insert_or_assign(block, std::move(entry));
+  else if (found != entries_.end())
+    entries_.erase(found);
 }
 
+/// Finds which parts of a block that was made again touch those of others: of blocks after it, and
+/// of those before it that look at it from their side.
 void Frontiers::link(const BlockIndex& block) {
   const auto own = entries_.find(block);
   if (own == entries_.end()) return;
-  Entry& entry = own->second;
-  entry.pairs.clear();
-  entry.partners.clear();
-  std::array<const Entry*, 27> beside{};  // by direction, those that are greater than this
-  bool has_any = false;
-  for (int d = 0; d < 27; ++d) {
-    const VoxelIndex& o = offset_of(d);
-    const BlockIndex other = block + BlockIndex{o.x, o.y, o.z};
-    if (!(block < other)) continue;
-    if (const auto found = entries_.find(other); found != entries_.end()) {
-      beside[static_cast<std::size_t>(d)] = &found->second;
-      has_any = true;
-    }
+  for (Direction d = 0; d < 27; ++d) {
+    if (d == kCentre) continue;
+    const auto found = entries_.find(block_at(block, d));
+    if (found == entries_.end()) continue;
+    if (d > kCentre)
+      link(own->second, found->second, offset_of(d));
+    else if (found->second.version != version_)  // else it does so itself
+      link(found->second, own->second, VoxelIndex{} - offset_of(d));
   }
-  if (!has_any) return;
-  std::set<std::array<std::uint32_t, 3>> links;  // direction, part here, part there
-  for (int local = 0; local < kBlockVoxels; ++local) {
-    const std::uint8_t label = entry.labels[static_cast<std::size_t>(local)];
-    if (label == 0) continue;
-    const VoxelIndex in_block = voxel_of(BlockIndex{}, local);
-    for (int e = 0; e < 27; ++e) {
-      const VoxelIndex next = in_block + offset_of(e);
-      const BlockIndex step = block_of(next);
-      const int d = direction_of({step.x, step.y, step.z});
-      const Entry* const other = beside[static_cast<std::size_t>(d)];
-      if (other == nullptr) continue;
-      const std::uint8_t there = other->labels[static_cast<std::size_t>(local_of(next))];
-      if (there != 0) links.insert({static_cast<std::uint32_t>(d), label - 1u, there - 1u});
-    }
-  }
-  for (const auto& [d, here, there] : links) {
-    const VoxelIndex& o = offset_of(static_cast<int>(d));
-    entry.pairs.push_back({here, there});
-    entry.partners.push_back(block + BlockIndex{o.x, o.y, o.z});
+}
+
+void Frontiers::link(Entry& entry, const Entry& beyond, const VoxelIndex& step) {
+  for (std::size_t here = 0; here < entry.pieces.size(); ++here) {
+    const detail::BlockMask touched = detail::touched_by(entry.pieces[here], step);
+    for (std::size_t there = 0; there < beyond.pieces.size(); ++there)
+      if (!detail::is_empty(detail::both(touched, beyond.pieces[there])))
+        entry.links.push_back(
+            {static_cast<std::uint32_t>(here), static_cast<std::uint32_t>(there), &beyond});
   }
 }
 
 void Frontiers::gather() {
-  parts_.clear();
+  std::vector<FrontierPart> before = std::exchange(parts_, {});
+  parts_.reserve(before.size() + 64);
   clusters_.clear();
-  std::map<BlockIndex, std::size_t> first;
-  for (const auto& [block, entry] : entries_) {
-    first[block] = parts_.size();
-    parts_.insert(parts_.end(), entry.parts.begin(), entry.parts.end());
+  for (auto& [block, entry] : entries_) {
+    const std::size_t first = std::exchange(entry.first, parts_.size());
+    for (std::size_t i = 0; i < entry.pieces.size(); ++i)
+      parts_.push_back(std::move(entry.made.empty() ? before[first + i] : entry.made[i]));
+    entry.made.clear();
   }
   std::vector<std::size_t> parent(parts_.size());
   std::iota(parent.begin(), parent.end(), std::size_t{0});
   for (const auto& [block, entry] : entries_)
-    for (std::size_t i = 0; i < entry.pairs.size(); ++i) {
-      const std::size_t a = root_of(parent, first[block] + entry.pairs[i][0]);
-      const std::size_t b = root_of(parent, first[entry.partners[i]] + entry.pairs[i][1]);
+    for (const Link& l : entry.links) {
+      const std::size_t a = root_of(parent, entry.first + l.here);
+      const std::size_t b = root_of(parent, l.beyond->first + l.there);
       parent[std::max(a, b)] = std::min(a, b);
     }
   std::vector<std::size_t> number(parts_.size());

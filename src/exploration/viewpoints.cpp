@@ -27,6 +27,14 @@ BlockIndex cube_of(const VoxelIndex& voxel, int side) {
   return {floor_div(voxel.x, side), floor_div(voxel.y, side), floor_div(voxel.z, side)};
 }
 
+/// Of a place off the diagram: the same for a voxel at any time, and none of a place on it.
+std::uint64_t id_of(const VoxelIndex& voxel) {
+  constexpr std::uint64_t kOffDiagram = std::uint64_t{1} << 63;
+  constexpr std::uint64_t kBits = (std::uint64_t{1} << 21) - 1;  // of maps of up to 2^21 voxels
+  const auto bits = [](int at) { return static_cast<std::uint64_t>(at) & kBits; };
+  return kOffDiagram | bits(voxel.z) << 42 | bits(voxel.y) << 21 | bits(voxel.x);
+}
+
 void offer(std::map<BlockIndex, Candidate>& best, const VoxelIndex& voxel, std::uint32_t squared,
            int side) {
   const auto [found, is_new] = best.try_emplace(cube_of(voxel, side), Candidate{voxel, squared});
@@ -72,7 +80,7 @@ void DiagramPlaces::update(const Roadmap& roadmap) {
   for (const auto& [cube, place] : of_cube_) places_.push_back(place);
 }
 
-std::vector<Place> widest_places(const Roadmap& roadmap, double spacing, std::uint64_t first_id) {
+std::vector<Place> widest_places(const Roadmap& roadmap, double spacing) {
   const EsdfMap& esdf = roadmap.esdf;
   const int side = side_of(spacing, esdf.voxel_size);
   const SquaredHalves threshold = least_clearance(roadmap.min_clearance, esdf.voxel_size);
@@ -82,7 +90,8 @@ std::vector<Place> widest_places(const Roadmap& roadmap, double spacing, std::ui
       offer(best, esdf.layout.index_of(id), esdf.squared[id], side);
   std::vector<Place> places;
   for (const auto& [cube, candidate] : best)
-    places.push_back({first_id++, candidate.voxel, centre_of(candidate.voxel, esdf.voxel_size)});
+    places.push_back(
+        {id_of(candidate.voxel), candidate.voxel, centre_of(candidate.voxel, esdf.voxel_size)});
   return places;
 }
 

@@ -34,8 +34,7 @@ class DiagramPlaces {
   std::uint64_t next_id_ = 1;
 };
 
-/// The widest traversable voxel of each such cube, on the diagram or not. Their ids begin at one
-/// that is given.
-std::vector<Place> widest_places(const Roadmap& roadmap, double spacing, std::uint64_t first_id);
+/// The widest traversable voxel of each such cube, on the diagram or not.
+std::vector<Place> widest_places(const Roadmap& roadmap, double spacing);
 
 }  // namespace ridgeway::detail

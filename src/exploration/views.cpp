@@ -65,7 +65,16 @@ std::uint32_t Views::headings_to(const Point& from, const Point& target) const {
 }
 
 void Views::ban(const Place& place, const FrontierPart& part) {
-  banned_.insert({place.id, part.first, part.version});
+  banned_[{part.first, part.version}].push_back(place.id);
+  const auto found = of_part_.find(part.first);
+  if (found != of_part_.end() && found->second.version == part.version)
+    found->second.banned.push_back(place.id);
+}
+
+bool Views::is_banned(const Place& place, const FrontierPart& part) const {
+  const auto found = banned_.find({part.first, part.version});
+  return found != banned_.end() &&
+         std::find(found->second.begin(), found->second.end(), place.id) != found->second.end();
 }
 
 void Views::note_changes(const Roadmap& roadmap, const Frontiers& frontiers) {
@@ -78,115 +87,215 @@ void Views::note_changes(const Roadmap& roadmap, const Frontiers& frontiers) {
   }
 }
 
-void Views::forget_changed(const Roadmap& roadmap, std::span<const Place> places) {
-  const double s = roadmap.esdf.voxel_size;
-  const Bounds changed = std::exchange(changed_, Bounds{});
-  if (changed.is_empty()) return;
-  std::unordered_map<std::uint64_t, const Place*> by_id;
-  for (const Place& place : places) by_id[place.id] = &place;
+void Views::follow_places(std::span<const Place> places) {
+  const std::size_t before = index_of_.size();
+  now_at_.assign(before, kGone);
+  new_places_.clear();
+  std::unordered_map<std::uint64_t, std::uint32_t> now;
+  now.reserve(places.size());
+  places_changed_ = before != places.size();
+  for (std::uint32_t i = 0; i < places.size(); ++i) {
+    now[places[i].id] = i;
+    const auto found = index_of_.find(places[i].id);
+    if (found == index_of_.end())
+      new_places_.push_back(i);
+    else
+      now_at_[found->second] = i;
+    places_changed_ = places_changed_ || found == index_of_.end() || found->second != i;
+  }
+  index_of_ = std::move(now);
+  places_ = places;
+}
+
+/// What was seen across a place that has changed is to be looked at again.
+void Views::mark_changed(const Roadmap& roadmap, const Bounds& changed) {
   for (auto& [first, views] : of_part_) {
-    const Bounds part = bounds_of(block_of(first), s);
-    Bounds reach = part;
-    reach.low.array() -= view_.range;
-    reach.high.array() += view_.range;
-    if (!reach.meets(changed)) continue;
-    std::erase_if(views.from, [&, &part_bounds = part](const auto& entry) {
-      const auto place = by_id.find(entry.first);
-      if (place == by_id.end()) return true;
-      if (entry.second.all_seen) return false;
-      Bounds way = part_bounds;
-      way.add(place->second->position);
-      return way.meets(changed);
-    });
+    if (places_changed_) {
+      for (Candidate& candidate : views.candidates) candidate.place = now_at_[candidate.place];
+      std::erase_if(views.candidates, [](const Candidate& c) { return c.place == kGone; });
+    }
+    const Bounds part = bounds_of(block_of(first), roadmap.esdf.voxel_size);
+    if (!part.widened(view_.range).meets(changed)) continue;
+    for (const Candidate& candidate : views.candidates) {
+      if (candidate.cached < 0) continue;
+      Cached& cached = views.cached[static_cast<std::size_t>(candidate.cached)];
+      if (cached.all_seen || cached.is_stale) continue;
+      Bounds way = part;
+      way.add(places_[candidate.place].position);
+      cached.is_stale = way.meets(changed);
+    }
   }
 }
 
-const Views::Cached* Views::look(const Roadmap& roadmap, const FrontierPart& part,
-                                 const Place& place, PartViews& views,
-                                 std::size_t& rays_left) const {
-  if (const auto found = views.from.find(place.id); found != views.from.end())
-    return &found->second;
+bool Views::is_candidate(const EsdfMap& esdf, const FrontierPart& part, const Place& place,
+                         double& distance) const {
+  constexpr double kBehind = 0.5;  // cosine: from there the unknown side is all that is seen
+  const double extent = kBlockSide * esdf.voxel_size;
+  const Eigen::Vector3d way = place.position - part.centroid;
+  const double squared = way.squaredNorm(), reach = view_.range + extent;
+  if (squared > reach * reach) return false;
+  distance = std::sqrt(squared);
+  if (distance < view_.nearest - extent) return false;
+  const double level = std::sqrt(way.x() * way.x() + way.y() * way.y());
+  if (std::abs(way.z()) > std::tan(0.5 * view_.vertical) * (level + extent) + extent) return false;
+  const double normal = part.normal.norm();
+  return normal <= 0.5 || part.normal.dot(way) <= kBehind * normal * distance;
+}
+
+void Views::find_candidates(const EsdfMap& esdf, const FrontierPart& part, bool is_new,
+                            PartViews& views) const {
+  const std::size_t before = views.candidates.size();
+  const auto consider = [&](std::uint32_t place) {
+    double distance = 0.0;
+    if (is_candidate(esdf, part, places_[place], distance))
+      views.candidates.push_back({distance, place});
+  };
+  if (is_new)
+    for (std::uint32_t place = 0; place < places_.size(); ++place) consider(place);
+  else
+    for (const std::uint32_t place : new_places_) consider(place);
+  if (views.candidates.size() == before) return;
+  std::sort(views.candidates.begin(), views.candidates.end(),
+            [](const Candidate& a, const Candidate& b) {
+              return a.distance != b.distance ? a.distance < b.distance : a.place < b.place;
+            });
+}
+
+/// The parts that are to be seen, the nearest first, with the places from which they might be.
+std::vector<Views::Waiting> Views::follow_parts(const Roadmap& roadmap, const Frontiers& frontiers,
+                                                std::size_t least, const Point& near, bool thorough,
+                                                const Bounds& changed) {
+  const std::span<const FrontierPart> parts = frontiers.parts();
+  std::vector<Waiting> waiting;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const FrontierPart& part = parts[i];
+    if (frontiers.clusters()[part.cluster].voxels < least) continue;
+    PartViews& views = of_part_[part.first];
+    const bool is_new = views.version != part.version || views.thorough != thorough;
+    if (is_new) {
+      views = PartViews{};
+      views.version = part.version;
+      views.thorough = thorough;
+      views.served = updates_;
+      if (const auto found = banned_.find({part.first, part.version}); found != banned_.end())
+        views.banned = found->second;
+    }
+    views.live = updates_;
+    find_candidates(roadmap.esdf, part, is_new, views);
+    const Bounds around = bounds_of(part.block, roadmap.esdf.voxel_size).widened(deepest_);
+    if (is_new || around.meets(changed))
+      views.worth = depth_behind(roadmap.esdf, within_, part, deepest_);
+    waiting.push_back({(part.centroid - near).squaredNorm(), i, &views});
+  }
+  std::sort(waiting.begin(), waiting.end(), [](const Waiting& a, const Waiting& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.part < b.part;
+  });
+  return waiting;
+}
+
+/// Calls visit(candidate) for the places that are asked for a part, as long as it says true.
+template <typename Visit>
+void Views::for_each_asked(PartViews& views, const Visit& visit) const {
+  bool is_seen = false;
+  std::size_t asked = 0;
+  for (Candidate& candidate : views.candidates) {
+    if (!views.thorough && asked >= (is_seen ? kNearPlaces : kFarPlaces)) return;
+    ++asked;
+    const auto& banned = views.banned;
+    if (!banned.empty() &&
+        std::find(banned.begin(), banned.end(), places_[candidate.place].id) != banned.end())
+      continue;
+    if (!visit(candidate)) return;
+    if (candidate.cached >= 0 &&
+        !views.cached[static_cast<std::size_t>(candidate.cached)].rays.empty())
+      is_seen = true;
+  }
+}
+
+/// Casts the rays that are missing, part by part, as long as there are some left.
+bool Views::serve(const Roadmap& roadmap, std::span<const FrontierPart> parts,
+                  std::span<const Waiting> waiting, std::size_t& rays_left) const {
+  for (const Waiting& next : waiting) {
+    bool is_served = true;
+    for_each_asked(*next.views, [&](Candidate& candidate) {
+      is_served = look(roadmap, parts[next.part], candidate, *next.views, rays_left);
+      return is_served;
+    });
+    if (!is_served) return false;
+    next.views->served = updates_ + 1;
+  }
+  return true;
+}
+
+/// What is seen of a part from a place, if that is not known; false where rays do not suffice.
+bool Views::look(const Roadmap& roadmap, const FrontierPart& part, Candidate& candidate,
+                 PartViews& views, std::size_t& rays_left) const {
+  if (candidate.cached >= 0 && !views.cached[static_cast<std::size_t>(candidate.cached)].is_stale)
+    return true;
+  const Point& from = places_[candidate.place].position;
   const std::size_t count = part.targets.size();
   const std::size_t looks = views.thorough ? count : std::min(count, kTargets);
-  if (rays_left < looks) return nullptr;
-  Cached& cached = views.from[place.id];
+  if (rays_left < looks) return false;
+  if (candidate.cached < 0) {
+    candidate.cached = static_cast<std::int32_t>(views.cached.size());
+    views.cached.emplace_back();
+  }
+  Cached& cached = views.cached[static_cast<std::size_t>(candidate.cached)];
+  cached.rays.clear();
+  cached.is_stale = false;
   cached.all_seen = true;
   for (std::size_t i = 0; i < looks; ++i) {
     const VoxelIndex& target = part.targets[i * count / looks];
-    const std::uint32_t headings =
-        headings_to(place.position, centre_of(target, roadmap.esdf.voxel_size));
+    const std::uint32_t headings = headings_to(from, centre_of(target, roadmap.esdf.voxel_size));
     if (headings == 0) continue;  // does not depend on the map
     --rays_left;
-    if (sees(roadmap.esdf, place.position, target))
+    if (sees(roadmap.esdf, from, target))
       cached.rays.push_back({headings, static_cast<std::uint8_t>(i % kMostTargets),
                              static_cast<float>(part.voxels) / static_cast<float>(looks)});
     else
       cached.all_seen = false;
   }
-  return &cached;
+  return true;
 }
 
-std::vector<std::size_t> Views::candidates(const EsdfMap& esdf, const FrontierPart& part,
-                                           std::span<const Place> places) const {
-  constexpr double kBehind = 0.5;  // cosine: from there the unknown side is all that is seen
-  const double extent = kBlockSide * esdf.voxel_size;
-  const double steepest = std::tan(0.5 * view_.vertical);
-  std::vector<std::pair<double, std::size_t>> found;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const Eigen::Vector3d way = places[i].position - part.centroid;
-    const double distance = way.norm();
-    if (distance > view_.range + extent || distance < view_.nearest - extent) continue;
-    const double level = std::hypot(way.x(), way.y());
-    if (std::abs(way.z()) > steepest * (level + extent) + extent) continue;
-    if (part.normal.norm() > 0.5 && part.normal.dot(way) > kBehind * part.normal.norm() * distance)
-      continue;
-    found.push_back({distance, i});
-  }
-  std::sort(found.begin(), found.end());
-  std::vector<std::size_t> indices;
-  for (const auto& [distance, i] : found) indices.push_back(i);
-  return indices;
-}
-
-void Views::update(const Roadmap& roadmap, const Frontiers& frontiers, std::size_t least,
-                   std::span<const Place> places, const Point& near, std::size_t most_rays) {
-  note_changes(roadmap, frontiers);
-  forget_changed(roadmap, places);
-  const bool thorough = most_rays == kAllRays;
-  const std::span<const FrontierPart> parts = frontiers.parts();
-  part_count_ = parts.size();
-  from_places_.assign(places.size(), {});
-  std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    if (frontiers.clusters()[parts[i].cluster].voxels >= least)
-      order.push_back({(parts[i].centroid - near).squaredNorm(), i});
-  std::sort(order.begin(), order.end());
-  for (auto& [first, views] : of_part_) views.is_live = false;
-  std::size_t rays_left = most_rays;
-  for (const auto& [distance, i] : order) {
-    const FrontierPart& part = parts[i];
-    PartViews& views = of_part_[part.first];
-    if (views.version != part.version || views.thorough != thorough) views.from.clear();
-    views.version = part.version;
-    views.thorough = thorough;
-    views.is_live = true;
-    const double worth = depth_behind(roadmap.esdf, within_, part, deepest_);
-    bool is_seen = false;
-    std::size_t asked = 0;
-    for (const std::size_t place : candidates(roadmap.esdf, part, places)) {
-      if (!thorough && asked >= (is_seen ? kNearPlaces : kFarPlaces)) break;
-      ++asked;
-      if (banned_.contains({places[place].id, part.first, part.version})) continue;
-      const Cached* cached = look(roadmap, part, places[place], views, rays_left);
-      if (cached == nullptr || cached->rays.empty()) continue;
-      is_seen = true;
-      from_places_[place].push_back({i, cached->rays, worth});
-    }
-  }
-  std::erase_if(of_part_, [](const auto& entry) { return !entry.second.is_live; });
+/// What is seen from each place, of all that is known of that.
+void Views::gather(std::span<const Waiting> waiting) {
+  from_places_.assign(places_.size(), {});
+  for (const Waiting& next : waiting)
+    for_each_asked(*next.views, [&](const Candidate& candidate) {
+      if (candidate.cached < 0) return true;
+      const Cached& cached = next.views->cached[static_cast<std::size_t>(candidate.cached)];
+      if (!cached.rays.empty())
+        from_places_[candidate.place].push_back({next.part, cached.rays, next.views->worth});
+      return true;
+    });
   for (std::vector<Sight>& sights : from_places_)
     std::sort(sights.begin(), sights.end(),
               [](const Sight& a, const Sight& b) { return a.part < b.part; });
+}
+
+bool Views::update(const Roadmap& roadmap, const Frontiers& frontiers, std::size_t least,
+                   std::span<const Place> places, const Point& near, std::size_t most_rays,
+                   bool thorough) {
+  note_changes(roadmap, frontiers);
+  ++updates_;
+  follow_places(places);
+  const Bounds changed = std::exchange(changed_, Bounds{});
+  mark_changed(roadmap, changed);
+  const std::span<const FrontierPart> parts = frontiers.parts();
+  std::vector<Waiting> waiting = follow_parts(roadmap, frontiers, least, near, thorough, changed);
+  std::erase_if(of_part_, [&](const auto& entry) { return entry.second.live != updates_; });
+  std::size_t of_late = most_rays / 3, of_near = most_rays - of_late;
+  serve(roadmap, parts, waiting, of_near);
+  std::vector<Waiting> late = waiting;
+  std::stable_sort(late.begin(), late.end(), [](const Waiting& a, const Waiting& b) {
+    return a.views->served < b.views->served;
+  });
+  of_late += of_near;
+  const bool all_served = serve(roadmap, parts, late, of_late);
+  part_count_ = parts.size();
+  gather(waiting);
+  return all_served;
 }
 
 double Views::gain_now(const Roadmap& roadmap, const Frontiers& frontiers, std::size_t least,
@@ -194,7 +303,7 @@ double Views::gain_now(const Roadmap& roadmap, const Frontiers& frontiers, std::
   double gain = 0.0;
   for (const FrontierPart& part : frontiers.parts()) {
     if (frontiers.clusters()[part.cluster].voxels < least) continue;
-    if (banned_.contains({place.id, part.first, part.version})) continue;
+    if (is_banned(place, part)) continue;
     const double reach = view_.range + kBlockSide * roadmap.esdf.voxel_size;
     if ((part.centroid - place.position).squaredNorm() > reach * reach) continue;
     const std::size_t count = part.targets.size(), looks = std::min(count, kTargets);

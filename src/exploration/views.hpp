@@ -5,10 +5,9 @@
 #include <array>
 #include <limits>
 #include <map>
-#include <set>
 #include <span>
-#include <tuple>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "ridgeway/exploration/explorer.hpp"
@@ -26,6 +25,7 @@ struct Bounds {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
+  Bounds widened(double by) const { return {low.array() - by, high.array() + by}; }
   bool meets(const Bounds& other) const {
     return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
   }
@@ -53,20 +53,22 @@ struct Stop {
 };
 
 /// Which frontiers are seen from which places: rays are cast when they are first asked for, and
-/// again where the map has changed between a place and a part.
+/// again where the map has changed between a place and a part. Until there is time for that what
+/// was seen before counts.
 class Views {
  public:
   /// `within`: voxels of the lattice that are to be seen. `deepest`: metres of unknown space behind
   /// a frontier that count at most; 0: frontiers count by their voxels alone.
   Views(const FieldOfView& view, int headings, const VoxelRange& within, double deepest);
 
-  /// Looks at the parts of clusters with `least` voxels or more from the nearest places, and from
-  /// farther ones where none of these sees a part; at parts near to a point first, with no more
-  /// than so many rays: what is left over comes next time. With kAllRays at all targets from all
-  /// places.
-  static constexpr std::size_t kAllRays = std::numeric_limits<std::size_t>::max();
-  void update(const Roadmap& roadmap, const Frontiers& frontiers, std::size_t least,
-              std::span<const Place> places, const Point& near, std::size_t most_rays);
+  /// `places` must stay until the next update. Looks at the parts of clusters with `least` voxels
+  /// or more from the nearest places, and from farther ones where none of these sees a part, with
+  /// no more than so many rays: two thirds of them at parts near to a point first, the others at
+  /// those that have waited longest. A thorough look is one at all targets from all places. Returns
+  /// whether the rays were enough.
+  bool update(const Roadmap& roadmap, const Frontiers& frontiers, std::size_t least,
+              std::span<const Place> places, const Point& near, std::size_t most_rays,
+              bool thorough);
 
   /// To be called after every update of the frontiers.
   void note_changes(const Roadmap& roadmap, const Frontiers& frontiers);
@@ -97,31 +99,66 @@ class Views {
  private:
   struct Cached {
     std::vector<Ray> rays;
-    bool all_seen = false;
+    bool all_seen = false, is_stale = false;
+  };
+  /// A place from which a part might be seen.
+  struct Candidate {
+    double distance = 0.0;
+    std::uint32_t place = 0;
+    std::int32_t cached = -1;  ///< what was seen from there; below 0: it was not asked yet
   };
   struct PartViews {
     std::uint64_t version = 0;
     bool thorough = false;
-    bool is_live = false;
-    std::unordered_map<std::uint64_t, Cached> from;  ///< by id of the place
+    std::uint64_t live = 0;    ///< the last update in which there was such a part
+    std::uint64_t served = 0;  ///< the last one in which all its rays were cast
+    double worth = 1.0;
+    std::vector<Candidate> candidates;  ///< the nearest first
+    std::vector<Cached> cached;
+    std::vector<std::uint64_t> banned;  ///< ids of places
   };
+  struct Waiting {
+    double distance = 0.0;  ///< squared
+    std::size_t part = 0;
+    PartViews* views = nullptr;
+  };
+  using PartVersion = std::pair<VoxelIndex, std::uint64_t>;
 
-  void forget_changed(const Roadmap& roadmap, std::span<const Place> places);
-  const Cached* look(const Roadmap& roadmap, const FrontierPart& part, const Place& place,
-                     PartViews& views, std::size_t& rays_left) const;
-  std::vector<std::size_t> candidates(const EsdfMap& esdf, const FrontierPart& part,
-                                      std::span<const Place> places) const;
+  void follow_places(std::span<const Place> places);
+  void mark_changed(const Roadmap& roadmap, const Bounds& changed);
+  std::vector<Waiting> follow_parts(const Roadmap& roadmap, const Frontiers& frontiers,
+                                    std::size_t least, const Point& near, bool thorough,
+                                    const Bounds& changed);
+  void find_candidates(const EsdfMap& esdf, const FrontierPart& part, bool is_new,
+                       PartViews& views) const;
+  bool is_candidate(const EsdfMap& esdf, const FrontierPart& part, const Place& place,
+                    double& distance) const;
+  bool is_banned(const Place& place, const FrontierPart& part) const;
+  template <typename Visit>
+  void for_each_asked(PartViews& views, const Visit& visit) const;
+  bool serve(const Roadmap& roadmap, std::span<const FrontierPart> parts,
+             std::span<const Waiting> waiting, std::size_t& rays_left) const;
+  bool look(const Roadmap& roadmap, const FrontierPart& part, Candidate& candidate,
+            PartViews& views, std::size_t& rays_left) const;
+  void gather(std::span<const Waiting> waiting);
 
   FieldOfView view_;
   int headings_;
   VoxelRange within_;
   double deepest_;
   double steepest_, least_cosine_;
-  std::vector<Eigen::Vector2d> forward_;     ///< by heading
-  std::map<VoxelIndex, PartViews> of_part_;  ///< by the part's first voxel
-  std::set<std::tuple<std::uint64_t, VoxelIndex, std::uint64_t>> banned_;
+  std::vector<Eigen::Vector2d> forward_;                      ///< by heading
+  std::map<VoxelIndex, PartViews> of_part_;                   ///< by the part's first voxel
+  std::map<PartVersion, std::vector<std::uint64_t>> banned_;  ///< ids of places
   std::vector<std::vector<Sight>> from_places_;
   std::size_t part_count_ = 0;
+  std::span<const Place> places_;                              ///< of this update
+  std::unordered_map<std::uint64_t, std::uint32_t> index_of_;  ///< of places, by id
+  static constexpr std::uint32_t kGone = ~std::uint32_t{0};
+  std::vector<std::uint32_t> now_at_;      ///< index of a place now, by that in the last update
+  std::vector<std::uint32_t> new_places_;  ///< that were not there in the last update
+  bool places_changed_ = false;
+  std::uint64_t updates_ = 0;
   Bounds changed_;           ///< around all that has changed since the last update
   std::uint64_t noted_ = 0;  ///< the version of the frontiers whose changes are in it
 };

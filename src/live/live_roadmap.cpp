@@ -87,8 +87,17 @@ UpdateReport LiveRoadmap::catch_up() {
 }
 
 UpdateReport LiveRoadmap::correct_poses(std::span<const PoseCorrection> corrections) {
-  return state_->correct_poses(corrections);
+  begin_correcting(corrections);
+  return finish_correcting();
 }
+
+void LiveRoadmap::begin_correcting(std::span<const PoseCorrection> corrections) {
+  state_->begin_correcting(corrections);
+}
+
+bool LiveRoadmap::is_correction_ready() { return state_->is_correction_ready(); }
+
+UpdateReport LiveRoadmap::finish_correcting() { return state_->finish_correcting(); }
 
 std::shared_ptr<const Roadmap> LiveRoadmap::snapshot() const {
   const std::lock_guard lock(state_->mutex);

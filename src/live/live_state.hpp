@@ -7,12 +7,11 @@
 #include <mutex>
 #include <optional>
 #include <span>
-#include <unordered_map>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
 #include "common/clock.hpp"
+#include "corrected_scans.hpp"
 #include "live_basins.hpp"
 #include "live_field.hpp"
 #include "live_ridges.hpp"
@@ -35,16 +34,6 @@ class Lap {
 
  private:
   double start_ = seconds_now();
-};
-
-/// Which frames reached which blocks of the fusion, from which poses. Frames are counted from 0.
-struct FrameIndex {
-  std::vector<Eigen::Isometry3d> poses;                                            ///< by frame
-  std::unordered_map<BlockIndex, std::vector<std::uint32_t>, BlockHash> of_block;  ///< ascending
-
-  void add(const Eigen::Isometry3d& pose, std::span<const BlockIndex> reached);
-  /// Takes back what add() has added, or a part of it.
-  void drop_last(std::span<const BlockIndex> reached, std::size_t frames) noexcept;
 };
 
 }  // namespace detail
@@ -72,12 +61,16 @@ struct LiveRoadmap::State {
   std::uint64_t version = 0;
   mutable std::mutex mutex;  // of what follows
   std::shared_ptr<const Roadmap> snapshot;
+  std::vector<PoseCorrection> under_way;           // that were begun and not finished
+  std::unique_ptr<detail::Correction> correction;  // none: no pose is another for them
 
   // live_scans.cpp
   UpdateReport integrate(const DepthImage& image, const PinholeCamera& camera,
                          const Eigen::Isometry3d& T_world_camera);
   UpdateReport integrate(std::span<const Point> points, const Eigen::Isometry3d& T_world_sensor);
-  UpdateReport correct_poses(std::span<const PoseCorrection> corrections);
+  void begin_correcting(std::span<const PoseCorrection> corrections);
+  bool is_correction_ready();
+  UpdateReport finish_correcting();
 
   // live_update.cpp
   /// Brings all up to date; `first`: the map's origin if it has none.
@@ -89,12 +82,7 @@ struct LiveRoadmap::State {
   template <typename Fuse, typename Keep>
   UpdateReport integrate_frame(const Eigen::Isometry3d& T_world_sensor, const Fuse& fuse,
                                const Keep& keep);
-  std::vector<Eigen::Isometry3d> corrected(std::span<const PoseCorrection> corrections,
-                                           std::vector<std::uint32_t>& moved) const;
-  void fuse_logged(TsdfFusion& part, std::uint32_t frame, const Eigen::Isometry3d& pose) const;
-  detail::FrameIndex frames_after(const std::vector<Eigen::Isometry3d>& poses,
-                                  const std::vector<std::uint32_t>& moved,
-                                  std::unordered_set<BlockIndex, BlockHash>& redone) const;
+  std::vector<Eigen::Isometry3d> corrected(std::span<const PoseCorrection> corrections) const;
 
   void bring_up_to_date(std::span<const VoxelChange> changes, UpdateReport& report);
   Live nothing(const VoxelIndex& origin) const;

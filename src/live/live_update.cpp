@@ -156,6 +156,8 @@ std::shared_ptr<const Roadmap> LiveRoadmap::State::published(BuildResult result,
   s.total = s.esdf + s.gvd + s.edges + s.thin + s.kernel + s.graph + s.attach;
   report = result.report;
   result.roadmap.is_settled = config.build.tangent_pairs == 0;
+  result.roadmap.source = config.source;
+  result.roadmap.config = config.record;
   return std::make_shared<const Roadmap>(std::move(result.roadmap));
 }
 

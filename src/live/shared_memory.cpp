@@ -25,6 +25,8 @@ EsdfMap in_same_memory(const EsdfMap& esdf) {
 Roadmap in_same_memory(const Roadmap& roadmap) {
   Roadmap same;
   same.esdf = in_same_memory(roadmap.esdf);
+  same.source = roadmap.source;
+  same.config = roadmap.config;
   same.min_clearance = roadmap.min_clearance;
   same.diagram = roadmap.diagram;
   same.graph = roadmap.graph;

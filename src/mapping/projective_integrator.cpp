@@ -2,7 +2,9 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "projective_integrator.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "common/number_text.hpp"
@@ -227,12 +229,27 @@ void integrate_projective(const DepthSurfaces& surfaces, const PinholeCamera& ca
   std::vector<BlockIndex> seen = blocks_in(view);
   std::erase_if(seen, [&](const BlockIndex& block) { return !blocks.takes(block); });
   require_room(blocks, static_cast<double>(seen.size()));
-  std::vector<TsdfBlock*> targets;
-  targets.reserve(seen.size());
-  for (const BlockIndex& index : seen) targets.push_back(&blocks.find_or_add(index));
-  if (config.can_undo) blocks.keep_touched();
   const BlockUpdate update(surfaces, camera, T_map_camera, config);
-  parallel_for_each_index(seen.size(), [&](std::size_t i) { update.run(seen[i], *targets[i]); });
+  // Half of what may be in view is not: behind walls, and beside the image. No block is made for
+  // it.
+  std::vector<std::unique_ptr<TsdfBlock>> made(seen.size());
+  parallel_for_each_index(seen.size(), [&](std::size_t i) {
+    if (blocks.find(seen[i]) != nullptr) return;
+    TsdfBlock block;
+    update.run(seen[i], block);
+    if (!block.is_empty()) made[i] = std::make_unique<TsdfBlock>(block);
+  });
+  std::vector<TsdfBlock*> targets(seen.size());
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    if (made[i] != nullptr || blocks.find(seen[i]) != nullptr)
+      targets[i] = &blocks.find_or_add(seen[i]);
+  if (config.can_undo) blocks.keep_touched();
+  parallel_for_each_index(seen.size(), [&](std::size_t i) {
+    if (made[i] != nullptr)
+      *targets[i] = *made[i];
+    else if (targets[i] != nullptr)
+      update.run(seen[i], *targets[i]);
+  });
 }
 
 }  // namespace ridgeway::detail

@@ -35,6 +35,11 @@ struct TsdfBlock {
   std::array<float, kBlockVoxels> weight{};
   std::array<std::uint8_t, kBlockVoxels> doubts{};
 
+  /// Whether nothing was measured of any voxel.
+  bool is_empty() const {
+    return std::all_of(weight.begin(), weight.end(), [](float w) { return w == 0.0f; });
+  }
+
   void add(int voxel, float value, float gain, const FusionConfig& config) {
     if (gain <= 0.0f) return;
     const auto most = static_cast<float>(config.max_weight);

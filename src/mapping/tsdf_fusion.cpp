@@ -246,11 +246,11 @@ std::vector<BlockIndex> TsdfFusion::reached_blocks() const {
 }
 
 TsdfFusion TsdfFusion::within_blocks(std::span<const BlockIndex> blocks) const {
-  if (!state_->origin) throw std::logic_error("nothing was fused yet");
   TsdfFusion part;
   State& s = *part.state_;
   s.config = state_->config;
-  s.config.origin = state_->origin;
+  if (state_->origin) s.config.origin = state_->origin;
+  if (!s.config.origin) throw std::logic_error("nothing was fused yet, and no origin given");
   s.config.can_undo = false;
   s.only.insert(blocks.begin(), blocks.end());
   s.blocks.take_only(&s.only);

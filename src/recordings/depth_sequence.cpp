@@ -133,7 +133,7 @@ DepthSequence open_tum(const fs::path& folder, const SequenceConfig& config) {
   const Association association(images, poses, config.longest_gap);
   for (std::size_t i = 0; i < images.size(); ++i) {
     if (const auto pose = association.pose_of(i))
-      sequence.frames.push_back({images[i].image, poses[*pose].T_world_camera});
+      sequence.frames.push_back({images[i].image, poses[*pose].T_world_camera, images[i].time});
     else
       ++sequence.without_pose;
   }
@@ -179,7 +179,7 @@ DepthSequence open_seven_scenes(const fs::path& folder) {
                  kSevenScenesPose);
     const auto pose = is_there(folder / name) ? read_pose(folder / name) : std::nullopt;
     if (pose)
-      sequence.frames.push_back({image, *pose});
+      sequence.frames.push_back({image, *pose, {}});
     else
       ++sequence.without_pose;
   }
@@ -243,7 +243,7 @@ DepthSequence open_log(const fs::path& folder) {
                      "give one for each image, in the order of their names");
   for (std::size_t i = 0; i < images.size(); ++i)
     if (poses[i])
-      sequence.frames.push_back({images[i], *poses[i]});
+      sequence.frames.push_back({images[i], *poses[i], {}});
     else
       ++sequence.without_pose;
   return sequence;

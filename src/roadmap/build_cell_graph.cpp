@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "cell_bends.hpp"
 #include "cell_neighbours.hpp"
+#include "cell_walks.hpp"
 #include "paths/planning_constants.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
@@ -56,18 +58,15 @@ class CellGraphBuilder {
         16);
     parallel_for_each_index(
         count, [&](std::size_t i) { link(static_cast<CellId>(i)); }, 64);
+    detail::add_bends(space_, radius_, graph_);
     parallel_for_each_index(CellGraph::kLevels, [&](std::size_t level) { number_parts(level); });
-    return {std::move(cells_), {}, {}};
+    return std::move(graph_);
   }
 
  private:
   VoxelId voxel_of(CellId cell, std::uint8_t place) const {
-    const std::uint32_t slot = esdf_.layout.slot_at(cell / CellGraph::kPerBlock);
-    const auto coordinate = [&](int axis) {
-      return (cell >> axis & 1u) * CellGraph::kSide + (place >> 2 * axis & 3u);
-    };
-    return slot * kBlockVoxels +
-           (coordinate(0) | coordinate(1) << kBlockBits | coordinate(2) << 2 * kBlockBits);
+    return esdf_.layout.slot_at(cell / CellGraph::kPerBlock) * kBlockVoxels +
+           detail::local_voxel(cell, place);
   }
   Point place_of(CellId cell) const {
     return centre_of(lattice_.voxel_at(cell, cells_[cell].place), esdf_.voxel_size);
@@ -141,28 +140,38 @@ class CellGraphBuilder {
     return levels;
   }
 
-  /// Of the edges that let a level of radii through.
+  /// Of the edges and bends that let a level of radii through.
   void number_parts(std::size_t level) {
     std::vector<CellId> open;
     std::uint16_t part = 0;
-    const auto part_of = [&](CellId cell) -> std::uint16_t& { return cells_[cell].parts[level]; };
-    for (CellId first = 0; first < cells_.size(); ++first) {
-      if (cells_[first].place == CellGraph::kNoPlace || part_of(first) != CellGraph::kNoPart)
+    const auto places = static_cast<CellId>(cells_.size() + graph_.nooks.size());
+    const auto part_of = [&](CellId place) -> std::uint16_t& {
+      return place < cells_.size() ? cells_[place].parts[level]
+                                   : graph_.nooks[place - cells_.size()].parts[level];
+    };
+    const auto reach = [&](CellId place) {
+      if (part_of(place) != CellGraph::kNoPart) return;
+      part_of(place) = part;
+      open.push_back(place);
+    };
+    for (CellId first = 0; first < places; ++first) {
+      if (detail::number_in_cell(graph_, first) == CellGraph::kNoPlace ||
+          part_of(first) != CellGraph::kNoPart)
         continue;
       if (part == CellGraph::kNoPart) return;
-      part_of(first) = part;
-      for (open.assign(1, first); !open.empty();) {
-        const CellId cell = open.back();
+      for (reach(first); !open.empty();) {
+        const CellId place = open.back();
         open.pop_back();
-        for (int d = 0; d < 27; ++d) {
+        const bool is_nook = place >= cells_.size();
+        for (int d = 0; d < 27 && !is_nook; ++d) {
           if (d == kCentre) continue;
-          const CellId next = lattice_.neighbour(cell, d);
-          if (next == detail::kNoCell || detail::edge_width(cells_, cell, next, d) <= level ||
-              part_of(next) != CellGraph::kNoPart)
-            continue;
-          part_of(next) = part;
-          open.push_back(next);
+          const CellId next = lattice_.neighbour(place, d);
+          if (next != detail::kNoCell && detail::edge_width(cells_, place, next, d) > level)
+            reach(next);
         }
+        if (!is_nook && !cells_[place].has_bends) continue;
+        for (const CellGraph::Bend& bend : detail::bends_from(graph_, place))
+          if (bend.width > level) reach(bend.to);
       }
       ++part;
     }
@@ -173,7 +182,8 @@ class CellGraphBuilder {
   const CellLattice lattice_;
   const double radius_;
   std::array<SquaredHalves, kRadiusLevels.size()> thresholds_;
-  std::vector<CellGraph::Cell> cells_;
+  CellGraph graph_;
+  std::vector<CellGraph::Cell>& cells_ = graph_.cells;
 };
 
 }  // namespace

@@ -93,7 +93,7 @@ EsdfMap distances_of(OccupancyMap map, const BuildConfig& config) {
 }
 
 void build_on_distances(VoxelMask traversable, const BuildConfig& config, BuildResult& result,
-                        StageClock& clock) {
+                        StageClock& clock, const Beside& beside) {
   const EsdfMap& esdf = result.roadmap.esdf;
   BuildReport& report = result.report;
 
@@ -121,12 +121,12 @@ void build_on_distances(VoxelMask traversable, const BuildConfig& config, BuildR
   Watershed watershed = find_watershed(esdf, traversable);
   clock.end(report.seconds.kernel);
   build_on_watershed(std::move(traversable), std::move(edges), std::move(watershed), config, result,
-                     clock);
+                     clock, nullptr, beside);
 }
 
 void build_on_watershed(VoxelMask traversable, VoxelMask edges, Watershed watershed,
                         const BuildConfig& config, BuildResult& result, StageClock& clock,
-                        BuildMemory* memory) {
+                        BuildMemory* memory, const Beside& beside) {
   Roadmap& roadmap = result.roadmap;
   const EsdfMap& esdf = roadmap.esdf;
   BuildReport& report = result.report;
@@ -154,8 +154,12 @@ void build_on_watershed(VoxelMask traversable, VoxelMask edges, Watershed waters
           : peel_levels(esdf, traversable, basins.not_simple_at_first_turn, peaks);
   traversable = {};
   report.kernel_voxels = kernel.count();
-  open_shells(esdf, kernel, peaks);
-  VoxelMask diagram = detail::join_diagram(space, edges, kernel, config.min_clearance, basins);
+  VoxelMask diagram;
+  parallel_for_each_index(beside ? 2 : 1, [&](std::size_t task) {
+    if (task == 1) return beside();
+    open_shells(esdf, kernel, peaks);
+    diagram = detail::join_diagram(space, edges, kernel, config.min_clearance, basins);
+  });
   clock.end(report.seconds.kernel);
 
   clock.begin("graph");
@@ -182,7 +186,8 @@ void build_on_watershed(VoxelMask traversable, VoxelMask edges, Watershed waters
 void build_what_is_learnt(const BuildConfig& config, BuildResult& result, StageClock& clock) {
   BuildReport& report = result.report;
   clock.begin("tangents");
-  result.roadmap.cells = build_cell_graph(result.roadmap.esdf, config.min_clearance);
+  if (result.roadmap.cells.cells.empty())
+    result.roadmap.cells = build_cell_graph(result.roadmap.esdf, config.min_clearance);
   result.roadmap.tangents = build_tangent_graph(result.roadmap, tangent_config(config));
   clock.end(report.seconds.tangents);
 
@@ -225,7 +230,9 @@ BuildResult build_by_stages(OccupancyMap map, const BuildConfig& config, const P
                      esdf.limits.any() ? "give a smaller min_clearance, or wider limits"
                                        : "give a smaller min_clearance, or ignore the unknown");
 
-  detail::build_on_distances(std::move(traversable), config, result, clock);
+  detail::build_on_distances(std::move(traversable), config, result, clock, [&] {
+    roadmap.cells = build_cell_graph(roadmap.esdf, config.min_clearance);
+  });
   detail::build_what_is_learnt(config, result, clock);
   if (progress && !progress("done", 1.0)) throw Cancelled();
   return result;

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <functional>
 #include <string_view>
 
 #include "common/clock.hpp"
@@ -55,19 +56,23 @@ EsdfConfig distances_config(const BuildConfig& config);
 /// ignored. Consumes the map.
 EsdfMap distances_of(OccupancyMap map, const BuildConfig& config);
 
+/// What needs the distances alone, for threads that would have nothing to do where a stage goes
+/// through its voxels one by one.
+using Beside = std::function<void()>;
+
 /// All that follows from the distances, which `result.roadmap` holds, with its min_clearance, but
 /// for what is learnt. `traversable`: the voxels free at that, at least one.
 void build_on_distances(VoxelMask traversable, const BuildConfig& config, BuildResult& result,
-                        StageClock& clock);
+                        StageClock& clock, const Beside& beside = {});
 
 /// And from the edges of the diagram, thinned, and the watershed of what is traversable. `memory`:
 /// where the map is one that changes.
 void build_on_watershed(VoxelMask traversable, VoxelMask edges, Watershed watershed,
                         const BuildConfig& config, BuildResult& result, StageClock& clock,
-                        BuildMemory* memory = nullptr);
+                        BuildMemory* memory = nullptr, const Beside& beside = {});
 
-/// What is learnt of a roadmap that is complete but for this, and the total of all seconds. Queries
-/// do without, slower.
+/// What is learnt of a roadmap that is complete but for this, its cells unless it has them, and the
+/// total of all seconds. Queries do without, slower.
 void build_what_is_learnt(const BuildConfig& config, BuildResult& result, StageClock& clock);
 
 }  // namespace ridgeway::detail

@@ -5,7 +5,9 @@
 #include <limits>
 
 #include "best_first_search.hpp"
+#include "cell_bends.hpp"
 #include "cell_neighbours.hpp"
+#include "cell_walks.hpp"
 #include "paths/planning_constants.hpp"
 #include "ridgeway/common/parallel.hpp"
 
@@ -21,14 +23,14 @@ constexpr float kUnreached = std::numeric_limits<float>::infinity();
 class BlockGraph {
  public:
   /// `least_width`: of the edges that count.
-  BlockGraph(const BlockLayout& layout, const std::vector<CellGraph::Cell>& cells,
-             std::uint8_t least_width)
+  BlockGraph(const BlockLayout& layout, const CellGraph& graph, std::uint8_t least_width)
       : layout_(layout),
         least_width_(least_width),
         middles_(layout.block_count()),
         links_(layout.block_count()),
         search_(layout.block_count(), kUnreached) {
     const CellLattice lattice(layout);
+    const std::vector<CellGraph::Cell>& cells = graph.cells;
     for (std::uint32_t rank = 0; rank < links_.size(); ++rank) {
       float count = 0.0f;
       Middle sum = Middle::Zero();
@@ -42,6 +44,9 @@ class BlockGraph {
       }
       if (count > 0.0f) middles_[rank] = sum / count;
     }
+    for (const CellGraph::Bend& bend : graph.bends)
+      if (bend.width >= least_width)
+        link(lattice, cell_of_place(graph, bend.from), cell_of_place(graph, bend.to));
   }
 
   /// Lengths of shortest ways from a block, which length() has then. The block farthest off.
@@ -96,6 +101,15 @@ class BlockGraph {
     }
   }
 
+  /// One way; the bend back links the other.
+  void link(const CellLattice& lattice, CellId from, CellId to) {
+    for (const int axis : {0, 1, 2})
+      for (const int d : {along(axis), opposite(along(axis))})
+        if (lattice.neighbour(from, d) == to)
+          if (const int beyond = CellLattice::block_direction(from, d); beyond != kCentre)
+            links_[from / CellGraph::kPerBlock] |= 1u << beyond;
+  }
+
   const BlockLayout& layout_;
   const std::uint8_t least_width_;
   std::vector<Middle> middles_;       // by rank
@@ -126,7 +140,7 @@ void place_landmarks_from(std::uint32_t farthest, BlockGraph& blocks, CellGraph:
 void place_cell_landmarks(const BlockLayout& layout, CellGraph& graph) {
   parallel_for_each_index(2, [&](std::size_t i) {
     CellGraph::Lengths& lengths = i == 0 ? graph.lengths : graph.lengths_wide;
-    BlockGraph blocks(layout, graph.cells, i == 0 ? 1 : kRadiusLevels.size());
+    BlockGraph blocks(layout, graph, i == 0 ? 1 : kRadiusLevels.size());
     const std::uint32_t farthest = blocks.farthest_in_largest_part();
     if (farthest == kNone) return;
     CellGraph::Lengths::value_type nothing;

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <queue>
 
+#include "cell_bends.hpp"
 #include "cell_neighbours.hpp"
+#include "cell_walks.hpp"
 #include "paths/planning_constants.hpp"
 
 namespace ridgeway::detail {
@@ -53,16 +55,18 @@ class MetCells {
   std::size_t count_ = 0;
 };
 
-/// Cells around a place on the way from an end. Whether they are in sight of it is looked at only
-/// where that counts.
+/// Places of cells around a place on the way from an end. Whether they are in sight of it is looked
+/// at only where that counts.
 struct Approach {
-  enum class Sight : std::uint8_t { kUnknown, kYes, kNo };
+  enum class Sight : std::uint8_t { kUnknown, kYes, kWalk, kNo };
   struct Join {
-    CellId cell;
-    float length;  ///< of the segment to its place, voxels
+    CellId cell;            ///< or a nook of it
+    float length;           ///< of the segment to its place, or of the walk, voxels
+    bool has_walk = false;  ///< moves within the cell lead there
     Sight sight = Sight::kUnknown;
   };
   Point place;              ///< metres
+  VoxelId voxel;            ///< that it joins
   std::size_t walked = 0;   ///< voxels of the way that lead to the place; 0: the end itself
   std::vector<Join> joins;  ///< the nearest first
 };
@@ -83,10 +87,12 @@ class CellSearch {
  public:
   CellSearch(const Roadmap& roadmap, const FreeSpace& space, const CellQuery& query)
       : esdf_(roadmap.esdf),
+        graph_(roadmap.cells),
         cells_(roadmap.cells.cells),
         space_(space),
         query_(query),
         lattice_(roadmap.esdf.layout),
+        threshold_(least_clearance(query.radius, roadmap.esdf.voxel_size)),
         is_beyond_levels_(query.radius >
                           kRadiusLevels.back() * roadmap.min_clearance * (1.0 + 1e-9)),
         least_width_(width_for(query.radius / roadmap.min_clearance)),
@@ -95,7 +101,8 @@ class CellSearch {
         longest_(static_cast<float>(query.longest / roadmap.esdf.voxel_size)) {}
 
   CellRoute run() {
-    Approach out = look_around(query_.start, 0), in = look_around(query_.goal, 0);
+    Approach out = look_around(query_.start, query_.from.voxels.front(), 0);
+    Approach in = look_around(query_.goal, query_.to.voxels.front(), 0);
     while (!have_common_part(out, in)) {
       const bool can_walk = walk_on(query_.from, out);
       if (!walk_on(query_.to, in) && !can_walk) return {};
@@ -113,47 +120,95 @@ class CellSearch {
 
   /// Where a cell is passed that begins at a voxel.
   Place place_in(CellId cell, const VoxelIndex& first) const {
-    const int place = cells_[cell].place;
+    const int place = number_in_cell(graph_, cell);
     return {static_cast<float>(first.x + (place & 3)) + 0.5f,
             static_cast<float>(first.y + (place >> 2 & 3)) + 0.5f,
             static_cast<float>(first.z + (place >> 4)) + 0.5f};
   }
-  std::uint16_t part_of(CellId cell) const { return cells_[cell].parts[least_width_ - 1]; }
+  VoxelIndex first_voxel(CellId cell) const {
+    return lattice_.first_voxel(cell_of_place(graph_, cell));
+  }
+  Place place_of(CellId cell) const { return place_in(cell, first_voxel(cell)); }
+  std::uint16_t part_of(CellId cell) const {
+    const std::size_t level = least_width_ - 1;
+    return cell < cells_.size() ? cells_[cell].parts[level]
+                                : graph_.nooks[cell - cells_.size()].parts[level];
+  }
   Point point_of(CellId cell) const {
-    return centre_of(lattice_.voxel_at(cell, cells_[cell].place), esdf_.voxel_size);
+    return centre_of(lattice_.voxel_at(cell_of_place(graph_, cell), number_in_cell(graph_, cell)),
+                     esdf_.voxel_size);
   }
   Point point_of_voxel(VoxelId id) const {
     return centre_of(esdf_.layout.index_of(id), esdf_.voxel_size);
   }
 
-  Approach look_around(const Point& place, std::size_t walked) const {
-    Approach approach{place, walked, {}};
+  Approach look_around(const Point& place, VoxelId voxel, std::size_t walked) const {
+    Approach approach{place, voxel, walked, {}};
     const CellId own = lattice_.cell_of(voxel_at(place, esdf_.voxel_size));
     for (int d = 0; d < 27 && own != kNoCell; ++d) {
       const CellId cell = lattice_.neighbour(own, d);
-      if (cell == kNoCell || part_of(cell) == CellGraph::kNoPart) continue;
-      const double length = (point_of(cell) - place).norm() / esdf_.voxel_size;
-      approach.joins.push_back({cell, static_cast<float>(length)});
+      if (cell != kNoCell && part_of(cell) != CellGraph::kNoPart) add_join(cell, approach);
     }
+    look_inside(approach);
     std::stable_sort(
         approach.joins.begin(), approach.joins.end(),
         [](const Approach::Join& a, const Approach::Join& b) { return a.length < b.length; });
     return approach;
   }
 
+  Approach::Join& add_join(CellId cell, Approach& approach) const {
+    const double length = (point_of(cell) - approach.place).norm() / esdf_.voxel_size;
+    return approach.joins.emplace_back(cell, static_cast<float>(length));
+  }
+
+  /// Moves in the place's own cell lead to one of its places, whatever is in sight.
+  void look_inside(Approach& approach) const {
+    const VoxelIndex v = esdf_.layout.index_of(approach.voxel);
+    const CellId cell = lattice_.cell_of(v);
+    const CellMask inside =
+        flood(bit_of(place_of_voxel(v)), fitting_voxels(space_, cell, threshold_));
+    if (cells_[cell].place != CellGraph::kNoPlace && (inside & bit_of(cells_[cell].place)) != 0)
+      for (Approach::Join& join : approach.joins) join.has_walk |= join.cell == cell;
+    const PlaceRange nooks = nooks_of(graph_, cell);
+    for (CellId nook = nooks.first; nook < nooks.last; ++nook)
+      if ((inside & bit_of(number_in_cell(graph_, nook))) != 0 &&
+          part_of(nook) != CellGraph::kNoPart)
+        add_join(nook, approach).has_walk = true;
+  }
+
+  static std::uint8_t place_of_voxel(const VoxelIndex& v) {
+    return static_cast<std::uint8_t>((v.x & 3) | (v.y & 3) << 2 | (v.z & 3) << 4);
+  }
+
+  /// The moves in its cell to the place of a join.
+  std::vector<std::uint8_t> walk_to(const Approach& approach, CellId place) const {
+    const CellMask room = fitting_voxels(space_, cell_of_place(graph_, place), threshold_);
+    return CellWalks({room, 0}, 0)
+        .walk(place_of_voxel(esdf_.layout.index_of(approach.voxel)), number_in_cell(graph_, place));
+  }
+
+  /// Or reaches it by a walk.
   bool sees(const Approach& approach, Approach::Join& join) const {
-    if (join.sight == Approach::Sight::kUnknown)
-      join.sight = space_.is_free(approach.place, point_of(join.cell), query_.radius)
-                       ? Approach::Sight::kYes
-                       : Approach::Sight::kNo;
-    return join.sight == Approach::Sight::kYes;
+    if (join.sight != Approach::Sight::kUnknown) return join.sight != Approach::Sight::kNo;
+    if (space_.is_free(approach.place, point_of(join.cell), query_.radius)) {
+      join.sight = Approach::Sight::kYes;
+    } else if (join.has_walk) {
+      join.sight = Approach::Sight::kWalk;
+      const double before = (point_of_voxel(approach.voxel) - approach.place).norm();
+      join.length = length_of_walk(walk_to(approach, join.cell), 0) +
+                    static_cast<float>(before / esdf_.voxel_size);
+    } else {
+      join.sight = Approach::Sight::kNo;
+    }
+    return join.sight != Approach::Sight::kNo;
   }
 
   /// Looks around from a cell farther along the way; false at its end.
   bool walk_on(const AttachWay& way, Approach& approach) const {
     if (approach.walked >= way.voxels.size()) return false;
     const std::size_t walked = std::min(approach.walked + CellGraph::kSide, way.voxels.size());
-    approach = look_around(point_of_voxel(way.voxels[walked - 1]), walked);
+    const VoxelId voxel = way.voxels[walked - 1];
+    approach = look_around(point_of_voxel(voxel), voxel, walked);
     return true;
   }
 
@@ -174,7 +229,7 @@ class CellSearch {
 
   void aim_at(CellId goal) {
     if (lengths_.empty()) return;
-    goal_lengths_ = lengths_[goal / CellGraph::kPerBlock];
+    goal_lengths_ = lengths_[cell_of_place(graph_, goal) / CellGraph::kPerBlock];
   }
 
   /// Of the way to the goal, about, voxels.
@@ -182,7 +237,7 @@ class CellSearch {
     float rest = (place - goal_).norm();
     if (lengths_.empty()) return rest;
     constexpr auto kShare = static_cast<float>(kPlanning.landmark_share);
-    const auto& own = lengths_[cell / CellGraph::kPerBlock];
+    const auto& own = lengths_[cell_of_place(graph_, cell) / CellGraph::kPerBlock];
     for (std::size_t k = 0; k < own.size(); ++k)  // what is no number does not count
       rest = std::max(rest, kShare * std::abs(own[k] - goal_lengths_[k]));
     return rest;
@@ -198,8 +253,8 @@ class CellSearch {
   CellId search(Approach& out, Approach& in) {
     for (Approach::Join& join : out.joins)
       if (sees(out, join)) {
-        const Place place = place_in(join.cell, lattice_.first_voxel(join.cell));
-        reach(join.cell, join.length, join.cell, rest_from(join.cell, place), met_[join.cell]);
+        const float rest = rest_from(join.cell, place_of(join.cell));
+        reach(join.cell, join.length, join.cell, rest, met_[join.cell]);
       }
     float best = longest_;
     CellId best_last = kNoCell;
@@ -209,11 +264,14 @@ class CellSearch {
       if (best_last != kNoCell && next.estimate >= best) break;
       if (next.cost > met_[next.cell].cost) continue;
       for (Approach::Join& join : in.joins)
-        if (join.cell == next.cell && next.cost + join.length < best && sees(in, join)) {
+        if (join.cell == next.cell && next.cost + join.length < best && sees(in, join) &&
+            next.cost + join.length < best) {  // a walk is longer than a segment
           best = next.cost + join.length;
           best_last = next.cell;
         }
-      expand(next, best);
+      if (next.cell < cells_.size()) expand(next, best);
+      if (!is_beyond_levels_ && (next.cell >= cells_.size() || cells_[next.cell].has_bends))
+        follow_bends(next, best);
     }
     return best_last;
   }
@@ -240,6 +298,16 @@ class CellSearch {
     }
   }
 
+  void follow_bends(const Open& here, float best) {
+    for (const CellGraph::Bend& bend : bends_from(graph_, here.cell)) {
+      if (bend.width < least_width_) continue;
+      const float cost = here.cost + bend.length, rest = rest_from(bend.to, place_of(bend.to));
+      if (cost + rest >= best) continue;
+      if (MetCells::Met& met = met_[bend.to]; cost < met.cost)
+        reach(bend.to, cost, here.cell, rest, met);
+    }
+  }
+
   bool is_free(CellId a, CellId b) const {
     return space_.is_free(point_of(a), point_of(b), query_.radius);
   }
@@ -248,10 +316,16 @@ class CellSearch {
     std::vector<Point> route{query_.goal};
     for (std::size_t i = 0; i < in.walked; ++i)
       route.push_back(point_of_voxel(query_.to.voxels[i]));
-    for (CellId cell = last;; cell = met_[cell].from) {
+    std::vector<Point> walk = end_walk(in, last);
+    route.insert(route.end(), walk.begin(), walk.end());
+    CellId cell = last;
+    for (;; cell = met_[cell].from) {
       route.push_back(point_of(cell));
       if (met_[cell].from == cell) break;
+      if (!has_edge(cell, met_[cell].from)) add_bend(cell, met_[cell].from, route);
     }
+    walk = end_walk(out, cell);
+    route.insert(route.end(), walk.rbegin(), walk.rend());
     for (std::size_t i = out.walked; i-- > 0;)
       route.push_back(point_of_voxel(query_.from.voxels[i]));
     route.push_back(query_.start);
@@ -259,11 +333,53 @@ class CellSearch {
     return route;
   }
 
+  /// The moves from an end to the place of a cell that it does not see.
+  std::vector<Point> end_walk(const Approach& approach, CellId place) const {
+    std::vector<Point> walk;
+    for (const Approach::Join& join : approach.joins)
+      if (join.cell == place && join.sight == Approach::Sight::kWalk)
+        add_walk(cell_of_place(graph_, place), 0, walk_to(approach, place), walk);
+    return walk;
+  }
+
+  void add_walk(CellId cell, int axis, const std::vector<std::uint8_t>& walk,
+                std::vector<Point>& points) const {
+    for (const std::uint8_t place : walk)
+      points.push_back(
+          centre_of(lattice_.first_voxel(cell) + step_to(place, axis), esdf_.voxel_size));
+  }
+
+  bool has_edge(CellId a, CellId b) const {
+    if (a >= cells_.size() || b >= cells_.size()) return false;
+    const VoxelIndex step = first_voxel(b) - first_voxel(a);
+    const int d = direction_of(
+        {step.x / CellGraph::kSide, step.y / CellGraph::kSide, step.z / CellGraph::kSide});
+    return edge_width(cells_, a, b, d) >= least_width_;
+  }
+
+  void add_bend(CellId from, CellId to, std::vector<Point>& points) const {
+    const CellId a = cell_of_place(graph_, from), b = cell_of_place(graph_, to);
+    const VoxelIndex step = lattice_.first_voxel(b) - lattice_.first_voxel(a);
+    const int axis = step.x != 0 ? 0 : step.y != 0 ? 1 : 2;
+    const bool is_onward = step.x + step.y + step.z > 0;
+    const CellId first = is_onward ? a : b, second = is_onward ? b : a;
+    const std::uint8_t begin = number_in_cell(graph_, is_onward ? from : to);
+    const auto end = static_cast<std::uint8_t>(64 + number_in_cell(graph_, is_onward ? to : from));
+    const CellWalks walks(
+        {fitting_voxels(space_, first, threshold_), fitting_voxels(space_, second, threshold_)},
+        axis);
+    std::vector<std::uint8_t> walk = walks.walk(begin, end);
+    if (!is_onward) std::reverse(walk.begin(), walk.end());
+    add_walk(first, axis, walk, points);
+  }
+
   const EsdfMap& esdf_;
+  const CellGraph& graph_;
   const std::vector<CellGraph::Cell>& cells_;
   const FreeSpace& space_;
   const CellQuery& query_;
   const CellLattice lattice_;
+  const SquaredHalves threshold_;
   const bool is_beyond_levels_;  ///< edges may be free that the widest robots pass
   const std::size_t least_width_;
   const CellGraph::Lengths& lengths_;

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "editable_graph.hpp"
 
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <limits>
 #include <tuple>
@@ -10,12 +12,41 @@
 
 namespace ridgeway::detail {
 
+void EditableGraph::Links::put(Number neighbour, const Link& link) {
+  const auto place = lower_bound(entries_, neighbour);
+  if (place != entries_.end() && place->first == neighbour) {
+    place->second = link;
+  } else {
+    entries_.emplace(place, neighbour, link);
+  }
+}
+
+void EditableGraph::Links::erase(Number neighbour) {
+  const auto place = lower_bound(entries_, neighbour);
+  if (place != entries_.end() && place->first == neighbour) entries_.erase(place);
+}
+
 EditableGraph::EditableGraph(const SparseGraph& graph)
     : graph_(graph),
       links_(graph.vertices.size()),
+      changes_(graph.vertices.size(), 0),
       search_(graph.vertices.size(), std::numeric_limits<double>::infinity()) {
   for (const Edge& edge : graph.edges)
     link(static_cast<Number>(edge.from), static_cast<Number>(edge.to), {edge.clearance});
+}
+
+void EditableGraph::link(Number a, Number b, const Link& value) {
+  links_[a].put(b, value);
+  links_[b].put(a, value);
+  ++changes_[a];
+  ++changes_[b];
+}
+
+void EditableGraph::unlink(Number a, Number b) {
+  links_[a].erase(b);
+  links_[b].erase(a);
+  ++changes_[a];
+  ++changes_[b];
 }
 
 double EditableGraph::length(const std::vector<Number>& way) const {
@@ -27,14 +58,18 @@ double EditableGraph::length(const std::vector<Number>& way) const {
 void EditableGraph::mark_widest_ways(const std::function<double(double)>& width) {
   std::vector<std::tuple<double, double, Number, Number>> edges;
   for (Number v = 0; v < links_.size(); ++v)
-    for (auto& [w, link] : links_[v])
+    for (const auto& [w, link] : links_[v])
       if (v < w) edges.emplace_back(-width(link.clearance), length(v, w), v, w);
-  std::sort(edges.begin(), edges.end());
+  tbb::parallel_sort(edges.begin(), edges.end());
   DisjointSets parts(links_.size());
   for (const auto& [narrowness, length, v, w] : edges) {
     const bool widest = parts.find(v) != parts.find(w);
     if (widest) parts.join(v, w);
-    links_[v].at(w).widest = links_[w].at(v).widest = widest;
+    Link& there = links_[v].at(w);
+    if (there.widest == widest) continue;
+    there.widest = links_[w].at(v).widest = widest;
+    ++changes_[v];
+    ++changes_[w];
   }
 }
 

@@ -2,9 +2,11 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <map>
+#include <utility>
 #include <vector>
 
 #include "best_first_search.hpp"
@@ -23,7 +25,38 @@ class EditableGraph {
     bool is_new = false;  ///< not from the SparseGraph
     Number first = 0;     ///< the end from which a new one is measured
   };
-  using Links = std::map<Number, Link>;  ///< by neighbour
+
+  /// The links of a vertex by neighbour, ascending; they are few.
+  class Links {
+    using Entry = std::pair<Number, Link>;
+    template <typename Entries>
+    static auto lower_bound(Entries& entries, Number neighbour) {
+      return std::partition_point(entries.begin(), entries.end(),
+                                  [&](const Entry& e) { return e.first < neighbour; });
+    }
+
+   public:
+    bool empty() const { return entries_.empty(); }
+    std::size_t size() const { return entries_.size(); }
+    auto begin() const { return entries_.begin(); }
+    auto end() const { return entries_.end(); }
+    auto rbegin() const { return entries_.rbegin(); }
+    auto find(Number neighbour) const {
+      const auto place = lower_bound(entries_, neighbour);
+      return place != end() && place->first == neighbour ? place : end();
+    }
+    bool contains(Number neighbour) const { return find(neighbour) != end(); }
+    /// Of a neighbour.
+    const Link& at(Number neighbour) const { return lower_bound(entries_, neighbour)->second; }
+
+   private:
+    friend EditableGraph;
+    Link& at(Number neighbour) { return lower_bound(entries_, neighbour)->second; }
+    void put(Number neighbour, const Link& link);
+    void erase(Number neighbour);
+
+    std::vector<Entry> entries_;
+  };
 
   explicit EditableGraph(const SparseGraph& graph);
 
@@ -34,11 +67,11 @@ class EditableGraph {
   double length(Number a, Number b) const { return (at(b) - at(a)).norm(); }
   double length(const std::vector<Number>& way) const;
 
-  void link(Number a, Number b, Link value) { links_[a][b] = links_[b][a] = value; }
-  void unlink(Number a, Number b) {
-    links_[a].erase(b);
-    links_[b].erase(a);
-  }
+  void link(Number a, Number b, const Link& value);
+  void unlink(Number a, Number b);
+
+  /// Grows whenever a link of the vertex comes, goes or changes.
+  std::uint32_t changes(Number v) const { return changes_[v]; }
 
   /// Marks the links of a maximum spanning forest over `width(clearance)`, which never falls: at
   /// every such width they connect as much as all links do. Shorter links win among equals.
@@ -57,6 +90,7 @@ class EditableGraph {
  private:
   const SparseGraph& graph_;
   std::vector<Links> links_;
+  std::vector<std::uint32_t> changes_;
   BestFirstSearch<Number, double> search_;
 };
 

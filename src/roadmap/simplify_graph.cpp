@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <tuple>
 #include <vector>
 
 #include "common/require.hpp"
@@ -12,24 +11,17 @@
 #include "graph_of_curves.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/roadmap/build_graph.hpp"
+#include "vertex_merging.hpp"
 
 namespace ridgeway {
 namespace {
 
 using detail::EditableGraph;
+using detail::NeighbourPair;
 using detail::require;
 using Number = EditableGraph::Number;
 
 constexpr double kLeastWidthStep = 1e-6;  // below it steps are lost in rounding
-
-/// A pair of neighbours, shortest first.
-struct Candidate {
-  double length;
-  Number from, to;
-  bool operator<(const Candidate& other) const {
-    return std::tie(length, from, to) < std::tie(other.length, other.from, other.to);
-  }
-};
 
 class Simplification {
  public:
@@ -37,16 +29,19 @@ class Simplification {
                  detail::SegmentMemory* memory)
       : space_(esdf, memory),
         radius_(graph.min_clearance),
-        widest_kept_(config.widest_kept > 0.0 ? std::max(config.widest_kept, graph.min_clearance)
-                                              : 2.0 * graph.min_clearance),
+        widths_{graph.min_clearance,
+                config.widest_kept > 0.0 ? std::max(config.widest_kept, graph.min_clearance)
+                                         : 2.0 * graph.min_clearance,
+                config.width_step * graph.min_clearance},
         config_(config),
-        graph_(graph) {}
+        graph_(graph),
+        merging_(space_, widths_, graph_) {}
 
   SparseGraph run() {
     for (bool again = true; again;) {
       mark_widest_ways();
       again = drop_dead_ends();
-      again |= merge_vertices();
+      again |= merging_.run();
       mark_widest_ways();
       again |= drop_parallel_ways();
     }
@@ -56,21 +51,7 @@ class Simplification {
 
  private:
   void mark_widest_ways() {
-    graph_.mark_widest_ways([&](double clearance) { return kept(clearance); });
-  }
-
-  /// How much of a width matters.
-  double kept(double clearance) const {
-    const double step = config_.width_step * radius_;
-    const double whole = std::floor(clearance / step * (1.0 + 1e-9)) * step;
-    return std::clamp(whole, radius_, widest_kept_);
-  }
-
-  /// Clearance of a link, or something wider than all that is kept. Most new links are soon
-  /// replaced by others, so how wide they are beyond that is measured in the end.
-  double clearance_that_counts(Number from, Number to) const {
-    return space_.clearance(graph_.at(from), graph_.at(to),
-                            widest_kept_ + config_.width_step * radius_);
+    graph_.mark_widest_ways([&](double clearance) { return widths_.kept(clearance); });
   }
 
   void measure_new_links() {
@@ -124,81 +105,6 @@ class Simplification {
     return changed;
   }
 
-  /// Whether the triangle of a point and a segment can be swept by the segment between them.
-  bool sweeps(const Point& apex, const Point& a, const Point& b) const {
-    const int steps = static_cast<int>(std::ceil((b - a).norm() / radius_));
-    for (int i = 1; i < steps; ++i)
-      if (!space_.is_free(apex, a + (b - a) * (static_cast<double>(i) / steps), radius_))
-        return false;
-    return true;
-  }
-
-  /// What a link from `to` must be as wide as if it replaces that of `from`, so that the widest
-  /// ways stay as wide.
-  double width_needed(Number from, Number to, const EditableGraph::Link& replaced) const {
-    if (replaced.widest) {
-      const auto others =
-          std::count_if(graph_.links_of(from).begin(), graph_.links_of(from).end(),
-                        [&](const auto& l) { return l.first != to && l.second.widest; });
-      if (others > 1) return kept(replaced.clearance);
-    }
-    return kept(std::min(replaced.clearance, graph_.links_of(from).at(to).clearance));
-  }
-
-  bool may_merge(Number from, Number to) const {
-    if (graph_.links_of(from).size() == 1) return false;
-    if (graph_.links_of(from).size() > 2 &&
-        (graph_.length(from, to) > graph_.clearance(to) ||
-         std::pair(graph_.clearance(from), to) > std::pair(graph_.clearance(to), from)))
-      return false;
-    for (const auto& [other, link] : graph_.links_of(from)) {
-      if (other == to) continue;
-      const double needed = width_needed(from, to, link);
-      const auto known = graph_.links_of(to).find(other);
-      if (known != graph_.links_of(to).end()
-              ? known->second.clearance < needed
-              : !space_.is_free(graph_.at(to), graph_.at(other), needed))
-        return false;
-      if (!sweeps(graph_.at(to), graph_.at(from), graph_.at(other))) return false;
-    }
-    return true;
-  }
-
-  void merge(Number from, Number to) {
-    for (const auto& [other, replaced] : EditableGraph::Links(graph_.links_of(from))) {
-      graph_.unlink(from, other);
-      if (other == to) continue;
-      const auto known = graph_.links_of(to).find(other);
-      EditableGraph::Link link =
-          known != graph_.links_of(to).end()
-              ? known->second
-              : EditableGraph::Link{clearance_that_counts(to, other), false, true, to};
-      link.widest |= replaced.widest;
-      graph_.link(to, other, link);
-    }
-  }
-
-  bool merge_vertices() {
-    bool changed = false;
-    std::vector<char> fresh(graph_.size(), true);  // may be worth another look
-    for (bool again = true; again; changed |= again) {
-      again = false;
-      std::vector<Candidate> candidates;
-      for (Number v = 0; v < graph_.size(); ++v)
-        for (const auto& [w, link] : graph_.links_of(v))
-          if (fresh[v] || fresh[w]) candidates.push_back({graph_.length(v, w), v, w});
-      std::sort(candidates.begin(), candidates.end());
-      fresh.assign(graph_.size(), false);
-      for (const Candidate& c : candidates) {
-        if (!graph_.links_of(c.from).contains(c.to) || !may_merge(c.from, c.to)) continue;
-        for (const auto& [other, link] : graph_.links_of(c.from)) fresh[other] = true;
-        merge(c.from, c.to);
-        again = true;
-      }
-    }
-    return changed;
-  }
-
   /// Whether the segment between the ends of a way can be swept onto it, point by point at equal
   /// shares of their lengths.
   bool sweeps_onto(const std::vector<Number>& way) const {
@@ -220,16 +126,16 @@ class Simplification {
   }
 
   bool drop_parallel_ways() {
-    std::vector<Candidate> longest_first;
+    std::vector<NeighbourPair> longest_first;
     for (Number v = 0; v < graph_.size(); ++v)
       for (const auto& [w, link] : graph_.links_of(v))
         if (v < w && !link.widest) longest_first.push_back({-graph_.length(v, w), v, w});
     std::sort(longest_first.begin(), longest_first.end());
     bool changed = false;
-    for (const Candidate& c : longest_first) {
+    for (const NeighbourPair& c : longest_first) {
       const std::vector<Number> way =
           graph_.other_way(c.from, c.to, -c.length * config_.stretch,
-                           kept(graph_.links_of(c.from).at(c.to).clearance));
+                           widths_.kept(graph_.links_of(c.from).at(c.to).clearance));
       if (way.empty() || !sweeps_onto(way)) continue;
       graph_.unlink(c.from, c.to);
       changed = true;
@@ -238,9 +144,11 @@ class Simplification {
   }
 
   const detail::RememberedSpace space_;
-  const double radius_, widest_kept_;
+  const double radius_;
+  const detail::KeptWidths widths_;
   const SimplifyConfig& config_;
   EditableGraph graph_;
+  detail::VertexMerging merging_;
 };
 
 }  // namespace

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <utility>
@@ -23,7 +25,7 @@ inline void sort_lowest_first(const EsdfMap& esdf, std::vector<VoxelId>& ids) {
   by_level.reserve(ids.size());
   for (const VoxelId id : ids)
     by_level.emplace_back(std::uint64_t{esdf.squared[id]} << 32 | esdf.layout.order_of(id), id);
-  std::sort(by_level.begin(), by_level.end());
+  tbb::parallel_sort(by_level.begin(), by_level.end());
   std::transform(by_level.begin(), by_level.end(), ids.begin(),
                  [](const auto& voxel) { return voxel.second; });
 }
@@ -34,8 +36,8 @@ inline std::vector<VoxelId> highest_first(const EsdfMap& esdf, const VoxelMask& 
   std::vector<std::pair<std::uint64_t, VoxelId>> by_height;
   by_height.reserve(ids.size());
   for (const VoxelId id : ids) by_height.emplace_back(height(esdf, id), id);
-  std::sort(by_height.begin(), by_height.end(),
-            [](const auto& a, const auto& b) { return a.first > b.first; });
+  tbb::parallel_sort(by_height.begin(), by_height.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
   std::transform(by_height.begin(), by_height.end(), ids.begin(),
                  [](const auto& voxel) { return voxel.second; });
   return ids;

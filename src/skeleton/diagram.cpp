@@ -2,7 +2,10 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "ridgeway/skeleton/diagram.hpp"
 
+#include <optional>
+
 #include "edge_hooks.hpp"
+#include "esdf/measured_moves.hpp"
 #include "join_diagram.hpp"
 #include "kernel_joiner.hpp"
 #include "redundant_voxels.hpp"
@@ -28,11 +31,14 @@ VoxelMask detail::join_diagram(const RememberedSpace& space, const VoxelMask& ed
                                const VoxelMask& kernel, double min_clearance, Basins& basins) {
   const EsdfMap& esdf = space.map();
   const SquaredHalves threshold = least_clearance(min_clearance, esdf.voxel_size);
-  VoxelMask diagram = join_kernel(space, kernel, threshold, basins);
+  std::optional<MeasuredMoves> moves;
+  if (space.memory() == nullptr) moves.emplace(space, united(edges, kernel));
+  const RememberedSpace known(esdf, space.memory(), moves ? &*moves : nullptr);
+  VoxelMask diagram = join_kernel(known, kernel, threshold, basins);
   VoxelMask all = united(edges, diagram);
   open_shells(esdf, all, diagram);  // thins edges onto the curves that they touch
-  hook_edges(space, all, threshold, basins, diagram);
-  remove_redundant_voxels(space, threshold, basins, diagram);
+  hook_edges(known, all, threshold, basins, diagram);
+  remove_redundant_voxels(known, threshold, basins, diagram);
   return diagram;
 }
 

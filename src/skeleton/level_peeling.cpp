@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
-#include <queue>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "common/parallel_sort.hpp"
@@ -91,17 +91,19 @@ class KnownNeighbours {
   std::vector<InBlock> blocks_;
 };
 
-/// When a voxel is asked first: by its level, sub-field and handle, in one number.
-std::uint64_t turn_of(const EsdfMap& esdf, VoxelId id) {
-  const VoxelId rest = (id >> 1 & 3) | (id >> 4 & 3) << 2 | id >> 7 << 4;  // 29 bits
-  return std::uint64_t{esdf.squared[id]} << 32 | sub_field(id) << 29 | rest;
+/// When a voxel is asked first: by its level and sub-field, in one number.
+using Turn = std::uint64_t;
+Turn turn_of(const EsdfMap& esdf, VoxelId id) {
+  return std::uint64_t{esdf.squared[id]} << 3 | sub_field(id);
 }
-std::uint32_t level_of(std::uint64_t turn) { return static_cast<std::uint32_t>(turn >> 32); }
-VoxelId voxel_of_turn(std::uint64_t turn) {
-  const auto place = static_cast<VoxelId>(turn);
-  const VoxelId field = place >> 29;
-  return (field & 1) | (place & 3) << 1 | (field >> 1 & 1) << 3 | (place >> 2 & 3) << 4 |
-         (field >> 2) << 6 | (place & 0x1ffffff0u) << 3;
+std::uint32_t level_of(Turn turn) { return static_cast<std::uint32_t>(turn >> 3); }
+
+/// body(i) for all i below a count, by all threads where they are many.
+template <typename Body>
+void for_each_of_many(std::size_t count, const Body& body) {
+  constexpr std::size_t kMany = 256, kGrain = 64;
+  if (count >= kMany) return parallel_for_each_index(count, body, kGrain);
+  for (std::size_t i = 0; i < count; ++i) body(i);
 }
 
 /// Almost all voxels go at their first turn, in which their neighbours with earlier turns are gone
@@ -110,7 +112,8 @@ VoxelId voxel_of_turn(std::uint64_t turn) {
 ///
 /// Plain form: peel_in_order() in plain_peeling.hpp. From it, docs/fast-kernels.md section 4: what
 /// a voxel sees at its first turn (1), which turns need not be played (2), that the others see what
-/// they would (3), who is asked again (4), the order of turns (5).
+/// they would (3), who is asked again (4), the order of turns (5). Voxels of one turn, none of
+/// which are adjacent, are asked all at once.
 class LevelPeeling {
  public:
   LevelPeeling(const EsdfMap& esdf, const VoxelMask& traversable, VoxelMask not_simple,
@@ -121,7 +124,8 @@ class LevelPeeling {
         around_(esdf, traversable, not_simple),
         queued_(std::move(not_simple)),
         left_(esdf.layout) {
-    for (const VoxelId id : queued_.members(esdf.layout)) first_turns_.push_back(turn_of(esdf, id));
+    for (const VoxelId id : queued_.members(esdf.layout))
+      first_turns_.emplace_back(turn_of(esdf, id), id);
     parallel_sort(first_turns_.begin(), first_turns_.end());
   }
 
@@ -134,37 +138,41 @@ class LevelPeeling {
   }
 
  private:
+  /// A voxel that is asked, and what is found.
+  struct Asked {
+    VoxelId id;
+    LevelNeighbours around;
+    bool may_go;
+  };
+
   bool has_turns() const { return next_ < first_turns_.size() || !more_turns_.empty(); }
-  bool takes_more() const {
-    return next_ == first_turns_.size() ||
-           (!more_turns_.empty() && more_turns_.top() < first_turns_[next_]);
+  Turn next_turn() const {
+    if (next_ == first_turns_.size()) return more_turns_.begin()->first;
+    const Turn first = first_turns_[next_].first;
+    return more_turns_.empty() ? first : std::min(first, more_turns_.begin()->first);
   }
-  std::uint64_t next_turn() const { return takes_more() ? more_turns_.top() : first_turns_[next_]; }
-  void end_turn() {
-    if (takes_more()) {
-      more_turns_.pop();
-    } else {
-      ++next_;
-    }
+  /// Those whose turn is next.
+  std::vector<VoxelId> take_turn() {
+    const Turn turn = next_turn();
+    std::vector<VoxelId> ids;
+    if (!more_turns_.empty() && more_turns_.begin()->first == turn)
+      ids = std::move(more_turns_.extract(more_turns_.begin()).mapped());
+    for (; next_ < first_turns_.size() && first_turns_[next_].first == turn; ++next_)
+      ids.push_back(first_turns_[next_].second);
+    return ids;
   }
 
   void peel(std::uint32_t level) {
-    std::vector<VoxelId> deleted, stayed;
-    while (has_turns() && level_of(next_turn()) == level) {
-      const VoxelId id = voxel_of_turn(next_turn());
-      end_turn();
-      const Cube27 later = around_.of(id).later(id);
-      if (may_go(id, later)) {
-        deleted.push_back(id);
-      } else {
-        left_.set(id);
-        stayed.push_back(id);
-        queue(id, later);
-      }
-    }
+    std::vector<VoxelId> deleted;
+    std::vector<Asked> stayed;
+    while (has_turns() && level_of(next_turn()) == level) play(take_turn(), deleted, stayed);
     std::vector<VoxelId> work = neighbours_of(esdf_.layout, left_, deleted);
-    for (const VoxelId id : stayed)  // a neighbour that went unseen
-      if ((around_.of(id).equal & ~cube_around(esdf_.layout, left_, id)) != 0) work.push_back(id);
+    for_each_of_many(stayed.size(), [&](std::size_t i) {  // has a neighbour gone unseen?
+      stayed[i].may_go =
+          (stayed[i].around.equal & ~cube_around(esdf_.layout, left_, stayed[i].id)) != 0;
+    });
+    for (const Asked& asked : stayed)
+      if (asked.may_go) work.push_back(asked.id);
     for (std::uint32_t round = 1; !work.empty(); ++round) {
       ask_again(work, level, deleted);
       if (late_ != nullptr)
@@ -173,17 +181,43 @@ class LevelPeeling {
     }
   }
 
+  void play(const std::vector<VoxelId>& ids, std::vector<VoxelId>& deleted,
+            std::vector<Asked>& stayed) {
+    asked_.resize(ids.size());
+    for_each_of_many(ids.size(), [&](std::size_t i) {
+      const LevelNeighbours around = around_.of(ids[i]);
+      asked_[i] = {ids[i], around, may_go(ids[i], around.later(ids[i]))};
+    });
+    for (const Asked& asked : asked_) {
+      if (asked.may_go) {
+        deleted.push_back(asked.id);
+      } else {
+        left_.set(asked.id);
+        stayed.push_back(asked);
+        queue(asked.id, asked.around.later(asked.id));
+      }
+    }
+  }
+
   /// A round: sub-field by sub-field.
   void ask_again(std::vector<VoxelId>& work, std::uint32_t level, std::vector<VoxelId>& deleted) {
-    std::sort(work.begin(), work.end(), [](VoxelId a, VoxelId b) {
+    tbb::parallel_sort(work.begin(), work.end(), [](VoxelId a, VoxelId b) {
       return std::pair(sub_field(a), a) < std::pair(sub_field(b), b);
     });
     work.erase(std::unique(work.begin(), work.end()), work.end());
     deleted.clear();
-    for (const VoxelId id : work) {
-      if (!may_go(id, above(id, level))) continue;
-      left_.reset(id);
-      deleted.push_back(id);
+    std::vector<std::uint8_t> goes(work.size());
+    for (std::size_t first = 0, last = 0; first < work.size(); first = last) {
+      while (last < work.size() && sub_field(work[last]) == sub_field(work[first])) ++last;
+      for_each_of_many(last - first, [&](std::size_t i) {
+        const VoxelId id = work[first + i];
+        goes[first + i] = may_go(id, above(id, level));
+      });
+      for (std::size_t i = first; i < last; ++i) {
+        if (!goes[i]) continue;
+        left_.reset(work[i]);
+        deleted.push_back(work[i]);
+      }
     }
   }
 
@@ -208,7 +242,7 @@ class LevelPeeling {
          cells &= cells - 1) {
       const VoxelId id = esdf_.layout.neighbour(beside, std::countr_zero(cells));
       queued_.set(id);
-      more_turns_.push(turn_of(esdf_, id));
+      more_turns_[turn_of(esdf_, id)].push_back(id);
     }
   }
 
@@ -218,9 +252,10 @@ class LevelPeeling {
   const KnownNeighbours around_;
   VoxelMask queued_;  // those whose turn is, or has been, played
   VoxelMask left_;    // those whose first turn is over and that are still there
-  std::vector<std::uint64_t> first_turns_;  // ascending; of voxels not simple at their first turn
-  std::size_t next_ = 0;
-  std::priority_queue<std::uint64_t, std::vector<std::uint64_t>, std::greater<>> more_turns_;
+  std::vector<std::pair<Turn, VoxelId>> first_turns_;  // of those not simple at their first turn
+  std::size_t next_ = 0;                               // of these
+  std::map<Turn, std::vector<VoxelId>> more_turns_;    // of others
+  std::vector<Asked> asked_;
 };
 
 }  // namespace

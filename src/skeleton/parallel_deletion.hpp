@@ -2,8 +2,11 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "ridgeway/common/parallel.hpp"
@@ -52,25 +55,32 @@ std::vector<VoxelId> delete_round(const BlockLayout& layout, VoxelMask& voxels,
   return deleted;
 }
 
-/// Members of `voxels` 26-adjacent to the given ones, each once, in no order that means
-/// anything.
+/// Leaves each voxel once, in ascending order.
+inline void sort_out_doubles(std::vector<VoxelId>& ids) {
+  tbb::parallel_sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
+
+/// Members of `voxels` 26-adjacent to the given ones, each once, in ascending order.
 inline std::vector<VoxelId> neighbours_of(const BlockLayout& layout, const VoxelMask& voxels,
                                           const std::vector<VoxelId>& ids) {
-  const auto for_each_neighbour = [&](const auto& body) {
-    for (const VoxelId id : ids)
+  // Each part of the ids by itself, then what the parts have in common.
+  constexpr std::size_t kPart = 4 * kParallelFrom;
+  std::vector<std::vector<VoxelId>> found((ids.size() + kPart - 1) / kPart);
+  parallel_for_each_index(found.size(), [&](std::size_t part) {
+    const auto first = ids.begin() + static_cast<std::ptrdiff_t>(part * kPart);
+    const auto last = part + 1 == found.size() ? ids.end() : first + kPart;
+    std::for_each(first, last, [&](VoxelId id) {
       for (Cube27 cube = cube_around(layout, voxels, id) & kCells26; cube != 0; cube &= cube - 1)
-        body(layout.neighbour(id, std::countr_zero(cube)));
-  };
-  if (ids.size() >= kParallelFrom) {  // a mask is then faster than to sort
-    VoxelMask neighbours(layout);
-    for_each_neighbour([&](VoxelId id) { neighbours.set(id); });
-    return neighbours.members(layout);
-  }
-  std::vector<VoxelId> result;
-  for_each_neighbour([&](VoxelId id) { result.push_back(id); });
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
-  return result;
+        found[part].push_back(layout.neighbour(id, std::countr_zero(cube)));
+    });
+    sort_out_doubles(found[part]);
+  });
+  if (found.empty()) return {};
+  for (std::size_t part = 1; part < found.size(); ++part)
+    found[0].insert(found[0].end(), found[part].begin(), found[part].end());
+  if (found.size() > 1) sort_out_doubles(found[0]);
+  return std::move(found[0]);
 }
 
 /// Deletes rounds of voxels until none of them may go; after the first round only neighbours of

@@ -68,16 +68,33 @@ void remove_redundant_voxels(const RememberedSpace& space, SquaredHalves thresho
                              const Basins& basins, VoxelMask& diagram) {
   const EsdfMap& esdf = space.map();
   std::vector<VoxelId> work = diagram.members(esdf.layout);
+  const auto may_go = [&](VoxelId id, Cube27 cube) {
+    return basins.next[id] != kCentre && is_simple(cube) && !is_curve_end(cube) &&
+           can_do_without(space, threshold, id, cube);
+  };
+  // What may go depends on what is left around it alone. So all are asked at once, and again those
+  // around which a voxel has gone when their turn comes.
+  struct Answer {
+    Cube27 cube;
+    bool may_go;
+  };
+  std::vector<Answer> answers;
   while (!work.empty()) {
     sort_lowest_first(esdf, work);
+    answers.resize(work.size());
+    parallel_for_each_index(
+        work.size(),
+        [&](std::size_t i) {
+          const Cube27 cube = cube_around(esdf.layout, diagram, work[i]);
+          answers[i] = {cube, may_go(work[i], cube)};
+        },
+        64);
     std::vector<VoxelId> deleted;
-    for (const VoxelId id : work) {
-      if (basins.next[id] == kCentre) continue;
-      const Cube27 cube = cube_around(esdf.layout, diagram, id);
-      if (!is_simple(cube) || is_curve_end(cube)) continue;
-      if (!can_do_without(space, threshold, id, cube)) continue;
-      diagram.reset(id);
-      deleted.push_back(id);
+    for (std::size_t i = 0; i < work.size(); ++i) {
+      const Cube27 cube = cube_around(esdf.layout, diagram, work[i]);
+      if (!(cube == answers[i].cube ? answers[i].may_go : may_go(work[i], cube))) continue;
+      diagram.reset(work[i]);
+      deleted.push_back(work[i]);
     }
     work = neighbours_of(esdf.layout, diagram, deleted);
   }

@@ -88,7 +88,7 @@ std::string slice_layer(const EsdfMap& esdf, double height, int most_samples) {
   return bytes;
 }
 
-std::string diagram_layer(const Roadmap& roadmap, const std::vector<std::size_t>& components) {
+std::string diagram_layer(const Roadmap& roadmap) {
   const EsdfMap& esdf = roadmap.esdf;
   const std::vector<VoxelId> voxels = roadmap.diagram.voxels.members(esdf.layout);
   const auto by_order = [&](VoxelId a, VoxelId b) {
@@ -111,8 +111,6 @@ std::string diagram_layer(const Roadmap& roadmap, const std::vector<std::size_t>
   for (const VoxelId id : voxels)
     append_position(bytes, centre_of(esdf.layout.index_of(id), esdf.voxel_size));
   for (const VoxelId id : voxels) append(bytes, clearance_of_voxel(esdf, id));
-  for (std::size_t i = 0; i < voxels.size(); ++i)
-    append(bytes, count_of(components.empty() ? 0 : components[i]));
   return bytes + segments;
 }
 
@@ -134,7 +132,7 @@ std::string gvd_layer(const Roadmap& roadmap, const GvdConfig& config, std::size
   return bytes;
 }
 
-std::string graph_layer(const Roadmap& roadmap, const std::vector<std::size_t>& components) {
+std::string graph_layer(const Roadmap& roadmap) {
   const SparseGraph& graph = roadmap.graph;
   std::string bytes;
   append_origin(bytes, map_origin(roadmap.esdf));
@@ -142,13 +140,18 @@ std::string graph_layer(const Roadmap& roadmap, const std::vector<std::size_t>& 
   append(bytes, count_of(graph.edges.size()));
   for (const Vertex& v : graph.vertices) append_position(bytes, v.position);
   for (const Vertex& v : graph.vertices) append(bytes, static_cast<float>(v.clearance));
-  for (std::size_t i = 0; i < graph.vertices.size(); ++i)
-    append(bytes, count_of(components.empty() ? 0 : components[i]));
   for (const Edge& e : graph.edges) {
     append(bytes, count_of(number(e.from)));
     append(bytes, count_of(number(e.to)));
   }
   for (const Edge& e : graph.edges) append(bytes, static_cast<float>(e.clearance));
+  return bytes;
+}
+
+std::string components_layer(std::span<const std::size_t> components) {
+  std::string bytes;
+  append(bytes, count_of(components.size()));
+  for (const std::size_t component : components) append(bytes, count_of(component));
   return bytes;
 }
 

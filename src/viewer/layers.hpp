@@ -4,8 +4,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
-#include <vector>
 
 #include "ridgeway/roadmap/roadmap.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
@@ -13,8 +13,8 @@
 namespace ridgeway {
 
 // What a page draws of a roadmap: bytes, little-endian, as docs/viewer.md describes them. Every
-// layer begins with its origin in the world (three f64); its positions are metres from there, or
-// cells, so that four bytes are enough wherever the map lies.
+// layer with positions begins with its origin in the world (three f64); they are metres from there,
+// or cells, so that four bytes are enough wherever the map lies.
 
 /// Obstacles as rectangles, with the smallest cells that need `most_quads` or fewer.
 std::string surface_layer(const EsdfMap& esdf, std::size_t most_quads);
@@ -24,15 +24,18 @@ std::string surface_layer(const EsdfMap& esdf, std::size_t most_quads);
 /// Throws InputError where the height is not finite or beyond what a voxel can have.
 std::string slice_layer(const EsdfMap& esdf, double height, int most_samples);
 
-/// Voxels of the diagram and the moves between neighbouring ones. `components`: of the voxels in
-/// their order (VoxelMask::members), largest first.
-std::string diagram_layer(const Roadmap& roadmap, const std::vector<std::size_t>& components);
+/// Voxels of the diagram, in the order of VoxelMask::members, and the moves between neighbouring
+/// ones.
+std::string diagram_layer(const Roadmap& roadmap);
 
 /// Voxels of the generalized Voronoi diagram; where there are more than `most_points` every
 /// second, third, ... of them.
 std::string gvd_layer(const Roadmap& roadmap, const GvdConfig& config, std::size_t most_points);
 
-/// Vertices and edges. `components`: of the vertices, largest first.
-std::string graph_layer(const Roadmap& roadmap, const std::vector<std::size_t>& components);
+/// Vertices and edges.
+std::string graph_layer(const Roadmap& roadmap);
+
+/// The number of the component that each voxel of the diagram, or each vertex, lies in.
+std::string components_layer(std::span<const std::size_t> components);
 
 }  // namespace ridgeway

@@ -193,6 +193,33 @@ TEST_F(CliBench, HallHasARowForEveryMapAndNumberOfThreads) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("out")), {}), 4);  // no more
 }
 
+TEST_F(CliBench, LiveHasARowForEveryWorldAndRecording) {
+  const std::string recording = std::string(RIDGEWAY_DATA_DIR) + "/house_depth";
+  const Outcome outcome =
+      run({"bench", "live", "--worlds", "house", "--recording", recording, "--scans", "12",
+           "--voxel-size", "0.25", "--verify", "6", "--queries", "-o", path("out"), "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto rows = outcome.json()["rows"];
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0]["recording"], "house");
+  EXPECT_EQ(rows[0]["scans"], 12);
+  EXPECT_EQ(rows[0]["verified"], 2);
+  EXPECT_GT(rows[0]["queries"], 0);
+  EXPECT_GT(rows[0]["query_microseconds"]["live"], 0.0);
+  EXPECT_EQ(rows[1]["recording"], "house_depth");
+  for (const auto& row : rows) {
+    EXPECT_EQ(row["identical"], row["verified"]);
+    EXPECT_EQ(row["query_violations"], 0);
+    EXPECT_GT(row["milliseconds"]["median"], 0.0);
+    EXPECT_LE(row["milliseconds"]["median"], row["milliseconds"]["p99"]);
+    EXPECT_GT(row["batch_milliseconds"]["median"], 0.0);
+    EXPECT_GT(row["memory_ratio"], 0.0);
+  }
+  EXPECT_GT(outcome.json()["stages"]["house"].size(), 10u);
+  for (const char* file : {"live.json", "live.csv", "live_house.csv", "live_house.png"})
+    EXPECT_GT(read_whole(folder_ / "out" / file).size(), 100u) << file;
+}
+
 TEST_F(CliBench, TrajectoryHasARowForEveryMapAndNoViolation) {
   const std::string map = std::string(RIDGEWAY_DATA_DIR) + "/fr_079.bt";
   const Outcome outcome = run({"bench", "trajectory", map, "--worlds", "hall", "--voxel-size",

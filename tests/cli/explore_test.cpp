@@ -49,6 +49,18 @@ TEST_F(CliExplore, WritesAllThatIsAskedFor) {
             0);
 }
 
+TEST_F(CliExplore, ALidarIsRecordedAsScansThatLiveReads) {
+  std::vector<std::string> all = words("1.3,1.3,1.2");
+  for (const std::string word : {"--camera", "lidar", "--rows", "16", "--vertical-angle", "70"})
+    all.push_back(word);
+  all.insert(all.end(), {"--record", path("scans"), "--json"});
+  const Outcome outcome = run(all);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.json()["complete"], true);
+  EXPECT_EQ(outcome.json()["collisions"], 0);
+  EXPECT_EQ(run({"live", path("scans"), "-o", path("again.ridge"), "--voxel-size", "0.2"}).code, 0);
+}
+
 TEST_F(CliExplore, RefusesBeforeTheFlight) {
   expect_refused(words("9,1,1"), {"outside"});
   expect_refused(words("0.1,1,1"), {"from an obstacle"});

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "program.hpp"
+#include "ridgeway/recordings/depth_sequence.hpp"
 
 namespace ridgeway {
 namespace {
@@ -18,16 +19,22 @@ const std::string kRecording = std::string(RIDGEWAY_DATA_DIR) + "/house_depth";
 class CliLive : public Program {};
 
 TEST_F(CliLive, ReplaysARecordingThatABatchBuildVerifies) {
-  const Outcome outcome =
-      run({"live", kRecording, "-o", path("live.ridge"), "--voxel-size", "0.2", "--min-clearance",
-           "0.3", "--max-distance", "3", "--verify", "10", "--csv", path("live.csv"), "--json"});
+  const Outcome outcome = run({"live", kRecording, "-o", path("live.ridge"), "--voxel-size", "0.2",
+                               "--min-clearance", "0.3", "--max-distance", "3", "--verify", "10",
+                               "--queries", "200", "--csv", path("live.csv"), "--json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const auto json = outcome.json();
-  const auto frames = json["frames"].get<std::size_t>();
+  const auto frames = json["scans"].get<std::size_t>();
   EXPECT_GT(frames, 10u);
   EXPECT_GE(json["verified"].get<std::size_t>(), frames / 10 - 1);
   EXPECT_GT(json["vertices"].get<std::size_t>(), 10u);
-  EXPECT_TRUE(json["total_ms"].contains("median"));
+  EXPECT_EQ(json["identical"], json["verified"]);
+  EXPECT_EQ(json["queries"], 200);
+  EXPECT_EQ(json["query_violations"], 0);
+  for (const char* stage : {"fusion", "esdf", "skeleton", "graph"})
+    EXPECT_GT(json["stage_milliseconds"][stage]["median"], 0.0) << stage;
+  for (const char* share : {"median", "p95", "p99"})
+    EXPECT_GT(json["milliseconds"][share], 0.0) << share;
   const std::string csv = read_whole(folder_ / "live.csv");
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), frames + 1);
   EXPECT_EQ(run({"check", path("live.ridge"), "--queries", "20"}).code, 0);
@@ -75,7 +82,7 @@ TEST_F(CliLive, FollowsAFolderThatIsStillWrittenTo) {
   const Outcome followed = run(follow);
   writer.join();
   ASSERT_EQ(followed.code, 0) << followed.err;
-  EXPECT_EQ(followed.json()["frames"].get<int>(), 12);
+  EXPECT_EQ(followed.json()["scans"].get<int>(), 12);
   std::vector<std::string> again = {"live", growing.string(), "-o", path("whole.ridge")};
   again.insert(again.end(), how.begin(), how.end());
   const Outcome whole = run(again);
@@ -83,6 +90,23 @@ TEST_F(CliLive, FollowsAFolderThatIsStillWrittenTo) {
   EXPECT_TRUE(read_whole(folder_ / "followed.ridge") == read_whole(folder_ / "whole.ridge"));
   // What never comes is not waited for any longer than was said.
   EXPECT_EQ(run({"live", path("nowhere"), "-o", path("live.ridge"), "--follow", "0.3"}).code, 1);
+}
+
+TEST_F(CliLive, KeepsToTheRecordingsClock) {
+  const std::filesystem::path some = folder_ / "some";
+  std::filesystem::create_directories(some / "depth");
+  std::filesystem::copy_file(std::filesystem::path(kRecording) / "camera-intrinsics.txt",
+                             some / "camera-intrinsics.txt");
+  add_frames(some, 0, 6);
+  const auto began = std::chrono::steady_clock::now();
+  const Outcome outcome = run({"live", some.string(), "-o", path("live.ridge"), "--voxel-size",
+                               "0.5", "--height", "0.5,2", "--realtime", "--json"});
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const DepthSequence sequence = open_sequence(some, {});
+  EXPECT_GE(took.count(), *sequence.frames.back().time - *sequence.frames.front().time);
+  EXPECT_GE(outcome.json()["behind_seconds"], 0.0);
+  EXPECT_NE(run({"info", path("live.ridge")}).out.find("keep_in"), std::string::npos);
 }
 
 TEST_F(CliLive, RefusesWhatIsNoRecordingAndNamesTheFrame) {

@@ -36,6 +36,7 @@ TEST(Grid, EveryScenarioOfTheBundleIsSolvedNearItsOptimum) {
   EXPECT_GT(row.vertices, 1u);
   for (const GridAnswers* answers : {&row.raw, &row.shortened}) {
     EXPECT_EQ(answers->solved, 250u);
+    EXPECT_EQ(answers->within_violations, 0u);
     ASSERT_EQ(answers->ratios.size(), 250u);
     EXPECT_EQ(*std::max_element(answers->ratios.begin(), answers->ratios.end()),
               answers->length_over_optimum.max);
@@ -72,6 +73,12 @@ TEST(Grid, WhatHasNoPathIsNeitherSolvedNorSolvable) {
   EXPECT_TRUE(std::isnan(row.shortened.ratios[1]));
   EXPECT_EQ(row.optimum_checked, 3u);
   EXPECT_EQ(row.optimum_reproduced, 1u);
+}
+
+TEST(Grid, PathsThatAreLongerThanTheySayAreCounted) {
+  GridBenchmark benchmark = bundled(4);
+  benchmark.scenarios[2].optimum *= 0.3;  // as if a path so short had been found
+  EXPECT_EQ(run_grid(std::move(benchmark), {.exact = 0}).shortened.within_violations, 1u);
 }
 
 TEST(Grid, WhatMakesNoSenseIsRefused) {

@@ -141,6 +141,35 @@ TEST(Exploration, ARecordingGivesTheSameMap) {
   EXPECT_EQ(different, 0u);
 }
 
+/// All is seen at any heading, so the drone turns once, to the first, and never again.
+TEST(Exploration, ALidarMapsWithoutTurningAndItsScansGiveTheSameMap) {
+  ExplorationFlightConfig config = quick_config();
+  config.lidar = {.rows = 16, .columns = 180, .range_sigma = 0.01};
+  config.longest = 60.0;
+  std::vector<std::pair<std::vector<Point>, Eigen::Isometry3d>> scans;
+  const ExplorationFlight flight = explore(
+      two_rooms(1.4), config, {}, {}, {},
+      [&](std::span<const Point> points, const Eigen::Isometry3d& T_world_sensor) {
+        scans.emplace_back(std::vector<Point>(points.begin(), points.end()), T_world_sensor);
+      });
+  EXPECT_TRUE(flight.is_complete) << name_of(flight.end);
+  EXPECT_GE(flight.coverage, 0.97);
+  EXPECT_EQ(flight.collisions, 0u);
+  EXPECT_GE(flight.nearest, 0.0);
+  for (const ExplorationSample& sample : flight.samples) EXPECT_NEAR(sample.state.yaw, 0.0, 1e-9);
+  ASSERT_EQ(scans.size(), flight.samples.size());
+  LiveRoadmap live({.fusion = {.voxel_size = config.voxel_size},
+                    .build = {.min_clearance = config.clearance(), .max_distance = 2.0},
+                    .origin = VoxelIndex{}});
+  for (const auto& [points, pose] : scans) live.integrate(points, pose);
+  const OccupancyMap again = live.map();
+  for (VoxelId id = 0; id < flight.map.layout.voxel_count(); ++id) {
+    const VoxelIndex voxel = flight.map.layout.index_of(id) + flight.map.origin;
+    if ((centre_of(voxel, config.voxel_size) - config.start).norm() > config.free_radius() + 1e-9)
+      ASSERT_EQ(flight.map.state[id], again.at(voxel - again.origin));
+  }
+}
+
 TEST(Exploration, ATooNarrowDoorIsNamed) {
   ExplorationFlightConfig config = quick_config();
   const ExplorationFlight flight = explore(two_rooms(0.6), config);
@@ -202,6 +231,8 @@ TEST(Exploration, RefusesWhatCannotBeFlown) {
   refused(world, config, "outside");
   config = quick_config();
   config.sensor.max_range = 0.3;
+  refused(world, config, "max_range");
+  config.lidar = {.max_range = 0.3};
   refused(world, config, "max_range");
   config = quick_config();
   config.budget = 1.0;

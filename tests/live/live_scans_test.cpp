@@ -3,7 +3,9 @@
 // Poses that are corrected, worlds that change, windows: what comes of scans that were fused.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "house_flight.hpp"
 #include "ridgeway/common/parallel.hpp"
@@ -81,6 +83,88 @@ TEST(CorrectPoses, GivesTheBytesOfFusingAllWithTheCorrectedPoses) {
       integrate(fused, next);
       EXPECT_TRUE(bytes_of(live.settled().get()) == bytes_of(fused.settled().get()));
     });
+}
+
+/// A flight whose tracker drifts, and what fusing it with the true poses of some frames gives.
+class DriftingFlight {
+ public:
+  explicit DriftingFlight(std::size_t count) : scans_(flight_through_house(count)) {
+    poses_.push_back(drifted(scans_.front().T_world_camera, 1.0));  // by half a block
+    for (std::size_t i = 1; i < scans_.size(); ++i)
+      poses_.push_back(drifted(scans_[i].T_world_camera, 0.1 * static_cast<double>(i)));
+  }
+
+  void integrate_into(LiveRoadmap& live, std::size_t first, std::size_t last) const {
+    for (std::size_t i = first; i < last; ++i) integrate(live, {scans_[i].image, poses_[i]});
+  }
+  std::vector<PoseCorrection> corrections(std::size_t first, std::size_t last) const {
+    std::vector<PoseCorrection> list;
+    for (std::size_t i = first; i < last; ++i) list.push_back({i + 1, scans_[i].T_world_camera});
+    return list;
+  }
+  std::string bytes_with(std::size_t first, std::size_t last) const {
+    LiveConfig config = house_config();
+    config.fusion.origin = config.origin =
+        voxel_at(poses_.front().translation(), config.fusion.voxel_size);
+    LiveRoadmap fused(config);
+    for (std::size_t i = 0; i < scans_.size(); ++i)
+      integrate(fused,
+                {scans_[i].image, i >= first && i < last ? scans_[i].T_world_camera : poses_[i]});
+    return bytes_of(fused.settled().get());
+  }
+
+ private:
+  std::vector<Scan> scans_;
+  std::vector<Eigen::Isometry3d> poses_;
+};
+
+TEST(CorrectPoses, AfterTheFirstPoseWasCorrectedOthersCanBe) {
+  const DriftingFlight flight(6);
+  const TemporaryFolder folder;
+  LiveRoadmap live(with_log(folder));
+  flight.integrate_into(live, 0, 6);
+  live.correct_poses(flight.corrections(0, 2));
+  EXPECT_GT(live.correct_poses(flight.corrections(2, 4)).fused_again, 0u);
+  EXPECT_TRUE(bytes_of(live.settled().get()) == flight.bytes_with(0, 4));
+}
+
+TEST(CorrectPoses, GoOnInAThreadOfTheirOwnWhileScansAreFused) {
+  const DriftingFlight flight(9);
+  const TemporaryFolder folder;
+  LiveConfig config = with_log(folder);
+  config.log_bytes = 300'000;  // three images: none may go before all are fused again
+  LiveRoadmap live(config);
+  flight.integrate_into(live, 0, 3);
+  EXPECT_TRUE(live.is_correction_ready());
+  EXPECT_EQ(live.finish_correcting().fused_again, 0u);  // nothing was begun
+  live.begin_correcting(flight.corrections(0, 2));
+  flight.integrate_into(live, 3, 5);
+  live.begin_correcting(flight.corrections(2, 4));  // both, anew
+  flight.integrate_into(live, 5, 9);
+  for (int tries = 0; !live.is_correction_ready() && tries < 6'000; ++tries)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_TRUE(live.is_correction_ready());
+  EXPECT_GT(live.finish_correcting().fused_again, 0u);
+  EXPECT_TRUE(bytes_of(live.settled().get()) == flight.bytes_with(0, 4));
+  EXPECT_TRUE(bytes_of(live.settled().get()) == batch_bytes(live.map(), config.build));
+  EXPECT_THROW(live.correct_poses(flight.corrections(8, 9)), InputError);  // the oldest have gone
+}
+
+TEST(CorrectPoses, WhatCannotBeFusedAgainIsGivenUp) {
+  const DriftingFlight flight(5);
+  const TemporaryFolder folder;
+  LiveConfig config = with_log(folder);
+  LiveRoadmap live(config);
+  flight.integrate_into(live, 0, 4);
+  std::filesystem::remove(config.log_folder / "scan-2.bin");
+  const auto snapshot = live.snapshot();
+  live.begin_correcting(flight.corrections(0, 4));
+  EXPECT_NE(refusal([&] { live.finish_correcting(); }).find("scan-2.bin"), std::string::npos);
+  EXPECT_EQ(live.snapshot(), snapshot);
+  EXPECT_TRUE(live.is_correction_ready());
+  flight.integrate_into(live, 4, 5);
+  EXPECT_TRUE(bytes_of(live.settled().get()) == batch_bytes(live.map(), config.build));
+  live.begin_correcting(flight.corrections(0, 5));  // and a roadmap may go while one is under way
 }
 
 TEST(CorrectPoses, FusesAgainOnlyWhatMovedFramesReach) {

@@ -64,6 +64,33 @@ class ScanFolder : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(ScanFolder, WhatIsWrittenIsReadAgain) {
+  Random random(3);
+  std::vector<std::pair<std::vector<Point>, Eigen::Isometry3d>> scans;
+  {
+    ScanWriter writer(folder_ / "run");
+    for (int i = 0; i < 3; ++i) {
+      std::vector<Point> points;
+      for (int k = 0; k < 10 * i + 1; ++k)
+        points.push_back(
+            Eigen::Vector3f(Point(random.normal(), random.normal(), random.normal()).cast<float>())
+                .cast<double>());
+      const Eigen::Isometry3d pose = random_pose({1.0 * i, 2.0, 3.0}, random);
+      writer.add(points, pose);
+      scans.emplace_back(points, pose);
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "run"));
+    writer.finish();
+  }
+  const ScanSequence read = open_scans(folder_ / "run");
+  ASSERT_EQ(read.scans.size(), scans.size());
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    EXPECT_EQ(read_scan(read.scans[i]).points, scans[i].first);
+    EXPECT_TRUE(read.scans[i].T_world_sensor.isApprox(scans[i].second, 1e-12));
+  }
+  EXPECT_THROW(ScanWriter(folder_ / "run"), InputError);  // is not empty
+}
+
 TEST_F(ScanFolder, CloudsOfAllFormatsComeWithTheirPoses) {
   EXPECT_FALSE(holds_scans(folder_.path()));
   expect_in(refused(), {"holds no recording of scans", "poses.txt"});

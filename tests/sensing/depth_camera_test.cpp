@@ -57,6 +57,55 @@ TEST(DepthCamera, PixelsArePointsOfTheWorld) {
   }
 }
 
+TEST(SpinningLidar, BeamsEndOnTheWorldAllAroundWithinItsAngle) {
+  const SpinningLidar lidar = {.rows = 9, .columns = 72, .vertical = 0.8, .max_range = 30.0};
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const World world = testing::random_world(seed);
+    Eigen::Isometry3d pose(Eigen::AngleAxisd(0.3 * static_cast<double>(seed),
+                                             Eigen::Vector3d(0.1, 0.2, 1.0).normalized()));
+    pose.translation() = Point(-7.0, -7.0, 3.0);
+    if (surface_distance(world, pose.translation()).distance < 0.1) continue;
+    const std::vector<Point> points = scan_with(world, lidar, pose);
+    EXPECT_LE(points.size(), 9u * 72u);
+    EXPECT_GT(points.size(), 0u);
+    double highest = -1.0, lowest = 1.0;
+    for (const Point& p : points) {
+      ASSERT_NEAR(surface_distance(world, pose * p).distance, 0.0, 1e-5);
+      ASSERT_LE(p.norm(), lidar.max_range);
+      const double rise = std::atan2(p.z(), p.head<2>().norm());
+      highest = std::max(highest, rise);
+      lowest = std::min(lowest, rise);
+    }
+    EXPECT_LE(highest, 0.4 + 1e-9);
+    EXPECT_GE(lowest, -0.4 - 1e-9);
+  }
+}
+
+TEST(SpinningLidar, SeesAWallOnOneSideWithNoiseThatTheSeedGives) {
+  const SpinningLidar lidar = {.rows = 3, .columns = 8, .range_sigma = 0.02};
+  const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  const auto scan = [&](std::uint64_t seed, int threads) {
+    return with_threads(threads, [&] { return scan_with(wall(), lidar, pose, seed); });
+  };
+  const std::vector<Point> points = scan(1, 1);
+  EXPECT_EQ(points.size(), 9u);  // of each row the beam ahead and those 45 degrees beside it
+  for (const Point& p : points) EXPECT_NEAR(p.x(), 4.0, 0.15);
+  EXPECT_EQ(points, scan(1, 2));
+  EXPECT_NE(points, scan(2, 1));
+}
+
+TEST(SpinningLidar, RefusesWhatIsNoLidar) {
+  const auto refuses = [](SpinningLidar lidar) {
+    EXPECT_THROW(scan_with(wall(), lidar, Eigen::Isometry3d::Identity()), InputError);
+  };
+  refuses({.rows = 1});
+  refuses({.columns = 2});
+  refuses({.vertical = 3.2});
+  refuses({.min_range = 11.0});
+  refuses({.range_sigma = -1.0});
+  refuses({.max_range = std::numeric_limits<double>::quiet_NaN()});
+}
+
 TEST(DepthCamera, LevelPosesLookWhereTheySay) {
   const Eigen::Isometry3d pose = level_pose({1.0, 2.0, 3.0}, std::numbers::pi / 2);
   EXPECT_NEAR((pose.linear() * Eigen::Vector3d::UnitZ() - Eigen::Vector3d::UnitY()).norm(), 0.0,

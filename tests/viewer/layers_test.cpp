@@ -41,12 +41,12 @@ Roadmap rooms_roadmap() { return build_roadmap(rooms(), {.min_clearance = 0.3}).
 TEST(Layers, GraphHasTheVerticesInTheWorldAndTheEdges) {
   const Roadmap roadmap = rooms_roadmap();
   const SparseGraph& graph = roadmap.graph;
-  const std::string bytes = graph_layer(roadmap, {});
+  const std::string bytes = graph_layer(roadmap);
   const auto vertices = number_at<std::uint32_t>(bytes, 24),
              edges = number_at<std::uint32_t>(bytes, 28);
   ASSERT_EQ(vertices, graph.vertices.size());
   ASSERT_EQ(edges, graph.edges.size());
-  ASSERT_EQ(bytes.size(), 32 + 20 * graph.vertices.size() + 12 * graph.edges.size());
+  ASSERT_EQ(bytes.size(), 32 + 16 * graph.vertices.size() + 12 * graph.edges.size());
   for (std::size_t v = 0; v < vertices; ++v) {
     Point place = origin_of(bytes);
     for (Eigen::Index k = 0; k < 3; ++k)
@@ -55,7 +55,7 @@ TEST(Layers, GraphHasTheVerticesInTheWorldAndTheEdges) {
     EXPECT_FLOAT_EQ(number_at<float>(bytes, 32 + 12 * vertices + 4 * v),
                     static_cast<float>(graph.vertices[v].clearance));
   }
-  const std::size_t pairs = 32 + 20 * vertices;
+  const std::size_t pairs = 32 + 16 * vertices;
   for (std::size_t e = 0; e < edges; ++e) {
     EXPECT_EQ(number_at<std::uint32_t>(bytes, pairs + 8 * e), number(graph.edges[e].from));
     EXPECT_EQ(number_at<std::uint32_t>(bytes, pairs + 8 * e + 4), number(graph.edges[e].to));
@@ -65,7 +65,7 @@ TEST(Layers, GraphHasTheVerticesInTheWorldAndTheEdges) {
 TEST(Layers, DiagramJoinsNeighboursOnce) {
   const Roadmap roadmap = rooms_roadmap();
   const std::vector<VoxelId> voxels = roadmap.diagram.voxels.members(roadmap.esdf.layout);
-  const std::string bytes = diagram_layer(roadmap, {});
+  const std::string bytes = diagram_layer(roadmap);
   ASSERT_EQ(number_at<std::uint32_t>(bytes, 24), voxels.size());
   const auto pairs = number_at<std::uint32_t>(bytes, 28);
   std::size_t expected = 0;
@@ -77,7 +77,7 @@ TEST(Layers, DiagramJoinsNeighboursOnce) {
     }
   EXPECT_GT(expected, 0u);
   EXPECT_EQ(pairs, expected);
-  EXPECT_EQ(bytes.size(), 32 + 20 * voxels.size() + 8 * pairs);
+  EXPECT_EQ(bytes.size(), 32 + 16 * voxels.size() + 8 * pairs);
 }
 
 TEST(Layers, SliceHoldsTheDistancesOfItsHeight) {

@@ -58,6 +58,22 @@ test("every layer changes the picture, and can be taken away again", async () =>
   }
 });
 
+test("asks for components where colours show them, and shows them", async () => {
+  const asked = () => page.asked.filter((address) => address.includes("/api/components")).length;
+  assert.equal(asked(), 0);
+  const before = await pixels(page);
+  const colour = async (by) => {
+    await page.selectOption("#colour", by);
+    await page.evaluate(() => window.ridgeway.app.layers.switched);
+  };
+  await colour("component");
+  assert.equal(asked(), 2); // of the graph, and of the diagram that was shown before
+  assert.ok(difference(before, await pixels(page)) > 50);
+  assert.match(await text_of(page, "#legend"), /connected component/);
+  await colour("clearance");
+  assert.equal(difference(before, await pixels(page)), 0);
+});
+
 test("sliders move the cut and the slice", async () => {
   const before = await pixels(page);
   await set("cut", "0.5");

@@ -6,16 +6,24 @@ import { metres, place_text, seconds } from "./numbers";
 // Answers in words.
 
 export function join_text(join: Join, volume: (component: number) => string): string {
-  const between = join.by === "unknown" ? "between unknown space" : "between obstacles";
+  const between = join.by === "unknown" ? "between unknown space" : join.by === "limits" ? "within the limits of flights" : "between obstacles";
   return `radius ${metres(join.radius)} m joins ${volume(join.a)} and ${volume(join.b)}, ${between}`;
+}
+
+/** A reason of the command line, for who has a form in place of options. */
+function in_words_of_form(reason: string): string {
+  return reason
+    .replace(", or give --escape to begin or end there", "")
+    .replace("let --snap do so", "let a larger Snap do so")
+    .replace("a --radius of", "a Radius of");
 }
 
 /** Why there is no route, beginning with what to change. */
 export function reason_text(answer: PlanAnswer): string {
   const { blocked, radius, reason } = answer;
-  const full = reason ?? `No route: ${answer.status.replaceAll("_", " ")}`;
+  const full = reason ? in_words_of_form(reason) : `No route: ${answer.status.replaceAll("_", " ")}`;
   if (!blocked || blocked.radius <= 0 || !blocked.place) return full;
-  const narrow = blocked.by === "unknown" ? "Unknown space leaves" : "The way is";
+  const narrow = { unknown: "Between unknown space the way is", limits: "Within the limits of flights the way is" }[blocked.by] ?? "The way is";
   return `${narrow} too narrow by ${metres(Math.max(0.001, radius - blocked.radius))} m at ${place_text(blocked.place)}. ${full}`;
 }
 

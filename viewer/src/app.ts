@@ -28,7 +28,7 @@ export class App implements Page {
   readonly query: QueryPanel;
   /** Of parts that not every page has. */
   readonly explain_more: ((legend: Legend) => void)[] = [];
-  private readonly legend = new Legend(element("legend"));
+  private readonly legend = new Legend(element<HTMLDetailsElement>("legend-box"), element("legend"));
 
   constructor(readonly source: MapSource, readonly stage: Stage, readonly info: Info, readonly base: THREE.Vector3, readonly surface: SurfaceMesh) {
     this.scale = new ClearanceScale(info.min_clearance, Math.max(2 * info.min_clearance, info.min_clearance + 1));

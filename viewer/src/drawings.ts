@@ -65,11 +65,20 @@ export class NetDrawing {
     return this;
   }
 
+  get knows_components(): boolean {
+    return !!this.net?.component;
+  }
+
+  /** The components that its places lie in, where it is still of the map that they are of. */
+  set components(numbers: Uint32Array) {
+    if (this.net && numbers.length === this.net.clearance.length) this.net.component = numbers;
+  }
+
   colour_by(what: ColourBy): void {
     this.by = what;
     const { net, scale } = this;
     if (!net) return;
-    const place_colour = (v: number) => (what === "component" ? component_colour(net.component[v]!) : scale.colour(net.clearance[v]!));
+    const place_colour = (v: number) => (what === "component" ? component_colour(net.component?.[v] ?? 0) : scale.colour(net.clearance[v]!));
     const at = new Float32Array(3 * net.pairs.length);
     const colours = new Float32Array(3 * net.pairs.length);
     for (let i = 0; i < net.pairs.length; ++i) {

@@ -5,7 +5,7 @@ import { join_text } from "./answer_text";
 import { kClearances, kHeights, kNarrow } from "./colours";
 import { element, input } from "./dom";
 import { ball, cloud_drawing, LabelLayer, NetDrawing, type ColourBy, type SliceDrawing } from "./drawings";
-import { read_cloud, read_net, type Narrow, type Net, type Vector } from "./layers";
+import { read_cloud, read_components, read_net, type Narrow, type Net, type Vector } from "./layers";
 import type { Legend } from "./legend";
 import { metres } from "./numbers";
 import type { Page } from "./page";
@@ -49,18 +49,14 @@ export class LayerPanel {
       surface: { title: "Obstacles", shown: true, object: surface.mesh },
       slice: { title: "Distance slice", shown: false, object: slice.mesh, on_switch: show_slice },
       gvd: { title: "Voronoi diagram (GVD)", shown: false, load: async () => cloud_drawing(read_cloud(await source.ask("/api/gvd")), base, scale) },
-      diagram: { title: "Skeleton diagram", shown: false, load: async () => this.diagram.show(read_net(await source.ask("/api/diagram"), false)).group },
-      graph: { title: "Graph", shown: true, load: async () => this.graph.show(read_net(await source.ask("/api/graph"), true)).group },
+      diagram: { title: "Skeleton diagram", shown: false, load: async () => this.coloured("diagram", this.diagram.show(read_net(await source.ask("/api/diagram"), false))) },
+      graph: { title: "Graph", shown: true, load: async () => this.coloured("graph", this.graph.show(read_net(await source.ask("/api/graph"), true))) },
       narrow: { title: "Narrow places", shown: false, load: () => this.load_narrow() },
       routes: { title: "Routes", shown: true, object: routes.paths },
       flight: { title: "Trajectory and drone", shown: true, object: routes.flight_group },
     };
     for (const name of Object.keys(this.layers)) this.add_switch(name);
-    element("colour").addEventListener("change", () => {
-      for (const net of [this.diagram, this.graph]) net.colour_by(this.colour_by);
-      page.update_legend();
-      stage.changed();
-    });
+    element("colour").addEventListener("change", () => (this.switched = this.colour_nets()));
   }
 
   is_shown(name: string): boolean {
@@ -134,7 +130,27 @@ export class LayerPanel {
     if ((has_net && !by_component) || this.is_shown("gvd") || this.is_shown("slice"))
       legend.ramp("Clearance to obstacles", kClearances, `${metres(scale.least, 2)} m`, `${metres(scale.most, 2)} m and more`);
     if (this.is_shown("slice")) legend.mark(`Slice: nearer than ${metres(scale.least, 2)} m, no room`, [0.35, 0.05, 0.08]);
-    if (this.is_shown("narrow")) legend.mark("Narrow place, with the radius that it lets through", kNarrow);
+    if (this.is_shown("narrow") && this.layers.narrow!.object?.children.length) legend.mark("Narrow place, with the radius that it lets through", kNarrow);
+  }
+
+  private async colour_nets(): Promise<void> {
+    try {
+      if (this.layers.diagram!.object) await this.coloured("diagram", this.diagram);
+      if (this.layers.graph!.object) await this.coloured("graph", this.graph);
+    } catch (error) {
+      element<HTMLSelectElement>("colour").value = "clearance";
+      this.page.hint(`Components: ${(error as Error).message}`);
+    }
+    this.page.update_legend();
+    this.page.stage.changed();
+  }
+
+  /** Components are asked for where colours show them: they take longer than all that is drawn. */
+  private async coloured(of: "diagram" | "graph", net: NetDrawing): Promise<THREE.Object3D> {
+    if (this.colour_by === "component" && !net.knows_components)
+      net.components = read_components(await this.page.source.ask("/api/components", { of }));
+    net.colour_by(this.colour_by);
+    return net.group;
   }
 
   private get colour_by(): ColourBy {

@@ -51,9 +51,10 @@ export interface Net {
   origin: Vector;
   positions: Float32Array;
   clearance: Float32Array;
-  component: Uint32Array;
   pairs: Uint32Array;
   pair_clearance?: Float32Array;
+  /** Numbers of the connected components that places lie in, where they are known. */
+  component?: Uint32Array;
 }
 
 export function read_net(bytes: ArrayBuffer, has_pair_clearance: boolean): Net {
@@ -65,11 +66,15 @@ export function read_net(bytes: ArrayBuffer, has_pair_clearance: boolean): Net {
     origin,
     positions: reader.take(Float32Array, 3 * count),
     clearance: reader.take(Float32Array, count),
-    component: reader.take(Uint32Array, count),
     pairs: reader.take(Uint32Array, 2 * pair_count),
   };
   if (has_pair_clearance) net.pair_clearance = reader.take(Float32Array, pair_count);
   return net;
+}
+
+export function read_components(bytes: ArrayBuffer): Uint32Array {
+  const reader = new Reader(bytes);
+  return reader.take(Uint32Array, reader.u32());
 }
 
 export interface Cloud {

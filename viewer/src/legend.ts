@@ -6,7 +6,10 @@ import { swatch } from "./drawings";
 /** What colours mean, of the layers that are shown. */
 export class Legend {
   private readonly rows: HTMLElement[] = [];
-  constructor(private readonly root: HTMLElement) {}
+  /** `box`: which is folded, at first where there is little room, and holds the rows. */
+  constructor(private readonly box: HTMLDetailsElement, private readonly root: HTMLElement) {
+    box.open = !matchMedia("(max-width: 760px)").matches;
+  }
 
   begin(): void {
     this.rows.length = 0;
@@ -34,6 +37,6 @@ export class Legend {
   }
   end(): void {
     this.root.replaceChildren(...this.rows);
-    this.root.hidden = this.rows.length === 0;
+    this.box.hidden = this.rows.length === 0;
   }
 }

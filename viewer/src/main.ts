@@ -27,6 +27,7 @@ async function begin_map(source: MapSource, stage: Stage, info: Info): Promise<v
   const size = new THREE.Vector3(...info.bounds.max).sub(base);
   stage.set_box(new THREE.Vector3(), size);
   const surface = new SurfaceMesh(read_surface(await source.ask("/api/surface/coarse")), base, size.z);
+  const asked_fine = source.ask("/api/surface").then(read_surface, (error: Error) => error);
   surface.cut = surface.height_below_ceilings();
   stage.scene.add(surface.mesh);
   stage.before_frame.push((is_coarse) => surface.draw_coarse(is_coarse));
@@ -34,10 +35,13 @@ async function begin_map(source: MapSource, stage: Stage, info: Info): Promise<v
   const app = new App(source, stage, info, base, surface);
   show_to_tests({ app, stage, surface });
   element("loading").textContent = "";
+  await app.layers.load();
   stage.draw();
   performance.mark("first-frame");
-  surface.refine(read_surface(await source.ask("/api/surface")));
-  await app.layers.load();
+  const fine = await asked_fine;
+  if (fine instanceof Error) throw fine;
+  surface.refine(fine);
+  stage.changed();
   stage.draw();
   is_ready();
 }
@@ -45,8 +49,10 @@ async function begin_map(source: MapSource, stage: Stage, info: Info): Promise<v
 async function begin(): Promise<void> {
   try {
     const source = find_source();
+    const asked_info = ask_json<Info>(source, "/api/info").catch((error: Error) => error);
     const stage = new Stage(element<HTMLCanvasElement>("canvas"));
-    const info = await ask_json<Info>(source, "/api/info");
+    const info = await asked_info;
+    if (info instanceof Error) throw info;
     if (!info.live) return await begin_map(source, stage, info);
     element("loading").textContent = "Waiting for the first scan";
     const live = new LivePage(source, stage, (app) => {

@@ -43,7 +43,7 @@ export class Stage {
   private flight = 0;
 
   constructor(private readonly canvas: HTMLCanvasElement) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: false, powerPreference: "high-performance" });
+    this.renderer = renderer_of(canvas);
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace; // colours are drawn as given
     this.renderer.autoClear = false;
     for (const scene of [this.scene, this.overlay]) {
@@ -58,7 +58,10 @@ export class Stage {
     this.controls.screenSpacePanning = false;
     this.controls.addEventListener("change", () => this.moves());
     this.controls.addEventListener("start", () => (this.preset = undefined));
-    new ResizeObserver(() => this.changed()).observe(canvas);
+    new ResizeObserver(() => {
+      this.look_again();
+      this.changed();
+    }).observe(canvas);
     const dark = matchMedia("(prefers-color-scheme: dark)");
     const paint = () => {
       const ground = getComputedStyle(document.documentElement).getPropertyValue("--ground").trim();
@@ -81,6 +84,7 @@ export class Stage {
     this.coarse = this.frame_time > kSlowFrame;
     this.changed();
     clearTimeout(this.still_timer);
+    if (!this.coarse) return;
     this.still_timer = window.setTimeout(() => {
       this.coarse = false;
       this.changed();
@@ -286,6 +290,14 @@ export class Stage {
     const p = place.clone().project(this.camera_now);
     if (p.z < -1 || p.z > 1) return undefined;
     return { x: ((p.x + 1) / 2) * this.canvas.clientWidth, y: ((1 - p.y) / 2) * this.canvas.clientHeight };
+  }
+}
+
+function renderer_of(canvas: HTMLCanvasElement): THREE.WebGLRenderer {
+  try {
+    return new THREE.WebGLRenderer({ canvas, antialias: false, powerPreference: "high-performance" });
+  } catch {
+    throw new Error("this browser has no WebGL 2. Turn on graphics acceleration in its settings, or take another one");
   }
 }
 

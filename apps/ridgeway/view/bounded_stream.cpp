@@ -14,18 +14,18 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::chrono::milliseconds kLongestRequest = 5s, kLongestAnswer = 60s, kLongestEnd = 200ms,
-                                    kLongestPause = 20s;
 constexpr std::chrono::milliseconds kLook = 100ms;  // at whether all is over
 constexpr std::size_t kMostReceived = 32 << 10;
 
 }  // namespace
 
-BoundedStream::BoundedStream(int socket, const std::function<bool()>& is_over)
+BoundedStream::BoundedStream(int socket, const std::function<bool()>& is_over,
+                             const Patience& patience)
     : socket_(socket),
       is_over_(is_over),
-      read_until_(Clock::now() + kLongestRequest),
-      write_until_(Clock::now() + kLongestAnswer) {}
+      patience_(patience),
+      read_until_(Clock::now() + patience.request),
+      write_until_(Clock::now() + patience.answer) {}
 
 bool BoundedStream::wait_for(short events, Clock::time_point until) const {
   while (!is_over_()) {
@@ -55,7 +55,7 @@ ssize_t BoundedStream::read(char* to, std::size_t size) {
 }
 
 ssize_t BoundedStream::write(const char* from, std::size_t size) {
-  const Clock::time_point until = is_endless_ ? Clock::now() + kLongestPause : write_until_;
+  const Clock::time_point until = is_endless_ ? Clock::now() + patience_.pause : write_until_;
   for (;;) {
     if (!wait_for(POLLOUT, until)) return -1;
     const ssize_t sent = ::send(socket_, from, size, MSG_DONTWAIT | MSG_NOSIGNAL);
@@ -65,7 +65,7 @@ ssize_t BoundedStream::write(const char* from, std::size_t size) {
 
 void BoundedStream::finish() {
   ::shutdown(socket_, SHUT_WR);
-  const auto until = Clock::now() + kLongestEnd;
+  const auto until = Clock::now() + patience_.end;
   while (received_ < 4 * kMostReceived && wait_for(POLLIN, until)) {
     const ssize_t got = ::recv(socket_, buffer_.data(), buffer_.size(), MSG_DONTWAIT);
     if (got <= 0) break;

@@ -15,11 +15,20 @@ namespace ridgeway::cli {
 /// who sends a byte now and then would hold a thread, and who sends lines without end the memory.
 class BoundedStream : public httplib::Stream {
  public:
+  /// How long things may take.
+  struct Patience {
+    std::chrono::milliseconds request{5'000}, answer{60'000};
+    std::chrono::milliseconds pause{20'000};  ///< until some of an endless answer is taken
+    std::chrono::milliseconds end{200};       ///< of finish()
+  };
+
   /// `is_over`: asked several times a second; then nothing more is read or written.
-  BoundedStream(int socket, const std::function<bool()>& is_over);
+  BoundedStream(int socket, const std::function<bool()>& is_over)
+      : BoundedStream(socket, is_over, Patience()) {}
+  BoundedStream(int socket, const std::function<bool()>& is_over, const Patience& patience);
 
   /// The answer has no end: it may take for ever, as long as the other side takes something of what
-  /// there is within some seconds.
+  /// there is within `Patience::pause`.
   void begin_endless_answer() { is_endless_ = true; }
 
   bool is_readable() const override { return true; }
@@ -40,6 +49,7 @@ class BoundedStream : public httplib::Stream {
 
   const int socket_;
   const std::function<bool()>& is_over_;
+  const Patience patience_;
   Clock::time_point read_until_, write_until_;
   bool is_endless_ = false;
   std::size_t received_ = 0;

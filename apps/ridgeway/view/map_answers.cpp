@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "arguments.hpp"
@@ -116,11 +117,18 @@ const ComponentReport& MapAnswers::components() {
   return components_;
 }
 
-std::string MapAnswers::components_of_voxels(bool of_graph) {
-  const std::vector<std::size_t>& all = components().asked;
-  const auto first_vertex = all.end() - static_cast<std::ptrdiff_t>(roadmap_.graph.vertices.size());
-  return of_graph ? graph_layer(roadmap_, {first_vertex, all.end()})
-                  : diagram_layer(roadmap_, {all.begin(), first_vertex});
+Reply MapAnswers::components_of(const std::string& layer) {
+  const bool of_graph = layer == "graph";
+  if (!of_graph && layer != "diagram")
+    throw InputError("of " + in_quotes(layer), "has no components", "give diagram or graph");
+  return kept(of_graph ? graph_components_ : diagram_components_, kBytes,
+              [&] { return components_of_places(of_graph); });
+}
+
+std::string MapAnswers::components_of_places(bool of_graph) {
+  const std::span<const std::size_t> all(components().asked);
+  const std::size_t first_vertex = all.size() - roadmap_.graph.vertices.size();
+  return components_layer(of_graph ? all.subspan(first_vertex) : all.first(first_vertex));
 }
 
 std::string MapAnswers::info() {
@@ -236,9 +244,9 @@ Reply MapAnswers::answer(const Question& question) {
       return kept(coarse_surface_, kBytes,
                   [&] { return surface_layer(roadmap_.esdf, kMostCoarseQuads); });
     if (path == "/api/diagram")
-      return kept(diagram_, kBytes, [&] { return components_of_voxels(false); });
-    if (path == "/api/graph")
-      return kept(graph_, kBytes, [&] { return components_of_voxels(true); });
+      return kept(diagram_, kBytes, [&] { return diagram_layer(roadmap_); });
+    if (path == "/api/graph") return kept(graph_, kBytes, [&] { return graph_layer(roadmap_); });
+    if (path == "/api/components") return components_of(get(question, "of"));
     if (path == "/api/gvd")
       return kept(gvd_, kBytes,
                   [&] { return gvd_layer(roadmap_, gvd_config(roadmap_), kMostGvdPoints); });

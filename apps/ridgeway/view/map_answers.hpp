@@ -49,7 +49,8 @@ class MapAnswers {
   const ComponentReport& components();
   std::string info();
   std::string narrow_places();
-  std::string components_of_voxels(bool of_graph);
+  Reply components_of(const std::string& layer);
+  std::string components_of_places(bool of_graph);
   nlohmann::ordered_json plan(const Question& question);
   nlohmann::ordered_json trajectory(const Question& question);
   nlohmann::ordered_json place(const Question& question);
@@ -59,7 +60,8 @@ class MapAnswers {
 
   const Roadmap& roadmap_;
   const std::string name_;
-  Kept info_, surface_, coarse_surface_, diagram_, gvd_, graph_, narrow_;
+  Kept info_, surface_, coarse_surface_, diagram_, gvd_, graph_, narrow_, diagram_components_,
+      graph_components_;
   std::once_flag components_once_;
   ComponentReport components_;  // `asked`: of the diagram's voxels, then of the vertices
   std::mutex facts_mutex_;

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <exception>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -23,6 +24,9 @@ namespace {
 constexpr const char* kAddress = "127.0.0.1";
 constexpr const char* kLivePath = "/api/live";
 constexpr std::size_t kMostConnections = 64;
+/// That are not yet taken on. httplib keeps five: a page's own would have to try again, a second
+/// and more later.
+constexpr int kMostWaiting = 256;
 /// So that enough is left for what pages ask.
 constexpr int kMostFollowers = 8;
 
@@ -30,6 +34,9 @@ constexpr int kMostFollowers = 8;
 class BoundedServer : public httplib::Server {
  public:
   explicit BoundedServer(const std::function<bool()>& is_over) : is_over_(is_over) {}
+
+  /// Once it is bound.
+  void let_many_wait() { ::listen(svr_sock_, kMostWaiting); }
 
  private:
   bool process_and_close_socket(socket_t socket) override {
@@ -73,15 +80,22 @@ void set_headers(httplib::Response& response) {
   response.set_header("Cache-Control", "no-store");
 }
 
-/// A body that is shared, not copied.
+/// A body that is neither copied nor packed: httplib would pack the page's script for seconds, to
+/// save a moment between two programs of one machine. `owner` keeps the bytes.
+void set_bytes(httplib::Response& response, const std::string& type, std::string_view bytes,
+               std::shared_ptr<const void> owner = nullptr) {
+  if (bytes.empty()) return response.set_content("", type);
+  response.set_content_provider(
+      bytes.size(), type,
+      [bytes, owner = std::move(owner)](std::size_t offset, std::size_t length,
+                                        httplib::DataSink& sink) {
+        return sink.write(bytes.data() + offset, length);
+      });
+}
+
 void set_body(httplib::Response& response, const Reply& reply) {
   response.status = reply.status;
-  if (reply.body->empty()) return response.set_content("", reply.type);
-  response.set_content_provider(
-      reply.body->size(), reply.type,
-      [body = reply.body](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
-        return sink.write(body->data() + offset, length);
-      });
+  set_bytes(response, reply.type, *reply.body, reply.body);
 }
 
 /// One of those who follow, counted for as long as it is there.
@@ -137,7 +151,7 @@ struct PageServer::Running {
     if (request.method != "GET" && request.method != "HEAD")
       return set_body(response, json_reply(405, {{"error", "only GET and HEAD are answered"}}));
     if (const auto file = find_page_file(request.path))
-      return response.set_content(file->body.data(), file->body.size(), std::string(file->type));
+      return set_bytes(response, std::string(file->type), file->body);
     if (request.path == kLivePath) return follow(served.live, followers, response);
     const Question question{request.path, {request.params.begin(), request.params.end()}};
     set_body(response, served.answer(question));
@@ -154,7 +168,7 @@ struct PageServer::Running {
 
 PageServer::PageServer(Served served, int port, std::function<bool()> is_over)
     : running_(std::make_unique<Running>(std::move(served), std::move(is_over))) {
-  httplib::Server& server = *running_->server;
+  auto& server = static_cast<BoundedServer&>(*running_->server);
   server.new_task_queue = [] { return new httplib::ThreadPool(kMostConnections); };
   server.set_payload_max_length(1024);
   // Two servers at one port would share its connections.
@@ -167,6 +181,7 @@ PageServer::PageServer(Served served, int port, std::function<bool()> is_over)
   if (running_->port <= 0)
     throw InputError("--port " + std::to_string(port), "cannot be had: another program may use it",
                      "give another one, or leave it out");
+  server.let_many_wait();
   server.set_pre_routing_handler(
       [running = running_.get()](const httplib::Request& request, httplib::Response& response) {
         running->respond(request, response);

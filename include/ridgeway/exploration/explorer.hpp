@@ -35,6 +35,10 @@ struct FieldOfView {
 /// Of a camera, counting on a share of its range, since rays that meet no surface within it measure
 /// nothing.
 FieldOfView field_of_view(const DepthSensor& sensor, double share_of_range = 0.7);
+/// Of a lidar: all around. So that rows are no farther apart than voxels at its end, `row_gap`
+/// metres, if there is one, bounds its range.
+FieldOfView field_of_view(const SpinningLidar& lidar, double share_of_range = 0.7,
+                          double row_gap = std::numeric_limits<double>::infinity());
 
 /// Where to look from, and which way.
 struct Viewpoint {

@@ -2,7 +2,6 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -40,13 +39,18 @@ struct FrontierCluster {
 };
 
 /// Where what is known ends: kept block by block as a map changes. Only blocks with another state
-/// than in the last update, and those beside them, are looked at again; an update of nothing takes
-/// time linear in the blocks. Deterministic: the result is that of an update from nothing.
+/// than in the last update, and those beside what became known or unknown in them, are looked at
+/// again; an update of nothing takes time linear in the blocks. Deterministic: the result is that
+/// of an update from nothing.
 class Frontiers {
  public:
   /// `within`: voxels of the lattice that count as unknown or free at all. `ignored`: unknown
   /// voxels of the lattice that are not worth a look (see ignore()).
   explicit Frontiers(const VoxelRange& within = kAllVoxels) : within_(within) {}
+  Frontiers(const Frontiers&) = delete;  // parts of blocks point to each other
+  Frontiers& operator=(const Frontiers&) = delete;
+  Frontiers(Frontiers&&) = default;
+  Frontiers& operator=(Frontiers&&) = default;
 
   /// Follows the map. Keeps the roadmap until the next update, to compare with.
   void update(std::shared_ptr<const Roadmap> roadmap);
@@ -68,22 +72,27 @@ class Frontiers {
   std::size_t ignored() const { return ignored_count_; }
 
  private:
-  using Labels = std::array<std::uint8_t, kBlockVoxels>;  ///< 0: no frontier, else part + 1
+  struct Entry;
+  /// A part of one block that touches a part of another, later in order.
+  struct Link {
+    std::uint32_t here = 0, there = 0;  ///< counted in their blocks
+    const Entry* beyond = nullptr;
+  };
   /// What is known of a block with a frontier in it.
   struct Entry {
-    std::vector<FrontierPart> parts;
-    Labels labels{};
-    /// Pairs of a part here and a part of a block that is greater than this.
-    std::vector<std::array<std::uint32_t, 2>> pairs;
-    std::vector<BlockIndex> partners;  ///< by pair
+    std::vector<VoxelMask::Block> pieces;  ///< the free voxels of each part
+    std::vector<FrontierPart> made;        ///< in this update; else they are in parts_
+    std::size_t first = 0;                 ///< in parts_
+    std::vector<Link> links;
+    std::uint64_t version = 0;  ///< the update in which it was made
   };
 
-  void find_changed(const Roadmap& now);
-  bool is_frontier(VoxelId id, const VoxelIndex& voxel, Eigen::Vector3d& normal,
-                   std::vector<VoxelIndex>* targets) const;
-  bool is_unknown(const VoxelIndex& voxel, VoxelId id) const;
+  std::vector<BlockIndex> find_changed(const Roadmap& now);
+  VoxelMask::Block unknown_in(const BlockIndex& block) const;
   void remake(const BlockIndex& block);
+  std::vector<FrontierPart> parts_in(const BlockIndex& block, Entry& entry) const;
   void link(const BlockIndex& block);
+  static void link(Entry& entry, const Entry& beyond, const VoxelIndex& step);
   void gather();
 
   VoxelRange within_;

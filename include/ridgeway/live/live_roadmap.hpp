@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "ridgeway/mapping/tsdf_fusion.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
@@ -29,6 +30,8 @@ struct LiveConfig {
   /// by one roadmap alone, and emptied with it.
   std::filesystem::path log_folder = {};
   std::uint64_t log_bytes = std::uint64_t{4} << 30;  ///< of all scans that are kept: the newest
+  std::string source = {};  ///< what snapshots say of where they are from (Roadmap::source)
+  std::string record = {};  ///< and of their configuration (Roadmap::config)
 
   /// Throws InputError naming the bad field.
   void validate() const;
@@ -95,8 +98,19 @@ class LiveRoadmap {
   /// if every frame had been fused with its corrected pose, by a roadmap with the same origins,
   /// both its own and the fusion's; what was set by set_voxels stays where nothing fused speaks
   /// against it. Planners go on with the last snapshot meanwhile. Throws InputError where there is
-  /// no log, no such frame, or a frame that is needed has left the log.
+  /// no log, no such frame, or a frame that is needed has left the log. The same as the next three,
+  /// one after the other.
   UpdateReport correct_poses(std::span<const PoseCorrection> corrections);
+  /// Begins it in a thread of its own and returns at once; scans may be fused meanwhile, and count
+  /// with the poses they are given. What was begun and not finished before begins anew with it. The
+  /// log may grow beyond its bound until it is finished.
+  void begin_correcting(std::span<const PoseCorrection> corrections);
+  /// Whether finish_correcting() would return without waiting for that thread: nothing was begun,
+  /// or all but a few scans are fused again.
+  bool is_correction_ready();
+  /// Waits for that thread and updates the roadmap. A correction that throws here is given up, and
+  /// all is as it was.
+  UpdateReport finish_correcting();
 
   /// Follows what waits outside of the window.
   UpdateReport catch_up();

@@ -19,6 +19,7 @@ class Temporary;
 struct DepthFrame {
   std::filesystem::path image;                                       ///< 16-bit PNG
   Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();  ///< camera to world, metres
+  std::optional<double> time = {};  ///< seconds, by the recording's clock, where it has one
 };
 
 /// A recording: depth images with poses, in the order of time. The images are read when needed.

@@ -4,12 +4,16 @@
 
 #include <Eigen/Geometry>
 #include <filesystem>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "ridgeway/formats/point_cloud.hpp"
 
 namespace ridgeway {
+
+class Temporary;
 
 /// A cloud as a range sensor recorded it from one place.
 struct Scan {
@@ -45,5 +49,24 @@ ScanSequence open_scans(const std::filesystem::path& folder);
 
 /// The points of a scan. Throws InputError, naming the file, where they cannot be read.
 PointCloud read_scan(const Scan& scan);
+
+/// Writes scans and poses as a folder with poses.txt, clouds as binary .ply of single precision.
+/// The folder must not exist or be empty; it appears whole, by finish(), or not at all.
+class ScanWriter {
+ public:
+  explicit ScanWriter(const std::filesystem::path& folder);
+  ~ScanWriter();
+  ScanWriter(const ScanWriter&) = delete;
+  ScanWriter& operator=(const ScanWriter&) = delete;
+  /// Points in the sensor's frame, its origin at 0.
+  void add(std::span<const Point> points, const Eigen::Isometry3d& T_world_sensor);
+  void finish();
+
+ private:
+  std::filesystem::path folder_;
+  std::unique_ptr<Temporary> temporary_;
+  std::string poses_ = "# cloud tx ty tz qx qy qz qw\n";
+  int count_ = 0;
+};
 
 }  // namespace ridgeway

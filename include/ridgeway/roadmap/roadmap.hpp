@@ -53,10 +53,29 @@ struct CellGraph {
     /// How many of the radii the edges in the directions 14 to 26 (voxel/neighbourhood.hpp) let
     /// through; 0: no edge. The cell beyond has those of the others.
     std::array<std::uint8_t, 13> widths{};
-    /// Connected parts of this graph, of the edges that let each of these radii through.
+    bool has_bends = false;  ///< whether `bends` has some from it
+    /// Connected parts of this graph, of the edges and bends that let each of these radii through.
     std::array<std::uint16_t, kLevels> parts{kNoPart, kNoPart, kNoPart, kNoPart};
   };
   std::vector<Cell> cells;  ///< by block in order (BlockLayout::rank), then x, y, z in the block
+
+  /// A further place of a cell, for voxels that moves in the cell do not connect with its first
+  /// one: narrow passages side by side. Places are numbered on from the cells.
+  struct Nook {
+    std::uint32_t cell = 0;
+    std::uint8_t place = kNoPlace;
+    std::array<std::uint16_t, kLevels> parts{kNoPart, kNoPart, kNoPart, kNoPart};
+  };
+  std::vector<Nook> nooks;  ///< by ascending cell
+
+  /// A way round a corner between places of two cells that share a face: moves across faces of
+  /// voxels within the two, which join what straight edges do not.
+  struct Bend {
+    std::uint32_t from = 0, to = 0;  ///< places; each bend is there in both directions
+    float length = 0.0f;             ///< voxels
+    std::uint8_t width = 0;          ///< how many of the radii it lets through
+  };
+  std::vector<Bend> bends;  ///< by ascending `from`, then `to`
 
   /// Lengths of ways from landmarks to each block, voxels, about: the way between two blocks is
   /// hardly shorter than the difference. By block in order; no number where no

@@ -62,4 +62,23 @@ DepthSensor stereo_sensor();
 DepthImage render_depth(const World& world, const DepthSensor& sensor,
                         const Eigen::Isometry3d& T_world_camera, std::uint64_t seed = 0);
 
+/// A lidar that spins about its upright axis: rows of beams at even angles from one edge of its
+/// view to the other, each fired in all columns around. Its frame: x forward, y left, z up.
+struct SpinningLidar {
+  int rows = 32, columns = 640;
+  double vertical = 1.0;     ///< radians, from the lowest row to the highest, level in the middle
+  double min_range = 0.0;    ///< metres; nothing nearer is measured
+  double max_range = 10.0;   ///< metres; nothing beyond is measured
+  double range_sigma = 0.0;  ///< metres; independent Gaussian noise on every range
+
+  /// Throws InputError naming the bad field.
+  void validate() const;
+};
+
+/// What a lidar measures in one turn, from a pose (sensor to world) that it has all the while:
+/// points in its frame, row by row, without beams that meet nothing in range. The same seed gives
+/// the same points for any number of threads.
+std::vector<Point> scan_with(const World& world, const SpinningLidar& lidar,
+                             const Eigen::Isometry3d& T_world_sensor, std::uint64_t seed = 0);
+
 }  // namespace ridgeway

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "vertex_merging.hpp"
+
+#include <tbb/parallel_sort.h>
+
+#include "ridgeway/common/parallel.hpp"
+
+namespace ridgeway::detail {
+namespace {
+
+/// Pairs that are asked ahead of their turn. What is asked takes milliseconds, and merging few of
+/// them leaves the answers for the others right.
+constexpr std::size_t kAhead = 512;
+
+}  // namespace
+
+/// Whether a pair may be merged depends on the links of both alone. So many are asked at once, and
+/// an answer holds at the pair's turn if none of these links has changed by then; else it is asked
+/// again. The graph is the same as if each were asked at its turn.
+bool VertexMerging::run() {
+  bool changed = false;
+  std::vector<char> fresh(graph_.size(), true);  // may be worth another look
+  std::vector<Answer> answers(kAhead);
+  for (bool again = true; again; changed |= again) {
+    again = false;
+    const std::vector<NeighbourPair> pairs = pairs_to_ask(fresh);
+    fresh.assign(graph_.size(), false);
+    for (std::size_t first = 0; first < pairs.size(); first += kAhead) {
+      const std::size_t count = std::min(kAhead, pairs.size() - first);
+      parallel_for_each_index(
+          count, [&](std::size_t i) { answers[i] = ask(pairs[first + i]); }, 8);
+      for (std::size_t i = 0; i < count; ++i) {
+        const NeighbourPair& pair = pairs[first + i];
+        if (!graph_.links_of(pair.from).contains(pair.to)) continue;
+        if (answers[i].changes != changes_at(pair)) answers[i] = ask(pair);
+        if (!answers[i].may_merge) {
+          refuse(pair);
+          continue;
+        }
+        for (const auto& [other, link] : graph_.links_of(pair.from)) fresh[other] = true;
+        merge(pair.from, pair.to, answers[i]);
+        again = true;
+      }
+    }
+  }
+  return changed;
+}
+
+/// Those of which one is fresh, but for those that were refused and are as they were then.
+std::vector<NeighbourPair> VertexMerging::pairs_to_ask(const std::vector<char>& fresh) const {
+  std::vector<NeighbourPair> pairs;
+  for (Number v = 0; v < graph_.size(); ++v)
+    for (const auto& [w, link] : graph_.links_of(v))
+      if (fresh[v] || fresh[w]) pairs.push_back({graph_.length(v, w), v, w});
+  tbb::parallel_sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+std::uint64_t VertexMerging::changes_at(const NeighbourPair& pair) const {
+  return std::uint64_t{graph_.changes(pair.from)} << 32 | graph_.changes(pair.to);
+}
+
+bool VertexMerging::was_refused(const NeighbourPair& pair) const {
+  const auto& refused = refused_[pair.from];
+  return std::find(refused.begin(), refused.end(), std::pair(pair.to, changes_at(pair))) !=
+         refused.end();
+}
+
+void VertexMerging::refuse(const NeighbourPair& pair) {
+  auto& refused = refused_[pair.from];
+  const auto place = std::find_if(refused.begin(), refused.end(),
+                                  [&](const auto& r) { return r.first == pair.to; });
+  if (place != refused.end()) {
+    place->second = changes_at(pair);
+  } else {
+    refused.emplace_back(pair.to, changes_at(pair));
+  }
+}
+
+VertexMerging::Answer VertexMerging::ask(const NeighbourPair& pair) const {
+  Answer answer;
+  answer.changes = changes_at(pair);
+  if (!graph_.links_of(pair.from).contains(pair.to) || was_refused(pair)) return answer;
+  answer.may_merge = may_merge(pair.from, pair.to);
+  if (!answer.may_merge) return answer;
+  // Most new links are soon replaced by others: how wide they are beyond all that is kept is
+  // measured in the end.
+  const EditableGraph::Links& there = graph_.links_of(pair.to);
+  for (const auto& [other, link] : graph_.links_of(pair.from))
+    if (other != pair.to && !there.contains(other))
+      answer.new_links.emplace_back(other, space_.clearance(graph_.at(pair.to), graph_.at(other),
+                                                            widths_.widest + widths_.step));
+  return answer;
+}
+
+bool VertexMerging::may_merge(Number from, Number to) const {
+  const EditableGraph::Links &here = graph_.links_of(from), &there = graph_.links_of(to);
+  if (here.size() == 1) return false;
+  if (here.size() > 2 &&
+      (graph_.length(from, to) > graph_.clearance(to) ||
+       std::pair(graph_.clearance(from), to) > std::pair(graph_.clearance(to), from)))
+    return false;
+  for (const auto& [other, link] : here) {
+    if (other == to) continue;
+    const double needed = width_needed(from, to, link);
+    const auto known = there.find(other);
+    if (known != there.end() ? known->second.clearance < needed
+                             : !space_.is_free(graph_.at(to), graph_.at(other), needed))
+      return false;
+    if (!sweeps(graph_.at(to), graph_.at(from), graph_.at(other))) return false;
+  }
+  return true;
+}
+
+/// Whether the triangle of a point and a segment can be swept by the segment between them.
+bool VertexMerging::sweeps(const Point& apex, const Point& a, const Point& b) const {
+  const int steps = static_cast<int>(std::ceil((b - a).norm() / widths_.radius));
+  for (int i = 1; i < steps; ++i)
+    if (!space_.is_free(apex, a + (b - a) * (static_cast<double>(i) / steps), widths_.radius))
+      return false;
+  return true;
+}
+
+/// What a link from `to` must be as wide as if it replaces that of `from`, so that the widest ways
+/// stay as wide.
+double VertexMerging::width_needed(Number from, Number to,
+                                   const EditableGraph::Link& replaced) const {
+  const EditableGraph::Links& here = graph_.links_of(from);
+  if (replaced.widest) {
+    const auto others = std::count_if(
+        here.begin(), here.end(), [&](const auto& l) { return l.first != to && l.second.widest; });
+    if (others > 1) return widths_.kept(replaced.clearance);
+  }
+  return widths_.kept(std::min(replaced.clearance, here.at(to).clearance));
+}
+
+void VertexMerging::merge(Number from, Number to, const Answer& answer) {
+  auto new_link = answer.new_links.begin();
+  for (const auto& [other, replaced] : EditableGraph::Links(graph_.links_of(from))) {
+    graph_.unlink(from, other);
+    if (other == to) continue;
+    const EditableGraph::Links& there = graph_.links_of(to);
+    const auto known = there.find(other);
+    EditableGraph::Link link = known != there.end()
+                                   ? known->second
+                                   : EditableGraph::Link{new_link++->second, false, true, to};
+    link.widest |= replaced.widest;
+    graph_.link(to, other, link);
+  }
+}
+
+}  // namespace ridgeway::detail
