@@ -49,7 +49,9 @@ class Frontiers {
   explicit Frontiers(const VoxelRange& within = kAllVoxels) : within_(within) {}
   Frontiers(const Frontiers&) = delete;  // parts of blocks point to each other
   Frontiers& operator=(const Frontiers&) = delete;
+  /// The one moved from can only be assigned to or destroyed.
   Frontiers(Frontiers&&) = default;
+  /// The one moved from can only be assigned to or destroyed.
   Frontiers& operator=(Frontiers&&) = default;
 
   /// Follows the map. Keeps the roadmap until the next update, to compare with.

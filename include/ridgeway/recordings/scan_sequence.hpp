@@ -54,13 +54,14 @@ PointCloud read_scan(const Scan& scan);
 /// The folder must not exist or be empty; it appears whole, by finish(), or not at all.
 class ScanWriter {
  public:
+  /// Throws InputError where the folder is there and not empty, or cannot be made.
   explicit ScanWriter(const std::filesystem::path& folder);
   ~ScanWriter();
   ScanWriter(const ScanWriter&) = delete;
   ScanWriter& operator=(const ScanWriter&) = delete;
   /// Points in the sensor's frame, its origin at 0.
   void add(std::span<const Point> points, const Eigen::Isometry3d& T_world_sensor);
-  void finish();
+  void finish();  ///< Puts the folder in its place. Throws InputError where that cannot be done.
 
  private:
   std::filesystem::path folder_;

@@ -62,8 +62,9 @@ struct CellGraph {
   /// A further place of a cell, for voxels that moves in the cell do not connect with its first
   /// one: narrow passages side by side. Places are numbered on from the cells.
   struct Nook {
-    std::uint32_t cell = 0;
-    std::uint8_t place = kNoPlace;
+    std::uint32_t cell = 0;         ///< its place in `cells`
+    std::uint8_t place = kNoPlace;  ///< the voxel in the cell, x fastest
+    /// As of a cell.
     std::array<std::uint16_t, kLevels> parts{kNoPart, kNoPart, kNoPart, kNoPart};
   };
   std::vector<Nook> nooks;  ///< by ascending cell
@@ -71,9 +72,10 @@ struct CellGraph {
   /// A way round a corner between places of two cells that share a face: moves across faces of
   /// voxels within the two, which join what straight edges do not.
   struct Bend {
-    std::uint32_t from = 0, to = 0;  ///< places; each bend is there in both directions
-    float length = 0.0f;             ///< voxels
-    std::uint8_t width = 0;          ///< how many of the radii it lets through
+    std::uint32_t from = 0;  ///< place that it leads from; each bend is there in both directions
+    std::uint32_t to = 0;    ///< place that it leads to
+    float length = 0.0f;     ///< voxels
+    std::uint8_t width = 0;  ///< how many of the radii it lets through
   };
   std::vector<Bend> bends;  ///< by ascending `from`, then `to`
 

@@ -65,7 +65,8 @@ DepthImage render_depth(const World& world, const DepthSensor& sensor,
 /// A lidar that spins about its upright axis: rows of beams at even angles from one edge of its
 /// view to the other, each fired in all columns around. Its frame: x forward, y left, z up.
 struct SpinningLidar {
-  int rows = 32, columns = 640;
+  int rows = 32;             ///< of beams, one above the other
+  int columns = 640;         ///< all around
   double vertical = 1.0;     ///< radians, from the lowest row to the highest, level in the middle
   double min_range = 0.0;    ///< metres; nothing nearer is measured
   double max_range = 10.0;   ///< metres; nothing beyond is measured
