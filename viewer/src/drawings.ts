@@ -39,16 +39,30 @@ function set_lines(lines: LineSegments2, positions: Float32Array, colours: Float
   lines.geometry = geometry;
 }
 
+/** Lines one pixel wide. Wide ones are drawn instance by instance, which takes software seconds for thousands. */
+function thin_lines(): THREE.LineSegments {
+  const lines = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ vertexColors: true }));
+  lines.frustumCulled = false;
+  return lines;
+}
+
+function set_thin_lines(lines: THREE.LineSegments, positions: Float32Array, colours: Float32Array): void {
+  lines.geometry.dispose();
+  lines.geometry = new THREE.BufferGeometry();
+  lines.geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+  lines.geometry.setAttribute("color", new THREE.BufferAttribute(colours, 3));
+}
+
 /** A diagram or a graph: lines between places, and places as points. */
 export class NetDrawing {
   readonly group = new THREE.Group();
-  private readonly lines: LineSegments2;
+  private readonly lines: LineSegments2 | THREE.LineSegments;
   private readonly points?: THREE.Points;
   private net?: Net;
   private by: ColourBy = "clearance";
 
   constructor(private readonly base: THREE.Vector3, private readonly scale: ClearanceScale, width: number, point_size: number) {
-    this.lines = wide_lines(width);
+    this.lines = width > 1 ? wide_lines(width) : thin_lines();
     this.group.add(this.lines);
     if (point_size === 0) return;
     this.points = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ size: point_size, sizeAttenuation: false, vertexColors: true }));
@@ -86,7 +100,8 @@ export class NetDrawing {
       const narrowest = net.pair_clearance?.[i >> 1];
       colours.set(what === "clearance" && narrowest !== undefined ? scale.colour(narrowest) : place_colour(net.pairs[i]!), 3 * i);
     }
-    set_lines(this.lines, at, colours);
+    if (this.lines instanceof LineSegments2) set_lines(this.lines, at, colours);
+    else set_thin_lines(this.lines, at, colours);
     if (!this.points) return;
     const points = new Float32Array(net.positions.length);
     for (let v = 0; v < net.clearance.length; ++v) points.set(place_colour(v), 3 * v);

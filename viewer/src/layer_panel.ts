@@ -28,7 +28,7 @@ function volume_text(volume: number): string {
 /** Lets go of what the graphics card holds of a drawing; it is made again where it is drawn again. */
 function dispose(drawing: THREE.Object3D): void {
   drawing.traverse((part) => {
-    if (!(part instanceof THREE.Mesh || part instanceof THREE.Points)) return;
+    if (!(part instanceof THREE.Mesh || part instanceof THREE.Line || part instanceof THREE.Points)) return;
     part.geometry.dispose();
     part.material.dispose();
   });
@@ -46,7 +46,7 @@ export class LayerPanel {
 
   constructor(private readonly page: Page, slice: SliceDrawing, show_slice: () => Promise<void>, private readonly fly_to: (place: Vector) => void) {
     const { source, base, scale, stage, surface, routes } = page;
-    this.diagram = new NetDrawing(base, scale, 1.5, 0);
+    this.diagram = new NetDrawing(base, scale, 1, 0);
     this.graph = new NetDrawing(base, scale, 2, 5);
     stage.scene.add(slice.mesh);
     stage.before_frame.push(() => this.labels.place((p) => stage.on_canvas(p)));
