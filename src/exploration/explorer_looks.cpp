@@ -20,8 +20,10 @@ bool Explorer::State::look_around(const Point& here, bool thorough) {
     const std::vector<Place> more = detail::widest_places(*roadmap, config.spacing);
     places.insert(places.end(), more.begin(), more.end());
   }
+  constexpr int kThorough = 3;  // times twice as many rays, at first
   thorough_looks = thorough ? thorough_looks + 1 : 0;
-  const std::size_t rays = config.most_rays << std::min(thorough_looks, 30);
+  const std::size_t rays = config.most_rays
+                           << (thorough ? std::min(kThorough + thorough_looks, 30) : 0);
   return views.update(*roadmap, frontiers, config.least_frontier, places, here, rays, thorough);
 }
 

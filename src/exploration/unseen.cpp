@@ -29,20 +29,6 @@ std::vector<VoxelId> widest_views_of(const Roadmap& roadmap, const Frontiers& fr
   return widest;
 }
 
-/// The widest free voxel of the blocks that a cluster lies in.
-VoxelId widest_beside(const EsdfMap& esdf, const Frontiers& frontiers,
-                      const FrontierCluster& cluster) {
-  VoxelId best = esdf.layout.find(frontiers.parts()[cluster.parts[0]].first);
-  for (const std::size_t i : cluster.parts) {
-    const std::uint32_t slot = esdf.layout.find_block(frontiers.parts()[i].block);
-    for (VoxelId local = 0; local < kBlockVoxels; ++local) {
-      const VoxelId voxel = slot * kBlockVoxels + local;
-      if (esdf.is_open(voxel) && esdf.squared[voxel] > esdf.squared[best]) best = voxel;
-    }
-  }
-  return best;
-}
-
 }  // namespace
 
 std::vector<UnseenFrontier> Explorer::unseen() const {
@@ -69,8 +55,8 @@ std::vector<UnseenFrontier> Explorer::unseen() const {
     if (2 * looked_at > targets) found.reason = UnseenReason::kLookedInVain;
     if (home.voxel != kNoVoxel) {
       if (!parts) parts.emplace(esdf);
-      const VoxelId voxel =
-          views[c] != kNoVoxel ? views[c] : widest_beside(esdf, state.frontiers, cluster);
+      const FrontierPart& part = state.frontiers.parts()[cluster.parts[0]];
+      const VoxelId voxel = views[c] != kNoVoxel ? views[c] : esdf.layout.find(part.first);
       const std::optional<Pass> pass = parts->narrowest_move(home.voxel, voxel);
       if (pass) {
         const SpaceParts::Narrow narrow = parts->look_at(*pass);
