@@ -15,7 +15,7 @@ namespace {
 /// the segment touches, whose nearest obstacles are no more than a voxel's diagonal farther from it
 /// than the nearest of all, and looks at obstacles no farther than that.
 constexpr double kAround = 4.0;
-constexpr std::size_t kAnswersABlock = 19;
+constexpr std::size_t kAnswersABlock = 20;
 // Questions about one segment differ by a number: a radius above 0 (is it free at that?), a length
 // below 0 (the clearance, at most as much), or this one.
 constexpr double kClearance = -std::numeric_limits<double>::infinity();
