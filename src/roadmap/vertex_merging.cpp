@@ -20,13 +20,15 @@ constexpr std::size_t kAhead = 512;
 bool VertexMerging::run() {
   bool changed = false;
   std::vector<char> fresh(graph_.size(), true);  // may be worth another look
-  std::vector<Answer> answers(kAhead);
+  // What is asked in vain would be remembered, where there is a memory that knows most answers.
+  const std::size_t ahead = space_.memory() == nullptr ? kAhead : 1;
+  std::vector<Answer> answers(ahead);
   for (bool again = true; again; changed |= again) {
     again = false;
     const std::vector<NeighbourPair> pairs = pairs_to_ask(fresh);
     fresh.assign(graph_.size(), false);
-    for (std::size_t first = 0; first < pairs.size(); first += kAhead) {
-      const std::size_t count = std::min(kAhead, pairs.size() - first);
+    for (std::size_t first = 0; first < pairs.size(); first += ahead) {
+      const std::size_t count = std::min(ahead, pairs.size() - first);
       parallel_for_each_index(
           count, [&](std::size_t i) { answers[i] = ask(pairs[first + i]); }, 8);
       for (std::size_t i = 0; i < count; ++i) {
