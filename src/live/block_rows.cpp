@@ -39,6 +39,24 @@ unsigned bits_on_line(const VoxelMask::Block& block, int axis, int line) {
   return bits;
 }
 
+/// A bit for each line along an axis that holds members of a block, by its number.
+std::uint64_t lines_in_block(const VoxelMask::Block& block, int axis) {
+  std::uint64_t lines = 0;
+  for (std::size_t z = 0; z < kBlockSide; ++z) {
+    std::uint64_t layer = block[z];
+    if (axis == 2) {
+      lines |= layer;
+    } else if (axis == 1) {  // rows united in the lowest byte
+      for (const int shift : {32, 16, 8}) layer |= layer >> shift;
+      lines |= (layer & 0xffu) << (8 * z);
+    } else {  // each row united in its lowest bit; the product gathers these in the highest byte
+      for (const int shift : {4, 2, 1}) layer |= layer >> shift;
+      lines |= ((layer & 0x0101010101010101u) * 0x0102040810204080u >> 56) << (8 * z);
+    }
+  }
+  return lines;
+}
+
 }  // namespace
 
 SweepReach reach_of(double farthest) {
@@ -86,6 +104,12 @@ BlockRow row_around(const BlockLayout& layout, std::span<const std::uint32_t> la
   }
   row.is_end = at == BlockLayout::kNoBlock;
   return row;
+}
+
+std::uint64_t due_lines(const BlockRow& row, const VoxelMask& mask, int axis) {
+  std::uint64_t lines = 0;
+  for (const std::size_t i : row.due) lines |= lines_in_block(mask.block(row.slots[i]), axis);
+  return lines;
 }
 
 void due_places(const BlockRow& row, const VoxelMask& mask, int axis, int line,

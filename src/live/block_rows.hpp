@@ -69,6 +69,10 @@ void for_each_row_around(const BlockLayout& layout, std::span<const std::uint32_
     body(row_around(layout, lane, axis, margin, next));
 }
 
+/// A bit for each line along an axis of a row (numbered as for RowLine) that holds members of a
+/// mask in those of its blocks that are due.
+std::uint64_t due_lines(const BlockRow& row, const VoxelMask& mask, int axis);
+
 /// The places of a mask's members on a line of a row, in those of its blocks that are due.
 void due_places(const BlockRow& row, const VoxelMask& mask, int axis, int line,
                 std::vector<int>& places);

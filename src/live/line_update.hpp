@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <cstdlib>
 #include <vector>
@@ -207,12 +208,13 @@ void sweep_again(const BlockLayout& layout, const Sweep& sweep, bool solid_outsi
   parallel_for_each_index(lanes.size(), [&](std::size_t i) {
     for_each_row_around(layout, lanes[i], Sweep::kAxis, 2 * reach.voxels, [&](const BlockRow& row) {
       RowUpdate<Sweep> update(row, sweep, solid_outside, reach, changed);
-      std::vector<int> places, lowered;
-      for (int line = 0; line < kBlockSide * kBlockSide; ++line) {
+      std::vector<int> places;
+      const std::uint64_t lowered = due_lines(row, due.lowered, Sweep::kAxis);
+      for (std::uint64_t lines = due_lines(row, due.voxels, Sweep::kAxis); lines != 0;
+           lines &= lines - 1) {
+        const int line = std::countr_zero(lines);
         due_places(row, due.voxels, Sweep::kAxis, line, places);
-        if (places.empty()) continue;
-        due_places(row, due.lowered, Sweep::kAxis, line, lowered);
-        update.sweep_line(line, places, !lowered.empty());
+        update.sweep_line(line, places, (lowered >> line & 1) != 0);
       }
       update.name_changed(named[i]);
     });
