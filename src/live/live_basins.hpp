@@ -19,8 +19,9 @@ struct LiveBasins {
   FlatTable<VoxelId, std::uint32_t> number_of_peak = {};
 };
 
-/// Follows a field after update_ridges: ways and peaks in blocks in which a distance has changed
-/// and those beside them, numbers also where ways lead to voxels whose basin became another.
+/// Follows a field after update_traversable: ways and peaks in blocks in which a distance has
+/// changed and those beside them, numbers also where ways lead to voxels whose basin became
+/// another.
 void update_basins(LiveBasins& basins, BasinNumbers& numbers, const LiveField& field,
                    const LiveRidges& ridges);
 

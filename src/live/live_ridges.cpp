@@ -126,17 +126,21 @@ std::vector<std::uint32_t> blocks_around(const BlockLayout& layout, const Marked
   return std::move(around.slots);
 }
 
-void update_ridges(LiveRidges& ridges, const LiveField& field) {
+void update_traversable(LiveRidges& ridges, const LiveField& field) {
   const EsdfMap& esdf = field.esdf;
-  for (VoxelMask* mask : {&ridges.traversable, &ridges.gvd, &ridges.thick_edges, &ridges.edges})
-    mask->grow(esdf.layout);
-  for (MarkedVoxels* marked :
-       {&ridges.changed_space, &ridges.changed_gvd, &ridges.changed_thick, &ridges.seen})
-    marked->grow_voxels(esdf.layout);
+  ridges.traversable.grow(esdf.layout);
+  ridges.changed_space.grow_voxels(esdf.layout);
   remake(
       field.changed.slots,
       [&](std::uint32_t slot) { return traversable_in_block(esdf, ridges.radius, slot); },
       ridges.traversable, ridges.changed_space, ridges.traversable_count);
+}
+
+void update_edges(LiveRidges& ridges, const LiveField& field) {
+  const EsdfMap& esdf = field.esdf;
+  for (VoxelMask* mask : {&ridges.gvd, &ridges.thick_edges, &ridges.edges}) mask->grow(esdf.layout);
+  for (MarkedVoxels* marked : {&ridges.changed_gvd, &ridges.changed_thick, &ridges.seen})
+    marked->grow_voxels(esdf.layout);
   remake(
       blocks_around(esdf.layout, field.changed),
       [&](std::uint32_t slot) {

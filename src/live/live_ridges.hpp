@@ -24,9 +24,12 @@ struct LiveRidges {
 /// The blocks of marked voxels and of their 26-neighbours, ascending.
 std::vector<std::uint32_t> blocks_around(const BlockLayout& layout, const MarkedVoxels& marked);
 
-/// Follows a field after update_distances: blocks in which something has changed, and those beside
-/// it; of the edges whole components, which thinning does not look beyond. Where unknown space is
-/// an obstacle.
-void update_ridges(LiveRidges& ridges, const LiveField& field);
+/// What is traversable follows a field after update_distances: blocks in which something has
+/// changed. Where unknown space is an obstacle.
+void update_traversable(LiveRidges& ridges, const LiveField& field);
+
+/// And after that the rest: blocks in which something has changed, and those beside it; of the
+/// edges whole components, which thinning does not look beyond.
+void update_edges(LiveRidges& ridges, const LiveField& field);
 
 }  // namespace ridgeway::detail

@@ -110,7 +110,8 @@ LiveRoadmap::State::Live LiveRoadmap::State::remade() const {
   Live other = nothing(now->field.esdf.origin);
   apply_changes(other.field, all_of(map_of(now->field)));
   update_distances(other.field);
-  update_ridges(other.ridges, other.field);
+  update_traversable(other.ridges, other.field);
+  update_edges(other.ridges, other.field);
   update_basins(other.basins, other.memory->basin, other.field, other.ridges);
   return other;
 }
@@ -124,16 +125,17 @@ std::shared_ptr<const Roadmap> LiveRoadmap::State::built_on(Live& live, detail::
   report.changed_blocks = field.changed.slots.size();
   build.allocated_voxels = field.esdf.layout.voxel_count();
   build.seconds.esdf = lap.seconds();
-  update_ridges(live.ridges, field);
+  update_traversable(live.ridges, field);
   build.traversable_voxels = live.ridges.traversable_count;
-  build.gvd_voxels = live.ridges.gvd_count;
-  build.edge_voxels = live.ridges.thick_count;
   build.seconds.gvd = lap.seconds();
   update_basins(live.basins, live.memory->basin, field, live.ridges);
   build.seconds.kernel = lap.seconds();
   live.memory->segments.change(field.esdf.layout, changed_since(field));
   live.memory->peeling.change(field.esdf.layout, field.changed.voxels, field.changed.slots);
-  if (build.traversable_voxels == 0) return nullptr;
+  if (build.traversable_voxels == 0) {
+    update_edges(live.ridges, field);
+    return nullptr;
+  }
   BuildResult result;
   result.report = build;
   result.roadmap.esdf = share(field);
@@ -143,8 +145,20 @@ std::shared_ptr<const Roadmap> LiveRoadmap::State::built_on(Live& live, detail::
   result.report.seconds.kernel += lap.seconds();
   const Progress none;
   detail::StageClock clock(none);
-  detail::build_on_watershed(live.ridges.traversable, live.ridges.edges, std::move(watershed),
-                             config.build, result, clock, live.memory.get());
+  double edge_seconds = 0.0;
+  const auto edges = [&] {
+    detail::Lap own;
+    update_edges(live.ridges, field);
+    edge_seconds = own.seconds();
+    return live.ridges.edges;
+  };
+  detail::build_on_watershed(live.ridges.traversable, edges, std::move(watershed), config.build,
+                             result, clock, live.memory.get());
+  BuildReport& built = result.report;
+  built.gvd_voxels = live.ridges.gvd_count;
+  built.edge_voxels = live.ridges.thick_count;
+  built.seconds.gvd += edge_seconds;  // which are of the kernel's, that was peeled meanwhile
+  built.seconds.kernel -= edge_seconds;
   result.roadmap.attach = share(live.attach, field.esdf.layout, result.roadmap.attach);
   return published(std::move(result), build);
 }

@@ -120,44 +120,71 @@ void build_on_distances(VoxelMask traversable, const BuildConfig& config, BuildR
   clock.begin("kernel");
   Watershed watershed = find_watershed(esdf, traversable);
   clock.end(report.seconds.kernel);
-  build_on_watershed(std::move(traversable), std::move(edges), std::move(watershed), config, result,
-                     clock, nullptr, beside);
+  build_on_watershed(
+      std::move(traversable), [&] { return std::move(edges); }, std::move(watershed), config,
+      result, clock, nullptr, beside);
 }
 
-void build_on_watershed(VoxelMask traversable, VoxelMask edges, Watershed watershed,
+namespace {
+
+/// What is left of traversable space when it is peeled, and the peaks that stay in it. Completes
+/// the watershed by its passes.
+struct Peeled {
+  Basins basins;
+  VoxelMask peaks, kernel;
+};
+
+Peeled peel(const RememberedSpace& space, VoxelMask traversable, Watershed watershed,
+            double min_clearance, BuildMemory* memory) {
+  const EsdfMap& esdf = space.map();
+  VoxelMask not_simple = std::move(watershed.basins.not_simple_at_first_turn);
+  Basins basins;
+  parallel_for_each_index(2, [&](std::size_t task) {  // neither of which knows of the other
+    if (task == 0)
+      basins = find_passes(space, min_clearance, std::move(watershed));
+    else
+      join_background(esdf, traversable, not_simple);  // to have fewer voxels of it
+  });
+  basins.not_simple_at_first_turn = std::move(not_simple);
+  VoxelMask peaks = significant_peaks(esdf, basins);
+  VoxelMask kernel =
+      memory != nullptr
+          ? memory->peeling.peel(esdf, traversable, basins.not_simple_at_first_turn, peaks)
+          : peel_levels(esdf, traversable, basins.not_simple_at_first_turn, peaks);
+  return {std::move(basins), std::move(peaks), std::move(kernel)};
+}
+
+}  // namespace
+
+void build_on_watershed(VoxelMask traversable, const EdgesOf& edges_of, Watershed watershed,
                         const BuildConfig& config, BuildResult& result, StageClock& clock,
                         BuildMemory* memory, const Beside& beside) {
   Roadmap& roadmap = result.roadmap;
   const EsdfMap& esdf = roadmap.esdf;
   BuildReport& report = result.report;
 
-  require_memory_for(edges, kKernelBytesPerEdgeVoxel);
   clock.start();
   SegmentMemory* const segments = memory == nullptr ? nullptr : &memory->segments;
   const RememberedSpace space(esdf, segments);
-  VoxelMask joined = traversable;  // to have fewer voxels of it
-  VoxelMask not_simple = std::move(watershed.basins.not_simple_at_first_turn);
-  Basins basins;
-  parallel_for_each_index(2, [&](std::size_t task) {  // neither of which knows of the other
-    if (task == 0)
-      basins = find_passes(space, config.min_clearance, std::move(watershed));
-    else
-      join_background(esdf, joined, not_simple);
+  VoxelMask edges;
+  Peeled peeled;
+  parallel_for_each_index(2, [&](std::size_t task) {
+    if (task == 0) {
+      edges = edges_of();
+      require_memory_for(edges, kKernelBytesPerEdgeVoxel);
+    } else {
+      peeled =
+          peel(space, std::move(traversable), std::move(watershed), config.min_clearance, memory);
+    }
   });
-  basins.not_simple_at_first_turn = std::move(not_simple);
-  traversable = std::move(joined);
+  Basins& basins = peeled.basins;
+  VoxelMask& kernel = peeled.kernel;
   report.traversable_components = basins.components();
-  const VoxelMask peaks = significant_peaks(esdf, basins);
-  VoxelMask kernel =
-      memory != nullptr
-          ? memory->peeling.peel(esdf, traversable, basins.not_simple_at_first_turn, peaks)
-          : peel_levels(esdf, traversable, basins.not_simple_at_first_turn, peaks);
-  traversable = {};
   report.kernel_voxels = kernel.count();
   VoxelMask diagram;
   parallel_for_each_index(beside ? 2 : 1, [&](std::size_t task) {
     if (task == 1) return beside();
-    open_shells(esdf, kernel, peaks);
+    open_shells(esdf, kernel, peeled.peaks);
     diagram = detail::join_diagram(space, edges, kernel, config.min_clearance, basins);
   });
   clock.end(report.seconds.kernel);

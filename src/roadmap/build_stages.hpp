@@ -65,9 +65,13 @@ using Beside = std::function<void()>;
 void build_on_distances(VoxelMask traversable, const BuildConfig& config, BuildResult& result,
                         StageClock& clock, const Beside& beside = {});
 
-/// And from the edges of the diagram, thinned, and the watershed of what is traversable. `memory`:
-/// where the map is one that changes.
-void build_on_watershed(VoxelMask traversable, VoxelMask edges, Watershed watershed,
+/// The thinned edges of the diagram: asked for once, while the kernel is peeled, which does
+/// without.
+using EdgesOf = std::function<VoxelMask()>;
+
+/// And from these edges and the watershed of what is traversable. `memory`: where the map is one
+/// that changes.
+void build_on_watershed(VoxelMask traversable, const EdgesOf& edges_of, Watershed watershed,
                         const BuildConfig& config, BuildResult& result, StageClock& clock,
                         BuildMemory* memory = nullptr, const Beside& beside = {});
 

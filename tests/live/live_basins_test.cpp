@@ -27,7 +27,7 @@ TEST(LiveBasins, AfterRandomChangesAreThoseOfTheField) {
       SCOPED_TRACE(step);
       apply_changes(field, testing::random_changes(random, {-34, -20, -22}, {30, 34, 20}));
       update_distances(field);
-      update_ridges(ridges, field);
+      update_traversable(ridges, field);
       update_basins(basins, numbers, field, ridges);
       const detail::Watershed live = watershed_of(basins, numbers, field);
       detail::Watershed fresh = detail::find_watershed(field.esdf, ridges.traversable);

@@ -41,7 +41,8 @@ TEST(LiveRidges, AfterRandomChangesAreThoseOfTheField) {
       with_threads(1 + step % 2, [&] {
         apply_changes(field, changes);
         update_distances(field);
-        update_ridges(ridges, field);
+        update_traversable(ridges, field);
+        update_edges(ridges, field);
       });
       expect_those_of(ridges, field.esdf);
       members += ridges.edges.count();
