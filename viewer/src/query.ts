@@ -88,7 +88,8 @@ export class QueryPanel {
       const answer = await ask_json<PlanAnswer>(this.page.source, "/api/plan", is_quick ? { ...parameters, explain: "0" } : parameters);
       this.answer_time = performance.now() - started;
       this.show(answer);
-      if (answer.status === "ok" && !is_quick && this.wanted === "nothing") await this.flight.fly(parameters);
+      const first = this.shown[0];
+      if (first && !is_quick && this.wanted === "nothing") await this.flight.fly(parameters, first.waypoints);
     } catch (error) {
       this.show_failure((error as Error).message);
     }

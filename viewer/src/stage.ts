@@ -24,6 +24,10 @@ export class Stage {
   readonly box = new THREE.Box3(new THREE.Vector3(), new THREE.Vector3(1, 1, 1));
   /** Called before a frame, which is coarse while the view moves and frames are slow: whether less than all is drawn. */
   readonly before_frame: ((is_coarse: boolean) => boolean | void)[] = [];
+  /** Pixels at the canvas's left that something lies over. */
+  covered: () => number = () => 0;
+  /** Nothing is drawn but when draw() is called: not all that belongs to the first picture is there. */
+  holds = false;
   frames = 0;
   /** Frames for which all that stands was drawn. */
   stills = 0;
@@ -122,7 +126,7 @@ export class Stage {
     this.asked = true;
     requestAnimationFrame(() => {
       this.asked = false;
-      this.draw();
+      if (!this.holds) this.draw();
     });
   }
 
@@ -213,6 +217,7 @@ export class Stage {
     this.controls.target.copy(middle);
     this.perspective.position.copy(middle).add(from);
     this.controls.update();
+    this.move_aside();
     this.changed();
   }
 
@@ -224,9 +229,8 @@ export class Stage {
     const right = new THREE.Vector3().crossVectors(this.perspective.up, back).normalize();
     const up = new THREE.Vector3().crossVectors(back, right);
     let distance = 1;
-    for (let corner = 0; corner < 8; ++corner) {
-      const { min, max } = this.box;
-      const from = new THREE.Vector3(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y, corner & 4 ? max.z : min.z).sub(place);
+    for (const corner of this.corners()) {
+      const from = corner.sub(place);
       const beside = Math.max(Math.abs(from.dot(right)) / (slope * aspect), Math.abs(from.dot(up)) / slope);
       distance = Math.max(distance, beside + from.dot(back));
     }
@@ -247,7 +251,29 @@ export class Stage {
     this.fit_orthographic();
     this.controls.target.copy(middle);
     this.controls.update();
+    this.move_aside();
     this.changed();
+  }
+
+  /** Moves the box to the right, as far as there is room, from below what lies over the canvas. */
+  private move_aside(): void {
+    const kGap = 8;
+    const width = this.canvas.clientWidth;
+    const across = this.corners().map((corner) => this.on_canvas(corner)?.x ?? 0);
+    const step = Math.min(this.covered() + kGap - Math.min(...across), width - kGap - Math.max(...across));
+    if (!(step > 0)) return;
+    const at = this.on_canvas(this.controls.target)!;
+    const target = this.ray_at(at.x - step, at.y).intersectPlane(
+      new THREE.Plane().setFromNormalAndCoplanarPoint(this.camera_now.getWorldDirection(new THREE.Vector3()), this.controls.target), new THREE.Vector3());
+    if (!target) return;
+    this.camera_now.position.add(target.clone().sub(this.controls.target));
+    this.controls.target.copy(target);
+    this.controls.update();
+  }
+
+  private corners(): THREE.Vector3[] {
+    const { min, max } = this.box;
+    return [0, 1, 2, 3, 4, 5, 6, 7].map((corner) => new THREE.Vector3(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y, corner & 4 ? max.z : min.z));
   }
 
   /** Moves the view to a place, so that so many metres around it can be seen. */
