@@ -7,6 +7,8 @@ import { StillPicture } from "./still_picture";
 /** Turns are slow in software: then less is drawn of each frame while the view moves. */
 const kSlowFrame = 50; // milliseconds
 const kStill = 250;
+/** How long a frame waits for an answer that changes it, too. */
+const kAnswer = 50;
 
 /**
  * The picture: camera, lights and a frame when something has changed, none otherwise. Positions are
@@ -37,7 +39,8 @@ export class Stage {
   private camera_now: THREE.PerspectiveCamera | THREE.OrthographicCamera = this.perspective;
   private readonly still = new StillPicture();
   private is_still_old = true;
-  private asked = false;
+  private asked = 0; // the next frame
+  private awaiting = 0;
   private coarse = false;
   private is_moving_over = false;
   /** The view that was last asked for, until the user turns it. */
@@ -123,16 +126,28 @@ export class Stage {
   /** Asks for a frame in which only what moves over the map is another. */
   changed_over(): void {
     if (this.asked) return;
-    this.asked = true;
-    requestAnimationFrame(() => {
-      this.asked = false;
+    this.asked = requestAnimationFrame(() => {
+      this.asked = 0;
       if (!this.holds) this.draw();
     });
+  }
+
+  /** As changed_over, of what an answer that is on its way changes, too: that calls answered(). */
+  changes_with_answer(): void {
+    if (!this.awaiting) this.awaiting = window.setTimeout(() => this.changed_over(), kAnswer);
+  }
+
+  /** The frame after a drag's step is drawn as soon as all of it is known: it can be seen in the next frame of the page, not the one after. */
+  answered(): void {
+    if (this.awaiting) this.draw();
   }
 
   draw(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0 || height === 0) return;
+    cancelAnimationFrame(this.asked);
+    clearTimeout(this.awaiting);
+    this.asked = this.awaiting = 0;
     const started = performance.now();
     this.fit_canvas(width, height);
     let is_less = false;
