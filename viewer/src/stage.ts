@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { corners_of, distance_to_see_all, step_aside } from "./framing";
 import { StillPicture } from "./still_picture";
 
 /** Turns are slow in software: then less is drawn of each frame while the view moves. */
@@ -189,7 +190,7 @@ export class Stage {
   }
 
   private fit_orthographic(): void {
-    const half = (this.orthographic.top * this.canvas.clientWidth) / Math.max(1, this.canvas.clientHeight);
+    const half = this.orthographic.top * this.aspect;
     this.orthographic.left = -half;
     this.orthographic.right = half;
     this.orthographic.updateProjectionMatrix();
@@ -205,6 +206,9 @@ export class Stage {
     this.orthographic.far = 3 * reach;
     this.perspective.updateProjectionMatrix();
     this.fit_orthographic();
+  }
+  private get aspect(): number {
+    return this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
   }
   get size(): THREE.Vector3 {
     return this.box.getSize(new THREE.Vector3());
@@ -228,28 +232,12 @@ export class Stage {
     this.preset = () => this.look_from_side();
     const middle = this.box.getCenter(new THREE.Vector3());
     const back = new THREE.Vector3(-0.25, -0.75, 0.85).normalize();
-    const from = back.clone().multiplyScalar(this.distance_to_see_all(middle, back));
+    const from = back.clone().multiplyScalar(distance_to_see_all(this.perspective, this.aspect, this.box, middle, back));
     this.controls.target.copy(middle);
     this.perspective.position.copy(middle).add(from);
     this.controls.update();
     this.move_aside();
     this.changed();
-  }
-
-  /** How far back from a place all of the box can be seen. */
-  private distance_to_see_all(place: THREE.Vector3, back: THREE.Vector3): number {
-    const kRoom = 1.03;
-    const aspect = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
-    const slope = Math.tan(THREE.MathUtils.degToRad(this.perspective.fov / 2)) / kRoom;
-    const right = new THREE.Vector3().crossVectors(this.perspective.up, back).normalize();
-    const up = new THREE.Vector3().crossVectors(back, right);
-    let distance = 1;
-    for (const corner of this.corners()) {
-      const from = corner.sub(place);
-      const beside = Math.max(Math.abs(from.dot(right)) / (slope * aspect), Math.abs(from.dot(up)) / slope);
-      distance = Math.max(distance, beside + from.dot(back));
-    }
-    return distance;
   }
 
   look_from_above(): void {
@@ -258,8 +246,7 @@ export class Stage {
     this.preset = () => this.look_from_above();
     const { size } = this;
     const middle = this.box.getCenter(new THREE.Vector3());
-    const aspect = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
-    this.orthographic.top = 0.54 * Math.max(size.y, size.x / aspect);
+    this.orthographic.top = 0.54 * Math.max(size.y, size.x / this.aspect);
     this.orthographic.bottom = -this.orthographic.top;
     this.orthographic.zoom = 1;
     this.orthographic.position.set(middle.x, middle.y - 1e-3, middle.z + size.length());
@@ -272,11 +259,9 @@ export class Stage {
 
   /** Moves the box to the right, as far as there is room, from below what lies over the canvas. */
   private move_aside(): void {
-    const kGap = 8;
-    const width = this.canvas.clientWidth;
-    const across = this.corners().map((corner) => this.on_canvas(corner)?.x ?? 0);
-    const step = Math.min(this.covered() + kGap - Math.min(...across), width - kGap - Math.max(...across));
-    if (!(step > 0)) return;
+    const across = corners_of(this.box).map((corner) => this.on_canvas(corner)?.x ?? 0);
+    const step = step_aside(Math.min(...across), Math.max(...across), this.covered(), this.canvas.clientWidth);
+    if (step === 0) return;
     const at = this.on_canvas(this.controls.target)!;
     const target = this.ray_at(at.x - step, at.y).intersectPlane(
       new THREE.Plane().setFromNormalAndCoplanarPoint(this.camera_now.getWorldDirection(new THREE.Vector3()), this.controls.target), new THREE.Vector3());
@@ -284,11 +269,6 @@ export class Stage {
     this.camera_now.position.add(target.clone().sub(this.controls.target));
     this.controls.target.copy(target);
     this.controls.update();
-  }
-
-  private corners(): THREE.Vector3[] {
-    const { min, max } = this.box;
-    return [0, 1, 2, 3, 4, 5, 6, 7].map((corner) => new THREE.Vector3(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y, corner & 4 ? max.z : min.z));
   }
 
   /** Moves the view to a place, so that so many metres around it can be seen. */

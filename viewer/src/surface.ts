@@ -48,8 +48,8 @@ void main() {
   colour = vec4(facing > 0.0 ? base * light : base * 0.34, 1.0);
 }`;
 
-/** Pixels that a rectangle is drawn larger by, to each side. */
-const kLarger = 0.25;
+/** Pixels that a rectangle is drawn larger by, to each side: some of the 256 parts of a pixel that corners are rounded to. */
+const kLarger = 0.02;
 
 export interface Hit {
   distance: number;
