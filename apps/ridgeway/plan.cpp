@@ -122,7 +122,7 @@ int run_batch(const PlanOptions& options, const Roadmap& roadmap, const Globals&
     if (globals.json)
       results.push_back(json_of(facts, answer, query));
     else
-      print_line(result, facts.reason(query, result.status));
+      print_line(result, facts.reason(as_planned(query, result), result.status));
   }
   if (globals.json)
     print_json({{"queries", queries.size()}, {"solved", solved}, {"results", results}});

@@ -35,8 +35,9 @@ Json json_of(AnswerFacts& facts, const Answer& answer, const Query& query) {
     json["unknown"]["share"] = around.unknown_share;
     json["unknown"]["inside"] = around.unknown_inside;
   } else {
-    json["reason"] = facts.reason(query, answer.plan.status);
-    if (const auto blocked = facts.blocked(query, answer.plan.status))
+    const Query planned = as_planned(query, answer.plan);
+    json["reason"] = facts.reason(planned, answer.plan.status);
+    if (const auto blocked = facts.blocked(planned, answer.plan.status))
       json.update(json_of(*blocked));
   }
   if (!is_sampling(answer.plan.answered_by)) return json;
@@ -50,7 +51,7 @@ void print_result(AnswerFacts& facts, const Answer& answer, const Query& query) 
   const PlanResult& result = answer.plan;
   if (!result.ok()) {
     print_row("no path", std::string(name_of(result.status)));
-    print_row("reason", facts.reason(query, result.status));
+    print_row("reason", facts.reason(as_planned(query, result), result.status));
     return;
   }
   const PlanSeconds& s = result.seconds;

@@ -26,6 +26,10 @@ int run_alternatives(const PlanOptions& options, const Roadmap& roadmap, const G
   const Alternatives found = plan_alternatives(
       roadmap, query.start, query.goal, *options.alternatives, plan_config(options, query.radius));
   AnswerFacts facts(roadmap, options.escape, limits_of(options.limits));
+  // Where there are no routes, planning once more tells where the ends were moved to.
+  const Query planned = found.ok() ? query
+                                   : as_planned(query, plan(roadmap, query.start, query.goal,
+                                                            plan_config(options, query.radius)));
   std::vector<std::filesystem::path> files;
   if (!options.output.empty()) files = outputs_of(options);
   files.resize(std::min(files.size(), found.routes.size()));
@@ -36,14 +40,14 @@ int run_alternatives(const PlanOptions& options, const Roadmap& roadmap, const G
                  {"complete", found.complete},
                  {"seconds", found.seconds},
                  {"routes", Json::array()}};
-    if (!found.ok()) json["reason"] = facts.reason(query, found.status);
-    if (const auto blocked = facts.blocked(query, found.status)) json.update(json_of(*blocked));
+    if (!found.ok()) json["reason"] = facts.reason(planned, found.status);
+    if (const auto blocked = facts.blocked(planned, found.status)) json.update(json_of(*blocked));
     for (const PlanResult& route : found.routes)
       json["routes"].push_back(json_of(facts, {.plan = route}, query));
     print_json(json);
     return found.ok() ? kExitDone : kExitNoPlan;
   }
-  if (!found.ok()) print_row(name_of(found.status), facts.reason(query, found.status));
+  if (!found.ok()) print_row(name_of(found.status), facts.reason(planned, found.status));
   for (std::size_t i = 0; i < found.routes.size(); ++i) {
     const PlanResult& route = found.routes[i];
     print_row("route " + count_text(i + 1),
@@ -75,7 +79,7 @@ int run_goals(const PlanOptions& options, const Roadmap& roadmap, const Globals&
       results.push_back(json_of(facts, {.plan = plan}, query));
       results.back()["distance"] = plans[i].distance;
     } else {
-      print_line(plan, facts.reason(query, plan.status));
+      print_line(plan, facts.reason(as_planned(query, plan), plan.status));
     }
   }
   if (globals.json)

@@ -6,7 +6,9 @@
 
 #include "common/rounding.hpp"
 #include "console.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/voxel/index.hpp"
 
 namespace ridgeway::cli {
 namespace {
@@ -70,6 +72,31 @@ std::string explain_endpoint(const Roadmap& roadmap, const Query& query, PlanSta
 
 OccupancyMap occupancy_of(const EsdfMap& esdf) {
   return {esdf.voxel_size, esdf.origin, esdf.layout, esdf.state, esdf.planar};
+}
+
+Query as_planned(Query query, const PlanResult& plan) {
+  if (plan.moved_start.distance > 0.0) query.start = plan.moved_start.place;
+  if (plan.moved_goal.distance > 0.0) query.goal = plan.moved_goal.place;
+  return query;
+}
+
+PlanResult given_path(const Roadmap& roadmap, std::vector<Point> waypoints,
+                      const std::string& where) {
+  PlanResult path;
+  path.waypoints = std::move(waypoints);
+  if (path.waypoints.empty())
+    throw InputError(where, "has no waypoint", "give a path of plan, or one of your own");
+  path.status = PlanStatus::kOk;
+  path.unknown = roadmap.esdf.unknown;
+  path.length = length_of(path.waypoints);
+  std::vector<Point> local;
+  for (const Point& p : path.waypoints) {
+    local.push_back(to_local(roadmap.esdf, p));
+    if (!has_voxel(local.back(), roadmap.esdf.voxel_size))
+      throw InputError(where, "has a waypoint far outside the map", "give metres, in its frame");
+  }
+  path.clearance = FreeSpace(roadmap.esdf).clearance(local);
+  return path;
 }
 
 std::string AnswerFacts::explain_no_route(const Query& query) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "query_file.hpp"
 #include "ridgeway/mapping/occupancy_map.hpp"
@@ -16,6 +17,14 @@ namespace ridgeway::cli {
 /// The occupancy that a distance field was computed from.
 OccupancyMap occupancy_of(const EsdfMap& esdf);
 
+/// The query as it was planned: from and to where its ends were moved, if they were.
+Query as_planned(Query query, const PlanResult& plan);
+
+/// A path that was given, to be flown as it is; the trajectory along it says whether it is free.
+/// Throws InputError, naming `where` it came from, for one without waypoints or off the map.
+PlanResult given_path(const Roadmap& roadmap, std::vector<Point> waypoints,
+                      const std::string& where);
+
 /// What people ask about answers, beyond what a query finds out: what a path runs beside, and why
 /// there is none. What that takes of the whole map is made once, when it is first asked for.
 class AnswerFacts {
@@ -24,6 +33,8 @@ class AnswerFacts {
   /// of the flights (world).
   AnswerFacts(const Roadmap& roadmap, bool escapes, FlightLimits limits = {})
       : roadmap_(roadmap), escapes_(escapes), limits_(std::move(limits)) {}
+
+  // Of a query as it was planned:
 
   /// Why a plan has its status, and what to do about it; empty if it is ok.
   std::string reason(const Query& query, PlanStatus status);

@@ -113,25 +113,6 @@ PlanConfig plan_config(const TrajectoryOptions& options, double radius) {
   return config;
 }
 
-/// A path as it stands in a file; the trajectory along it says whether it is free.
-PlanResult path_of_file(const Roadmap& roadmap, const std::string& file) {
-  PlanResult path;
-  path.waypoints = read_path(file);
-  if (path.waypoints.empty())
-    throw InputError(file, "has no waypoint", "give a path of plan, or one of your own");
-  path.status = PlanStatus::kOk;
-  path.unknown = roadmap.esdf.unknown;
-  path.length = length_of(path.waypoints);
-  std::vector<Point> local;
-  for (const Point& p : path.waypoints) {
-    local.push_back(to_local(roadmap.esdf, p));
-    if (!has_voxel(local.back(), roadmap.esdf.voxel_size))
-      throw InputError(file, "has a waypoint far outside the map", "give metres, in its frame");
-  }
-  path.clearance = FreeSpace(roadmap.esdf).clearance(local);
-  return path;
-}
-
 /// What to fly along, or the query that has no path.
 struct Course {
   PlanResult path;
@@ -140,7 +121,7 @@ struct Course {
 
 Course find_course(const TrajectoryOptions& options, const Roadmap& roadmap, double radius) {
   if (!options.path.empty()) {
-    Course course{path_of_file(roadmap, options.path), {}};
+    Course course{given_path(roadmap, read_path(options.path), options.path), {}};
     course.query = {course.path.waypoints.front(), course.path.waypoints.back(), radius};
     return course;
   }
@@ -187,7 +168,7 @@ int run(const TrajectoryOptions& options, const Globals& globals) {
   if (!path.ok())
     return report_none(std::string(name_of(path.status)),
                        AnswerFacts(roadmap, options.escape, config.flight_limits)
-                           .reason(course.query, path.status),
+                           .reason(as_planned(course.query, path), path.status),
                        Json::parse(plan_json(path)), globals);
   const TrajectoryResult flown = fly_plan(roadmap.esdf, path, config);
   if (!flown.ok())

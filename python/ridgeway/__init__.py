@@ -33,7 +33,7 @@ from ridgeway._values import (
 __all__ = [name for name in vars(_core) if not name.startswith("_")]
 __all__ += ["FREE", "OCCUPIED", "UNKNOWN", "Grid", "Surface", "TrajectorySamples", "__version__"]
 
-# The program that reads meshes comes with the package where pip installed it.
+# The program that reads meshes lies beside the package, but where it is Debian's.
 _reader = _os.path.join(_os.path.dirname(__file__), "ridgeway-mesh-reader")
 if _os.access(_reader, _os.X_OK):
     _os.environ.setdefault("RIDGEWAY_MESH_READER", _reader)

@@ -75,5 +75,7 @@ void add_flights(py::module_& module);
 void add_fusion(py::module_& module);
 void add_live(py::module_& module);
 void add_exploration(py::module_& module);
+/// After all others.
+void add_words_for_wrong_calls(py::module_& module);
 
 }  // namespace ridgeway::python

@@ -84,11 +84,21 @@ py::dict counts_of(const MapFace& face) {
   return dict;
 }
 
+/// Without what sums of voxels leave in the last digits.
+std::string bounds_text(const OccupancyMap& map) {
+  const std::optional<Box> box = known_bounds(map);
+  if (!box) return "None";
+  const auto rounded = [](const Point& p) -> Point {
+    return (1e6 * p).array().round() / 1e6 + 0.0;
+  };
+  return "(" + literal(rounded(box->min)) + ", " + literal(rounded(box->max)) + ")";
+}
+
 std::string repr(const MapFace& face) {
   const VoxelCounts counts = count_voxels(*face.map);
   return "OccupancyMap(voxel_size=" + literal(face.map->voxel_size) +
          ", free=" + std::to_string(counts.free) + ", occupied=" + std::to_string(counts.occupied) +
-         ", bounds=" + std::string(py::str(bounds_of(face))) +
+         ", bounds=" + bounds_text(*face.map) +
          (face.source.empty() ? "" : ", source='" + face.source + "'") + ")";
 }
 

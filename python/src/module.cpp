@@ -70,6 +70,7 @@ PYBIND11_MODULE(_core, module) {
   add_fusion(module);
   add_live(module);
   add_exploration(module);
+  add_words_for_wrong_calls(module);
   for (const auto& [name, value] : module.attr("__dict__").cast<pybind11::dict>())
     if (pybind11::isinstance<pybind11::type>(value)) value.attr("__module__") = "ridgeway";
 }

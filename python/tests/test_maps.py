@@ -200,3 +200,26 @@ def test_points_make_a_map():
     grid = OccupancyMap.from_points(points, 0.1, ((0, 0, 0), (1, 1, 1)))
     assert grid.counts == {"free": 998, "occupied": 2, "unknown": grid.counts["unknown"]}
     assert "voxel_size=0.1" in repr(grid)
+
+
+def test_wrong_calls_are_told_in_words_of_python(roadmap):
+    for call, words in (
+        (lambda: OccupancyMap.from_points(np.zeros((1, 3)), 0.1),
+         "OccupancyMap.from_points(): missing a required argument: 'bounds'; it is "
+         "OccupancyMap.from_points(points, voxel_size, bounds, transform=None)"),
+        (lambda: roadmap.plan((0, 0, 1)), "Roadmap.plan(): missing a required argument: 'goal'"),
+        (lambda: ridgeway.build("a.bt", 0.3), "build(): too many positional arguments; it is build(map, ...)"),
+        (lambda: ridgeway.compute_skeleton(roadmap), "compute_skeleton(): cannot take Roadmap; it is compute_skeleton(esdf,"),
+        (lambda: OccupancyMap(np.zeros((2, 2, 2))),
+         "OccupancyMap: is not made by calling it; use OccupancyMap.from_numpy or OccupancyMap.from_points"),
+        (lambda: ridgeway.SparseGraph(), "SparseGraph: is not made by calling it"),
+    ):
+        with pytest.raises(TypeError) as error:
+            call()
+        assert str(error.value).startswith(words)
+
+
+def test_bounds_are_printed_without_what_sums_leave():
+    cloud = [[0.05, 0.05, 0.05], [6.6, 6.6, 3.4]]
+    assert "bounds=((0.0, 0.0, 0.0), (6.6, 6.6, 3.4))" in repr(
+        OccupancyMap.from_points(cloud, 0.1, ((0, 0, 0), (6.6, 6.6, 3.4))))

@@ -3,7 +3,6 @@
 """Pictures, missions, files of others, and what is said of paths and places."""
 
 import json
-import os
 import struct
 import subprocess
 
@@ -120,8 +119,7 @@ def test_files_of_voxblox_are_read_back(roadmap, tmp_path):
 
 
 @pytest.mark.filterwarnings("ignore::UserWarning")  # which tell what was taken for granted
-def test_meshes_have_units_and_open_places(source, program, monkeypatch):
-    monkeypatch.setenv("RIDGEWAY_MESH_READER", os.path.join(os.path.dirname(program), "ridgeway-mesh-reader"))
+def test_meshes_have_units_and_open_places(source):
     mesh = source / "data/levine.stl"
     metres = ridgeway.load_map(mesh, voxel_size=0.2)
     coarse = ridgeway.load_map(mesh, voxel_size=0.2, units=0.5, up="z")

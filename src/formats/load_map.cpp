@@ -261,7 +261,7 @@ OccupancyMap load_map(const std::filesystem::path& file, const LoadConfig& confi
   throw InputError(
       name, "is in no map format that is known here",
       "give an OctoMap .bt or .ot, a mesh .dae, .glb, .obj, .stl or .ply, a point cloud "
-      ".pcd, .ply or .xyz, a world .yaml, or a .3dmap");
+      ".pcd, .ply or .xyz, voxblox layers .vxblx, a ROS map or world .yaml, or a .3dmap");
 }
 
 }  // namespace ridgeway

@@ -44,6 +44,17 @@ void tell_of_frame(const MeshFrame& own, const LoadConfig& config, LoadNotes* no
   tell(notes, what);
 }
 
+std::string enclosed_text(const MeshMapReport& report) {
+  if (report.enclosed == 0) return "";
+  const std::string spaces = report.enclosed == 1
+                                 ? "; a space that the mesh encloses is taken as solid, of "
+                                 : "; " + std::to_string(report.enclosed) +
+                                       " spaces that the mesh encloses are taken as solid, the "
+                                       "largest of ";
+  return spaces + millimetres_text(report.largest_enclosed) + " m3 around " +
+         point_text(report.in_largest);
+}
+
 void tell_of_space(const MeshMapReport& report, const LoadConfig& config, LoadNotes* notes) {
   if (!config.bounds)
     tell(notes, "the map ends where the mesh does, which spans " + size_text(report.box) + ", " +
@@ -53,11 +64,9 @@ void tell_of_space(const MeshMapReport& report, const LoadConfig& config, LoadNo
     tell(notes,
          "the mesh encloses more space than there is around it within the bounds: what it "
          "encloses is taken as free (option inside)");
-  else if (report.free == Free::kAround && report.enclosed > 0)
-    tell(notes, std::to_string(report.enclosed) +
-                    " spaces that the mesh encloses are taken as solid, the largest of " +
-                    millimetres_text(report.largest_enclosed) + " m3 (option inside " +
-                    point_text(report.in_largest) + " makes that one free)");
+  else if (report.free == Free::kAround)
+    tell(notes, "what is reached from the bounds is taken as free, outside the mesh too" +
+                    enclosed_text(report) + " (option inside)");
   if (report.leak)
     tell(notes, "the space is not closed: it is open to the bounds at " +
                     point_text(report.leak->exit) + "; the widest way there is narrowest, about " +

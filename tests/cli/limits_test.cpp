@@ -124,6 +124,18 @@ TEST_F(CliLimits, SnapMovesAnEndAndSaysSo) {
       {"--snap"});
 }
 
+TEST_F(CliLimits, ThereIsAReasonForNoRouteFromWhereAnEndWasMovedTo) {
+  std::vector<std::string> words = {"plan",     rooms(), "--from", "-2,1.5,1", "--to",  "2,0,1",
+                                    "--radius", "0.8",   "--snap", "1",        "--json"};
+  for (const bool several : {false, true}) {
+    if (several) words.insert(words.end(), {"--alternatives", "2"});
+    const Json json = run(words).json();
+    EXPECT_EQ(json["status"], "no_route");
+    EXPECT_NEAR(json["blocked"]["radius"].get<double>(), 0.6, 0.06) << json;
+    EXPECT_NE(json["reason"].get<std::string>().find("but they are at 0."), std::string::npos);
+  }
+}
+
 TEST_F(CliLimits, InfoTellsWhatIsAtAPlaceAndWhatIsInTheWay) {
   build_for("0.7", "tight.ridge");
   const Json json = run({"info", path("tight.ridge"), "--at", "-2,0,1", "--json"}).json();

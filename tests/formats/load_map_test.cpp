@@ -110,7 +110,10 @@ TEST(LoadMap, AMeshIsNotTakenForTheCloudOfItsVertices) {
               "end_header\n0 0 0\n1 0 0\n1 1 1\n3 0 1 2\n");
   LoadConfig config;
   config.voxel_size = 0.05;
-  const OccupancyMap map = load_map(folder / "room.ply", config);
+  LoadNotes notes;
+  const OccupancyMap map = load_map(folder / "room.ply", config, &notes);
+  EXPECT_TRUE(contains(notes.notes.back(), "reached from the bounds is taken as free, outside"))
+      << notes.notes.back();
   EXPECT_EQ(map.at(voxel_at(Point(0.66, 0.33, 0.33), 0.05) - map.origin), VoxelState::kOccupied);
   // In other units, another axis up.
   config.units = 2.0;

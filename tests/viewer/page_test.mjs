@@ -126,6 +126,9 @@ test("alternatives are those of the command line", async () => {
   await planned(page, () => set("alternatives", "3"));
   const routes = run_json("plan", map, "--from=-2,1,1", "--to=2,-1,1", "--alternatives", "3").routes;
   assert.equal(await page.evaluate(() => window.ridgeway.app.query.shown.length), routes.length);
+  await page.locator("#clock").waitFor({ state: "visible" });
+  const flown = page.asked.map((address) => new URL(address)).filter((address) => address.pathname === "/api/trajectory").at(-1);
+  assert.equal(flown.searchParams.get("path"), routes[0].waypoints.map((p) => p.join(",")).join(";"), "the flight is along another route");
   await planned(page, () => set("alternatives", "1"));
 });
 

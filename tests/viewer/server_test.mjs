@@ -67,6 +67,18 @@ test("plans as the command line does", async () => {
   assert.ok(flown.body.duration > plan.length);
 });
 
+test("flies along a path that is given, if it is free", async () => {
+  const path = "-2,0.3,1;0.05,0,1.2;2,-0.5,1";
+  const { body } = await ask(`api/trajectory?path=${encodeURIComponent(path)}&max_speed=1`);
+  assert.equal(body.status, "ok");
+  const places = path.split(";").map((place) => place.split(",").map(Number));
+  const nearest = (place) => Math.min(...body.samples.map((s) => Math.hypot(...s.position.map((x, i) => x - place[i]))));
+  for (const place of places) assert.ok(nearest(place) < 0.3, `${place} is passed at ${nearest(place)} m`);
+  const blocked = (await ask("api/trajectory?path=-2,1.5,1;2,1.5,1")).body;
+  assert.notEqual(blocked.status, "ok");
+  assert.match(blocked.reason, /not free/);
+});
+
 test("tells why there is no route, and where", async () => {
   const { body } = await ask("api/plan?from=-2,0,1&to=2,0,1&radius=0.8");
   assert.equal(body.status, "no_route");
@@ -74,6 +86,11 @@ test("tells why there is no route, and where", async () => {
   assert.ok(Math.abs(body.blocked.radius - 0.6) < 0.06);
   assert.ok(Math.abs(body.blocked.place[0]) < 0.3);
   assert.equal((await ask("api/plan?from=-2,0,1&to=2,0,1&radius=0.8&explain=0")).body.reason, undefined);
+  for (const several of ["", "&alternatives=2"]) {
+    const moved = (await ask(`api/plan?from=-2,1.5,1&to=2,0,1&radius=0.8&snap=1${several}`)).body;
+    assert.match(moved.reason, /not connected at a radius of 0.8 m .*but they are at/);
+    assert.ok(Math.abs(moved.blocked.radius - 0.6) < 0.06);
+  }
 });
 
 test("serves nothing but its page and its answers", async () => {
@@ -183,7 +200,7 @@ test("names the parameter that it cannot use", async () => {
     "api/plan?from=-2,0,1&to=2,0,1&planner=magic": "planner", "api/plan?from=-2,0,1&to=2,0,1&planner=rrtstar": "planner",
     "api/plan?from=-2,0,1&to=2,0,1&alternatives=1000000000": "alternatives", "api/plan?from=-2,0,1&to=2,0,1&alternatives=-1": "alternatives",
     "api/plan?from=-2,0,1&to=2,0,1&snap=-1": "snap", "api/plan?from=-2,0,1&to=2,0,1&prefer_clearance=inf": "prefer_clearance",
-    "api/trajectory?from=-2,0,1&to=2,0,1&max_speed=0": "max_speed", "api/components": "of", "api/components?of=gvd": "of", "api/slice": "z", "api/slice?z=nan": "z", "api/slice?z=1e300": "z",
+    "api/trajectory?from=-2,0,1&to=2,0,1&max_speed=0": "max_speed", "api/trajectory?path=": "path", "api/trajectory?path=1,2": "path", "api/trajectory?path=0,0,1;": "path", "api/trajectory?path=0,0,1;1e9,0,0": "path", "api/components": "of", "api/components?of=gvd": "of", "api/slice": "z", "api/slice?z=nan": "z", "api/slice?z=1e300": "z",
     "api/place?at=1e9,0,0": "at", "api/place?at=%00": "at",
   };
   for (const [path, name] of Object.entries(cases)) {

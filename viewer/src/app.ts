@@ -47,6 +47,9 @@ export class App implements Page {
     connect_keys(stage, new Pointing(this, this.query));
     this.tell_map();
     this.update_legend();
+    const box = element<HTMLDetailsElement>("legend-box");
+    stage.covered = () => (box.hidden || !box.open ? 0 : box.offsetLeft + box.offsetWidth);
+    stage.look_again();
   }
 
   hint(text: string): void {

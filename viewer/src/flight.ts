@@ -2,11 +2,14 @@
 // Copyright (c) 2026 The Ridgeway authors
 import { kFlight } from "./colours";
 import { element, input } from "./dom";
-import type { Flight } from "./layers";
+import type { Flight, Vector } from "./layers";
 import type { Legend } from "./legend";
 import { metres, place_text } from "./numbers";
 import type { Page } from "./page";
 import { ask_json } from "./source";
+
+/** Characters: the server takes addresses of 8 KiB, in which commas are three. */
+const kLongestPath = 6_000;
 
 /** The trajectory along the route, and the drone on it, by a slider for the time. */
 export class FlightPanel {
@@ -14,20 +17,24 @@ export class FlightPanel {
   is_shown: () => boolean = () => true;
   private flight?: Flight;
   private query?: Record<string, string>;
+  private waypoints: Vector[] = [];
   private playing = 0;
 
   constructor(private readonly page: Page) {
     input("time").addEventListener("input", () => this.set_time(input("time").valueAsNumber));
     element("play").addEventListener("click", () => (this.playing ? this.stop() : this.play()));
-    element("speed").addEventListener("change", () => this.query && void this.fly(this.query));
+    element("speed").addEventListener("change", () => this.query && void this.fly(this.query, this.waypoints));
   }
 
-  /** Asks for the flight that answers a query. */
-  async fly(query: Record<string, string>): Promise<void> {
+  /** Asks for the flight along the route that answers a query: as it is shown, unless it is too long to be asked for. */
+  async fly(query: Record<string, string>, waypoints: Vector[]): Promise<void> {
     const { alternatives: _, ...parameters } = query;
+    const path = waypoints.map((p) => p.join(",")).join(";");
+    const along: Record<string, string> = path.length < kLongestPath ? { path, radius: query.radius! } : parameters;
     this.query = query;
+    this.waypoints = waypoints;
     try {
-      const flight = await ask_json<Flight>(this.page.source, "/api/trajectory", { ...parameters, max_speed: input("speed").value });
+      const flight = await ask_json<Flight>(this.page.source, "/api/trajectory", { ...along, max_speed: input("speed").value });
       if (this.query === query) this.set(flight.status === "ok" ? flight : undefined);
     } catch (error) {
       this.page.hint((error as Error).message);

@@ -6,7 +6,7 @@ import { element } from "./dom";
 import type { Info } from "./layers";
 import { read_surface } from "./layers";
 import { LivePage } from "./live_page";
-import { ask_json, find_source, type MapSource } from "./source";
+import { ask_json, EarlySource, find_source, type MapSource } from "./source";
 import { Stage } from "./stage";
 import { SurfaceMesh } from "./surface";
 
@@ -23,9 +23,13 @@ function is_ready(): void {
   document.body.dataset.ready = "yes";
 }
 
+/** Asked for while the page is still being made. */
+const kMapLayers = ["/api/surface/coarse", "/api/graph", "/api/surface"];
+
 /** The map, then all that can be done with it. */
 async function begin_map(source: MapSource, stage: Stage, info: Info): Promise<void> {
   if (!info.bounds) throw new Error("nothing is known of this map");
+  stage.holds = true;
   const base = new THREE.Vector3(...info.bounds.min);
   const size = new THREE.Vector3(...info.bounds.max).sub(base);
   stage.set_box(new THREE.Vector3(), size);
@@ -40,27 +44,38 @@ async function begin_map(source: MapSource, stage: Stage, info: Info): Promise<v
   show_to_tests({ app, stage, surface });
   element("loading").textContent = "";
   await app.layers.load();
+  surface.draw_little(); // the first frame compiles the shaders: the next tells whether frames are slow
   stage.draw();
-  performance.mark("first-frame");
-  const fine = await asked_fine;
-  if (fine instanceof Error) throw fine;
-  const draw_again = () => {
+  surface.cut = surface.cut;
+  stage.holds = false;
+  const draw_all = () => {
     stage.changed();
     stage.draw();
   };
-  if (stage.is_slow) draw_again(); // it may have been the shaders, which are compiled now
+  draw_all();
+  performance.mark("first-frame");
+  const fine = await asked_fine;
+  if (fine instanceof Error) throw fine;
   surface.refine(fine);
-  if (!is_coarse_enough()) draw_again();
+  if (!is_coarse_enough()) draw_all();
   is_ready();
+}
+
+function soon(): Promise<void> {
+  return new Promise((resolve) => setTimeout(resolve, 50));
 }
 
 async function begin(): Promise<void> {
   try {
-    const source = find_source();
-    const asked_info = ask_json<Info>(source, "/api/info").catch((error: Error) => error);
+    const source = new EarlySource(find_source());
+    const asked_info = ask_json<Info>(source, "/api/info").then((info) => {
+      if (!info.live) source.begin(...kMapLayers);
+      return info;
+    });
+    asked_info.catch(() => {}); // told below
+    await Promise.race([asked_info, soon()]); // a server's answer is there before the stage is, a planner's after
     const stage = new Stage(element<HTMLCanvasElement>("canvas"));
     const info = await asked_info;
-    if (info instanceof Error) throw info;
     if (!info.live) return await begin_map(source, stage, info);
     element("loading").textContent = "Waiting for the first scan";
     const live = new LivePage(source, stage, (app) => {

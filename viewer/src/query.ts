@@ -50,9 +50,9 @@ export class QueryPanel {
   /** Sets an end, for the form and the picture. */
   set_end(which: "start" | "goal", place: Vector | undefined): void {
     this[which] = place;
-    this.page.routes.set_end(which, place);
+    this.page.routes.set_end(which, place, this.is_dragging && !!this.start && !!this.goal);
     if (place) input(which === "start" ? "from" : "to").value = place_text(place).replaceAll(",", ", ");
-    this.page.update_legend();
+    if (!this.is_dragging) this.page.update_legend();
   }
 
   /**
@@ -88,7 +88,8 @@ export class QueryPanel {
       const answer = await ask_json<PlanAnswer>(this.page.source, "/api/plan", is_quick ? { ...parameters, explain: "0" } : parameters);
       this.answer_time = performance.now() - started;
       this.show(answer);
-      if (answer.status === "ok" && !is_quick && this.wanted === "nothing") await this.flight.fly(parameters);
+      const first = this.shown[0];
+      if (first && !is_quick && this.wanted === "nothing") await this.flight.fly(parameters, first.waypoints);
     } catch (error) {
       this.show_failure((error as Error).message);
     }
@@ -106,6 +107,7 @@ export class QueryPanel {
     this.shown = routes;
     this.page.routes.show_routes(routes);
     this.flight.clear();
+    this.page.stage.answered(); // the picture first: it is drawn while the words are set
     this.blocked_place = answer.blocked?.place ?? undefined;
     element("show-place").hidden = !this.blocked_place;
     element("command").textContent = this.command();

@@ -39,11 +39,13 @@ export class RouteDrawing {
     this.stage.changed_over();
   }
 
-  set_end(which: "start" | "goal", place: Vector | undefined): void {
+  /** `awaits_route`: one from or to there will be shown soon. */
+  set_end(which: "start" | "goal", place: Vector | undefined, awaits_route = false): void {
     const marker = this[which];
     marker.visible = !!place;
     if (place) marker.position.copy(this.local(place));
-    this.stage.changed_over();
+    if (awaits_route) this.stage.changes_with_answer();
+    else this.stage.changed_over();
   }
 
   show_routes(routes: Route[]): void {

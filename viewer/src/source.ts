@@ -32,6 +32,29 @@ export class ServerSource implements MapSource {
   }
 }
 
+/** A source of which some answers have been asked for before they are wanted. */
+export class EarlySource implements MapSource {
+  private readonly begun = new Map<string, Promise<ArrayBuffer>>();
+
+  constructor(private readonly source: MapSource) {}
+
+  /** Asks, in the order given. */
+  begin(...paths: string[]): void {
+    for (const path of paths) {
+      const answer = this.source.ask(path);
+      answer.catch(() => {}); // told to who wants it
+      this.begun.set(path, answer);
+    }
+  }
+
+  ask(path: string, parameters?: Record<string, string>): Promise<ArrayBuffer> {
+    const answer = parameters ? undefined : this.begun.get(path);
+    if (!answer) return this.source.ask(path, parameters);
+    this.begun.delete(path);
+    return answer;
+  }
+}
+
 /** The planner itself, in a worker: the map and the planner stand in the page. */
 export class PlannerSource implements MapSource {
   private readonly worker: Worker;

@@ -2,11 +2,14 @@
 // Copyright (c) 2026 The Ridgeway authors
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { corners_of, distance_to_see_all, step_aside } from "./framing";
 import { StillPicture } from "./still_picture";
 
 /** Turns are slow in software: then less is drawn of each frame while the view moves. */
 const kSlowFrame = 50; // milliseconds
 const kStill = 250;
+/** How long a frame waits for an answer that changes it, too. */
+const kAnswer = 50;
 
 /**
  * The picture: camera, lights and a frame when something has changed, none otherwise. Positions are
@@ -24,6 +27,10 @@ export class Stage {
   readonly box = new THREE.Box3(new THREE.Vector3(), new THREE.Vector3(1, 1, 1));
   /** Called before a frame, which is coarse while the view moves and frames are slow: whether less than all is drawn. */
   readonly before_frame: ((is_coarse: boolean) => boolean | void)[] = [];
+  /** Pixels at the canvas's left that something lies over. */
+  covered: () => number = () => 0;
+  /** Nothing is drawn but when draw() is called: not all that belongs to the first picture is there. */
+  holds = false;
   frames = 0;
   /** Frames for which all that stands was drawn. */
   stills = 0;
@@ -33,7 +40,8 @@ export class Stage {
   private camera_now: THREE.PerspectiveCamera | THREE.OrthographicCamera = this.perspective;
   private readonly still = new StillPicture();
   private is_still_old = true;
-  private asked = false;
+  private asked = 0; // the next frame
+  private awaiting = 0;
   private coarse = false;
   private is_moving_over = false;
   /** The view that was last asked for, until the user turns it. */
@@ -119,16 +127,28 @@ export class Stage {
   /** Asks for a frame in which only what moves over the map is another. */
   changed_over(): void {
     if (this.asked) return;
-    this.asked = true;
-    requestAnimationFrame(() => {
-      this.asked = false;
-      this.draw();
+    this.asked = requestAnimationFrame(() => {
+      this.asked = 0;
+      if (!this.holds) this.draw();
     });
+  }
+
+  /** As changed_over, of what an answer that is on its way changes, too: that calls answered(). */
+  changes_with_answer(): void {
+    if (!this.awaiting) this.awaiting = window.setTimeout(() => this.changed_over(), kAnswer);
+  }
+
+  /** The frame after a drag's step is drawn as soon as all of it is known: it can be seen in the next frame of the page, not the one after. */
+  answered(): void {
+    if (this.awaiting) this.draw();
   }
 
   draw(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0 || height === 0) return;
+    cancelAnimationFrame(this.asked);
+    clearTimeout(this.awaiting);
+    this.asked = this.awaiting = 0;
     const started = performance.now();
     this.fit_canvas(width, height);
     let is_less = false;
@@ -170,7 +190,7 @@ export class Stage {
   }
 
   private fit_orthographic(): void {
-    const half = (this.orthographic.top * this.canvas.clientWidth) / Math.max(1, this.canvas.clientHeight);
+    const half = this.orthographic.top * this.aspect;
     this.orthographic.left = -half;
     this.orthographic.right = half;
     this.orthographic.updateProjectionMatrix();
@@ -186,6 +206,9 @@ export class Stage {
     this.orthographic.far = 3 * reach;
     this.perspective.updateProjectionMatrix();
     this.fit_orthographic();
+  }
+  private get aspect(): number {
+    return this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
   }
   get size(): THREE.Vector3 {
     return this.box.getSize(new THREE.Vector3());
@@ -209,28 +232,12 @@ export class Stage {
     this.preset = () => this.look_from_side();
     const middle = this.box.getCenter(new THREE.Vector3());
     const back = new THREE.Vector3(-0.25, -0.75, 0.85).normalize();
-    const from = back.clone().multiplyScalar(this.distance_to_see_all(middle, back));
+    const from = back.clone().multiplyScalar(distance_to_see_all(this.perspective, this.aspect, this.box, middle, back));
     this.controls.target.copy(middle);
     this.perspective.position.copy(middle).add(from);
     this.controls.update();
+    this.move_aside();
     this.changed();
-  }
-
-  /** How far back from a place all of the box can be seen. */
-  private distance_to_see_all(place: THREE.Vector3, back: THREE.Vector3): number {
-    const kRoom = 1.03;
-    const aspect = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
-    const slope = Math.tan(THREE.MathUtils.degToRad(this.perspective.fov / 2)) / kRoom;
-    const right = new THREE.Vector3().crossVectors(this.perspective.up, back).normalize();
-    const up = new THREE.Vector3().crossVectors(back, right);
-    let distance = 1;
-    for (let corner = 0; corner < 8; ++corner) {
-      const { min, max } = this.box;
-      const from = new THREE.Vector3(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y, corner & 4 ? max.z : min.z).sub(place);
-      const beside = Math.max(Math.abs(from.dot(right)) / (slope * aspect), Math.abs(from.dot(up)) / slope);
-      distance = Math.max(distance, beside + from.dot(back));
-    }
-    return distance;
   }
 
   look_from_above(): void {
@@ -239,15 +246,29 @@ export class Stage {
     this.preset = () => this.look_from_above();
     const { size } = this;
     const middle = this.box.getCenter(new THREE.Vector3());
-    const aspect = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
-    this.orthographic.top = 0.54 * Math.max(size.y, size.x / aspect);
+    this.orthographic.top = 0.54 * Math.max(size.y, size.x / this.aspect);
     this.orthographic.bottom = -this.orthographic.top;
     this.orthographic.zoom = 1;
     this.orthographic.position.set(middle.x, middle.y - 1e-3, middle.z + size.length());
     this.fit_orthographic();
     this.controls.target.copy(middle);
     this.controls.update();
+    this.move_aside();
     this.changed();
+  }
+
+  /** Moves the box to the right, as far as there is room, from below what lies over the canvas. */
+  private move_aside(): void {
+    const across = corners_of(this.box).map((corner) => this.on_canvas(corner)?.x ?? 0);
+    const step = step_aside(Math.min(...across), Math.max(...across), this.covered(), this.canvas.clientWidth);
+    if (step === 0) return;
+    const at = this.on_canvas(this.controls.target)!;
+    const target = this.ray_at(at.x - step, at.y).intersectPlane(
+      new THREE.Plane().setFromNormalAndCoplanarPoint(this.camera_now.getWorldDirection(new THREE.Vector3()), this.controls.target), new THREE.Vector3());
+    if (!target) return;
+    this.camera_now.position.add(target.clone().sub(this.controls.target));
+    this.controls.target.copy(target);
+    this.controls.update();
   }
 
   /** Moves the view to a place, so that so many metres around it can be seen. */

@@ -4,21 +4,29 @@ import * as THREE from "three";
 import { kHeights } from "./colours";
 import type { Surface } from "./layers";
 
+// Rectangles meet at places that are corners of one and not of the other, where rounding would leave
+// pixels between them: each is drawn a part of a pixel larger, in its own plane.
 const kVertex = `
 uniform vec3 origin;
-uniform float cell_size, cut;
+uniform float cell_size, cut, pixel;
+uniform mat4 seen;
 in vec4 corner;
 out vec3 place;
 flat out vec3 normal_out;
 void main() {
-  int side = int(corner.w + 0.5);
-  int axis = side / 2;
-  float away = float(2 * (side - 2 * axis) - 1);
+  int code = int(corner.w + 0.5);
+  int side = code & 7;
+  int axis = side >> 1;
+  float away = float(2 * (side & 1) - 1);
+  float right = float((code >> 2 & 2) - 1), up = float((code >> 3 & 2) - 1);
   normal_out = axis == 0 ? vec3(away, 0.0, 0.0) : axis == 1 ? vec3(0.0, away, 0.0) : vec3(0.0, 0.0, away);
   place = origin + cell_size * corner.xyz;
   bool above = axis == 2 && place.z > cut + 1e-4;
   place.z = min(place.z, cut);
-  gl_Position = above ? vec4(0.0, 0.0, 2.0, 1.0) : projectionMatrix * modelViewMatrix * vec4(place, 1.0);
+  vec4 at = seen * vec4(place, 1.0);
+  vec3 larger = axis == 0 ? vec3(0.0, right, up) : axis == 1 ? vec3(right, 0.0, up) : vec3(right, up, 0.0);
+  at += seen * vec4(pixel * at.w * larger, 0.0);
+  gl_Position = above ? vec4(0.0, 0.0, 2.0, 1.0) : at;
 }`;
 
 // Faces seen from behind are the insides of walls that were cut, or of rooms seen from outside.
@@ -39,6 +47,9 @@ void main() {
   float light = normal_out.z > 0.5 ? 1.0 : normal_out.z < -0.5 ? 0.6 : abs(normal_out.x) > 0.5 ? 0.85 : 0.72;
   colour = vec4(facing > 0.0 ? base * light : base * 0.34, 1.0);
 }`;
+
+/** Pixels that a rectangle is drawn larger by, to each side: some of the 256 parts of a pixel that corners are rounded to. */
+const kLarger = 0.02;
 
 export interface Hit {
   distance: number;
@@ -75,7 +86,7 @@ class Drawable {
   }
 }
 
-/** Four corners a rectangle: x, y, z in cells, and the side. (Software draws instances one by one.) */
+/** Four corners a rectangle: x, y, z in cells, and the side, plus 8 and 16 at the far ends of its width and height. (Software draws instances one by one.) */
 function expanded({ cells, sizes, count }: Surface, order: Uint32Array): { corners: Uint16Array; index: Uint32Array } {
   const corners = new Uint16Array(16 * count);
   const index = new Uint32Array(6 * count);
@@ -90,7 +101,7 @@ function expanded({ cells, sizes, count }: Surface, order: Uint32Array): { corne
       corners[at] = cells[4 * i]!;
       corners[at + 1] = cells[4 * i + 1]!;
       corners[at + 2] = cells[4 * i + 2]!;
-      corners[at + 3] = side;
+      corners[at + 3] = side | (k === 1 || k === 2 ? 8 : 0) | (k >= 2 ? 16 : 0);
       corners[at + axis]! += side & 1;
       if (k === 1 || k === 2) corners[at + u]! += sizes[4 * i]!;
       if (k >= 2) corners[at + v]! += sizes[4 * i + 1]!;
@@ -114,6 +125,7 @@ export class SurfaceMesh {
   low = 0;
   high: number;
   private readonly material: THREE.ShaderMaterial;
+  private readonly drawing_size = new THREE.Vector2();
   private coarse: Drawable;
   private fine: Drawable;
 
@@ -130,6 +142,8 @@ export class SurfaceMesh {
         origin: { value: this.coarse.origin },
         cell_size: { value: coarse.cell },
         cut: { value: height },
+        pixel: { value: 0 },
+        seen: { value: new THREE.Matrix4() },
         ramp: { value: kHeights.map((c) => new THREE.Vector3(...c)) },
         low: { value: this.low },
         high: { value: Math.max(this.high, 1e-3) },
@@ -139,10 +153,12 @@ export class SurfaceMesh {
     });
     this.mesh = new THREE.Mesh(this.coarse.geometry, this.material);
     this.mesh.frustumCulled = false;
-    this.mesh.onBeforeRender = (_renderer, _scene, camera) => {
+    this.mesh.onBeforeRender = (renderer, _scene, camera) => {
       const drawn = this.mesh.geometry === this.fine.geometry ? this.fine : this.coarse;
       this.material.uniforms.origin!.value = drawn.origin;
       this.material.uniforms.cell_size!.value = drawn.surface.cell;
+      this.material.uniforms.seen!.value.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).multiply(this.mesh.matrixWorld);
+      this.material.uniforms.pixel!.value = kLarger * 2 / (camera.projectionMatrix.elements[5]! * renderer.getDrawingBufferSize(this.drawing_size).y);
       this.material.uniforms.is_parallel!.value = camera instanceof THREE.OrthographicCamera;
       this.material.uniforms.towards!.value.set(0, 0, 1).transformDirection(camera.matrixWorld);
       this.material.uniformsNeedUpdate = true;
@@ -160,6 +176,11 @@ export class SurfaceMesh {
   set cut(height: number) {
     this.material.uniforms.cut!.value = height;
     for (const drawable of [this.coarse, this.fine]) drawable.cut_at(height);
+  }
+
+  /** Until the next cut no more than one rectangle. */
+  draw_little(): void {
+    this.mesh.geometry.setDrawRange(0, 6);
   }
 
   refine(fine: Surface): void {

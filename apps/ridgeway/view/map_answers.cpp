@@ -53,6 +53,17 @@ Query query_of(const Question& question, const Roadmap& roadmap) {
           number_of(question, "radius", kLengths, roadmap.min_clearance)};
 }
 
+/// Places one after another, with ; between them.
+std::vector<Point> parse_path(std::string_view text) {
+  std::vector<Point> path;
+  while (true) {
+    const std::size_t end = text.find(';');
+    path.push_back(parse_point(text.substr(0, end), "path"));
+    if (end == std::string_view::npos) return path;
+    text.remove_prefix(end + 1);
+  }
+}
+
 PlanConfig config_of(const Question& question, double radius) {
   PlanConfig config{.radius = radius, .time_limit = kLongestPlan};
   if (const auto name = find(question, "planner")) {
@@ -181,7 +192,7 @@ Json MapAnswers::plan(const Question& question) {
   if (!find(question, "alternatives")) {
     const PlanResult result = ridgeway::plan(roadmap_, query.start, query.goal, config);
     Json json = Json::parse(plan_json(result));
-    explain(question, query, result.status, json);
+    explain(question, as_planned(query, result), result.status, json);
     return json;
   }
   const auto count = parse_whole(get(question, "alternatives"), {1, 20}, "alternatives");
@@ -192,13 +203,20 @@ Json MapAnswers::plan(const Question& question) {
                {"routes", Json::array()}};
   for (const PlanResult& route : found.routes)
     json["routes"].push_back(Json::parse(plan_json(route)));
-  explain(question, query, found.status, json);
+  const bool is_asked_why = !found.ok() && find(question, "explain").value_or("1") != "0";
+  explain(question,
+          is_asked_why  // planning once more tells where the ends were moved to
+              ? as_planned(query, ridgeway::plan(roadmap_, query.start, query.goal, config))
+              : query,
+          found.status, json);
   return json;
 }
 
 Json MapAnswers::trajectory(const Question& question) {
   constexpr double kMostSamples = 20'000.0;
-  const Query query = query_of(question, roadmap_);
+  const auto given = find(question, "path");
+  const double radius = number_of(question, "radius", kLengths, roadmap_.min_clearance);
+  const Query query = given ? Query{{}, {}, radius} : query_of(question, roadmap_);
   const PlanConfig config = config_of(question, query.radius);
   TrajectoryConfig flight;
   flight.radius = query.radius;
@@ -209,10 +227,11 @@ Json MapAnswers::trajectory(const Question& question) {
   flight.stop_and_go = true;  // where there is no optimiser
 #endif
   flight.validate();
-  const PlanResult path = ridgeway::plan(roadmap_, query.start, query.goal, config);
+  const PlanResult path = given ? given_path(roadmap_, parse_path(*given), "path")
+                                : ridgeway::plan(roadmap_, query.start, query.goal, config);
   if (!path.ok()) {
     Json json = Json::parse(plan_json(path));
-    explain(question, query, path.status, json);
+    explain(question, as_planned(query, path), path.status, json);
     return json;
   }
   const TrajectoryResult flown = fly_plan(roadmap_.esdf, path, flight);
