@@ -57,14 +57,17 @@ class GrowingRecording {
   std::set<std::string> done_;
 };
 
-/// Of an image that is still being written, once it is whole; nothing for one that never is.
+/// Of an image that is still being written, once it is whole; nothing, and what is the matter, for
+/// one that never is.
 inline std::optional<DepthImage> read_when_whole(const DepthSequence& sequence,
-                                                 const DepthFrame& frame, double longest) {
+                                                 const DepthFrame& frame, double longest,
+                                                 std::string& problem) {
   const Stopwatch watch;
   for (;;) {
     try {
       return read_frame(sequence, frame);
-    } catch (const InputError&) {  // real recordings have damaged ones
+    } catch (const InputError& error) {  // real recordings have damaged ones
+      problem = error.what();
       if (watch.seconds() >= std::min(longest, 1.0)) return std::nullopt;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(50));

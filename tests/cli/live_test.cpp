@@ -109,6 +109,41 @@ TEST_F(CliLive, KeepsToTheRecordingsClock) {
   EXPECT_NE(run({"info", path("live.ridge")}).out.find("keep_in"), std::string::npos);
 }
 
+TEST_F(CliLive, WritesNoTableOverWhatItReadsOrWrites) {
+  const std::filesystem::path some = folder_ / "some";
+  std::filesystem::create_directories(some / "depth");
+  add_frames(some, 0, 2);
+  std::filesystem::copy_file(std::filesystem::path(kRecording) / "camera-intrinsics.txt",
+                             some / "camera-intrinsics.txt");
+  const std::string poses = read_whole(some / "groundtruth.txt");
+  const auto live = [&](const std::string& csv) {
+    return run({"live", some.string(), "-o", path("live.ridge"), "--csv", csv});
+  };
+  for (const std::string& csv :
+       {(some / "groundtruth.txt").string(), path("live.ridge"), path("no/such/live.csv")}) {
+    const Outcome outcome = live(csv);
+    EXPECT_EQ(outcome.code, 1) << csv;
+    EXPECT_NE(outcome.err.find(csv), std::string::npos) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "live.ridge")) << csv;
+  }
+  EXPECT_EQ(read_whole(some / "groundtruth.txt"), poses);
+}
+
+TEST_F(CliLive, NamesTheFirstImageThatItPassesOver) {
+  const std::filesystem::path some = folder_ / "some";
+  std::filesystem::create_directories(some / "depth");
+  add_frames(some, 0, 4);
+  std::filesystem::copy_file(std::filesystem::path(kRecording) / "camera-intrinsics.txt",
+                             some / "camera-intrinsics.txt");
+  write_whole(some / "depth/000001.png", "no image");
+  std::filesystem::remove(some / "depth/000002.png");
+  const Outcome outcome = run({"live", some.string(), "-o", path("live.ridge"), "--voxel-size",
+                               "0.2", "--max-distance", "2"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  for (const char* word : {"2 images", "000001.png"})
+    EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
+}
+
 TEST_F(CliLive, RefusesWhatIsNoRecordingAndNamesTheFrame) {
   EXPECT_EQ(run({"live", path("nowhere"), "-o", path("live.ridge")}).code, 1);
   // A robot that fits nowhere.
