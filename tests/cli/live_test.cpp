@@ -92,6 +92,33 @@ TEST_F(CliLive, FollowsAFolderThatIsStillWrittenTo) {
   EXPECT_EQ(run({"live", path("nowhere"), "-o", path("live.ridge"), "--follow", "0.3"}).code, 1);
 }
 
+TEST_F(CliLive, TakesNoPoseFromALineThatIsHalfWritten) {
+  namespace fs = std::filesystem;
+  const fs::path growing = folder_ / "growing";
+  fs::create_directories(growing / "depth");
+  fs::copy_file(fs::path(kRecording) / "camera-intrinsics.txt", growing / "camera-intrinsics.txt");
+  add_frames(growing, 0, 2);
+  const std::string poses = read_whole(growing / "groundtruth.txt");
+  // Nearly a unit quaternion still, and turned by ten degrees.
+  const std::size_t cut = poses.rfind(" 0.08") + 4;
+  write_whole(growing / "groundtruth.txt", poses.substr(0, cut));
+  const std::vector<std::string> how = {
+      "live", growing.string(), "--voxel-size", "0.2", "--max-distance", "2", "-o"};
+  std::thread writer([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    std::ofstream(growing / "groundtruth.txt", std::ios::app) << poses.substr(cut);
+  });
+  std::vector<std::string> follow = how;
+  follow.insert(follow.end(), {path("followed.ridge"), "--follow", "60", "--until", "000001.png"});
+  const Outcome followed = run(follow);
+  writer.join();
+  ASSERT_EQ(followed.code, 0) << followed.err;
+  std::vector<std::string> again = how;
+  again.push_back(path("whole.ridge"));
+  ASSERT_EQ(run(again).code, 0);
+  EXPECT_TRUE(read_whole(folder_ / "followed.ridge") == read_whole(folder_ / "whole.ridge"));
+}
+
 TEST_F(CliLive, KeepsToTheRecordingsClock) {
   const std::filesystem::path some = folder_ / "some";
   std::filesystem::create_directories(some / "depth");
