@@ -175,8 +175,10 @@ void replay_images(Run& run, const Globals& globals) {
       if (!image && run.replay.unreadable++ == 0) run.replay.first_unreadable = problem;
       if (frames.is_last(frame)) return;
     }
-    if (options.follow == 0.0) return;
+    if (options.follow == 0.0) break;
   }
+  if (!options.until.empty())
+    warn(globals, "no image " + options.until + " has come, so all of them were taken");
 }
 
 void replay_scans(Run& run, const Globals& globals) {

@@ -165,9 +165,9 @@ TEST_F(CliLive, NamesTheFirstImageThatItPassesOver) {
   write_whole(some / "depth/000001.png", "no image");
   std::filesystem::remove(some / "depth/000002.png");
   const Outcome outcome = run({"live", some.string(), "-o", path("live.ridge"), "--voxel-size",
-                               "0.2", "--max-distance", "2"});
+                               "0.2", "--max-distance", "2", "--until", "end.png"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  for (const char* word : {"2 images", "000001.png"})
+  for (const char* word : {"2 images", "000001.png", "no image end.png"})
     EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
 }
 
