@@ -103,11 +103,16 @@ Spread milliseconds_of(const ExplorationFlight& flight) {
   return spread_of(std::move(milliseconds));
 }
 
+/// A flight that has not come to its end was cut off.
+std::string end_of(const ExplorationFlight& flight) {
+  return flight.end == ExplorationStatus::kKeep ? "cut_off" : std::string(name_of(flight.end));
+}
+
 void print(const ExplorationFlight& flight, const std::string& output, const Globals& globals) {
   const Spread decisions = milliseconds_of(flight);
   if (globals.json) {
     print_json({{"file", output},
-                {"end", name_of(flight.end)},
+                {"end", end_of(flight)},
                 {"complete", flight.is_complete},
                 {"coverage", flight.coverage},
                 {"viewable_volume", flight.viewable_volume},
@@ -122,8 +127,7 @@ void print(const ExplorationFlight& flight, const std::string& output, const Glo
                 {"unseen", json_of_unseen(flight)}});
     return;
   }
-  print_row("end", flight.is_complete ? "complete: no viewpoint sees a frontier"
-                                      : std::string(name_of(flight.end)));
+  print_row("end", flight.is_complete ? "complete: no viewpoint sees a frontier" : end_of(flight));
   print_row("mapped", text_of(100.0 * flight.coverage, 2) + " % of " +
                           text_of(flight.viewable_volume, 1) + " cubic metres that can be seen");
   print_row("flight", text_of(flight.seconds, 1) + " s, " + text_of(flight.length, 1) + " m, " +

@@ -197,7 +197,7 @@ void add_fuse_command(Command& program) {
                  "Distances to surfaces are kept up to here, metres (default: four voxels)");
   command.number("--min-range", fusion.min_range, kLengthsFromZero,
                  "Nothing nearer is taken, metres");
-  command.number("--max-range", fusion.max_range, kReaches, "Nothing farther is taken, metres");
+  command.number("--max-range", fusion.max_range, kLengths, "Nothing farther is taken, metres");
   command.number("--clear-radius", fusion.clear_radius, kLengthsFromZero,
                  "Space this near to where the sensor was is free, metres");
   command.choice("--integrator", options->integrator, {"projective", "rays"},

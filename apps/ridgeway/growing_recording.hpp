@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <ios>
 #include <optional>
 #include <set>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -16,6 +20,27 @@
 #include "ridgeway/recordings/depth_sequence.hpp"
 
 namespace ridgeway::cli {
+
+/// How far the lists of a recording have been written. A line that is cut short may be one of
+/// another pose: half a number is a number.
+struct ListsSeen {
+  std::vector<std::streamoff> bytes;
+  bool end_with_lines = true;
+
+  static ListsSeen of(const std::filesystem::path& folder) {
+    ListsSeen seen;
+    for (const char* name : {"depth.txt", "groundtruth.txt", "trajectory.log"}) {
+      std::error_code error;  // a pipe would be waited for
+      if (!std::filesystem::is_regular_file(folder / name, error)) continue;
+      std::ifstream list(folder / name, std::ios::binary | std::ios::ate);
+      const auto size = static_cast<std::streamoff>(list.tellg());
+      seen.bytes.push_back(size);
+      if (size > 0 && list.seekg(-1, std::ios::end) && list.get() != '\n')
+        seen.end_with_lines = false;
+    }
+    return seen;
+  }
+};
 
 /// Frames of a folder that may still be written to: each once, those first that come first.
 class GrowingRecording {
@@ -31,9 +56,13 @@ class GrowingRecording {
     for (;;) {
       next.clear();
       try {
+        const ListsSeen before = ListsSeen::of(folder_);
         sequence = open_sequence(folder_, {});
-        for (const DepthFrame& frame : sequence.frames)
-          if (!done_.contains(frame.image.string())) next.push_back(frame);
+        const bool is_whole = before.end_with_lines && before.bytes == ListsSeen::of(folder_).bytes;
+        // A last line that stays as it is has no end of its own.
+        if (is_whole || idle.seconds() >= patience_)
+          for (const DepthFrame& frame : sequence.frames)
+            if (!done_.contains(frame.image.string())) next.push_back(frame);
       } catch (const InputError&) {  // nothing yet, or a line that is not whole
         if (idle.seconds() >= patience_) throw;
       }
@@ -57,14 +86,17 @@ class GrowingRecording {
   std::set<std::string> done_;
 };
 
-/// Of an image that is still being written, once it is whole; nothing for one that never is.
+/// Of an image that is still being written, once it is whole; nothing, and what is the matter, for
+/// one that never is.
 inline std::optional<DepthImage> read_when_whole(const DepthSequence& sequence,
-                                                 const DepthFrame& frame, double longest) {
+                                                 const DepthFrame& frame, double longest,
+                                                 std::string& problem) {
   const Stopwatch watch;
   for (;;) {
     try {
       return read_frame(sequence, frame);
-    } catch (const InputError&) {  // real recordings have damaged ones
+    } catch (const InputError& error) {  // real recordings have damaged ones
+      problem = error.what();
       if (watch.seconds() >= std::min(longest, 1.0)) return std::nullopt;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(50));

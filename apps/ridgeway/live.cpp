@@ -164,17 +164,21 @@ void replay_images(Run& run, const Globals& globals) {
       run.pace.wait_until(frame.time.value_or(static_cast<double>(place++) / kImagesASecond), bar,
                           run.replay);
       bar.show("live", share_of(run.replay.updates.size(), sequence.frames.size()));
-      const std::optional<DepthImage> image = read_when_whole(sequence, frame, options.follow);
+      std::string problem;
+      const std::optional<DepthImage> image =
+          read_when_whole(sequence, frame, options.follow, problem);
       if (image)
         replay_frame(run, frame.image, options.follow == 0.0 ? sequence.frames.size() : 0,
                      scene_at(frame.T_world_camera, Eigen::Vector3d::UnitZ()), [&] {
                        return run.live.integrate(*image, sequence.camera, frame.T_world_camera);
                      });
-      run.replay.unreadable += !image;
+      if (!image && run.replay.unreadable++ == 0) run.replay.first_unreadable = problem;
       if (frames.is_last(frame)) return;
     }
-    if (options.follow == 0.0) return;
+    if (options.follow == 0.0) break;
   }
+  if (!options.until.empty())
+    warn(globals, "no image " + options.until + " has come, so all of them were taken");
 }
 
 void replay_scans(Run& run, const Globals& globals) {
@@ -210,8 +214,10 @@ LiveOptions completed(const LiveOptions& options, RecordingKind kind) {
 int run(const LiveOptions& given, const Globals& globals) {
   const RecordingKind kind =
       given.follow > 0.0 ? RecordingKind::kImages : kind_of_recording(given.folder);
-  require_outside(given.output, given.folder);
-  require_writable({given.output}, {});
+  std::vector<std::filesystem::path> outputs = {given.output};
+  if (!given.csv.empty()) outputs.emplace_back(given.csv);
+  for (const std::filesystem::path& output : outputs) require_outside(output, given.folder);
+  require_writable(outputs, {});
   require_extension(given.output, "a roadmap", {".ridge"});
   const LiveOptions options = completed(given, kind);
   Run run(options, globals);
@@ -228,7 +234,10 @@ int run(const LiveOptions& given, const Globals& globals) {
                      "give a smaller --min-clearance, or --unknown ignore");
   const LiveReplay& replay = run.replay;
   if (replay.unreadable > 0)
-    warn(globals, count_text(replay.unreadable) + " images could not be read and were passed over");
+    warn(globals, count_text(replay.unreadable) +
+                      " images were passed over, the first: " + replay.first_unreadable);
+  if (replay.without_pose > 0)
+    note(globals, count_text(replay.without_pose) + " frames have no pose and were passed over");
   save_roadmap(*snapshot, options.output);
   if (!options.csv.empty()) write_text_file(options.csv, csv_of(replay));
   print(replay, *snapshot, options.output, globals);
@@ -254,7 +263,7 @@ void add_live_command(Command& program) {
   command.number("--voxel-size", fusion.voxel_size, kLengths, "Metres");
   command.number("--min-range", fusion.min_range, kLengthsFromZero,
                  "Nothing nearer is taken, metres");
-  command.number("--max-range", fusion.max_range, kReaches, "Nothing farther is taken, metres");
+  command.number("--max-range", fusion.max_range, kLengths, "Nothing farther is taken, metres");
   command.number("--clear-radius", fusion.clear_radius, kLengthsFromZero,
                  "Space this near to where the sensor was is free, metres");
   command.whole("--forget-after", fusion.forget_after, {0, 255},

@@ -156,13 +156,17 @@ std::vector<VoxelIndex> voxels_from(py::handle value, const char* name) {
   if (array.dtype().kind() != 'i' && array.dtype().kind() != 'u') wrong_type(value, name, expected);
   if (array.ndim() != 2 || array.shape(1) != 3) wrong_shape(value, name, expected);
   const py::array_t<std::int64_t, py::array::c_style | py::array::forcecast> whole(array);
+  const bool is_unsigned = array.dtype().kind() == 'u';  // 2^64 - 1 came out as -1
   std::vector<VoxelIndex> voxels(static_cast<std::size_t>(array.shape(0)));
   for (std::size_t i = 0; i < voxels.size(); ++i) {
     const std::int64_t* v = whole.data() + 3 * i;
     for (int axis = 0; axis < 3; ++axis)
-      if (v[axis] < -kMaxVoxelIndex || v[axis] > kMaxVoxelIndex)
+      if (v[axis] < -kMaxVoxelIndex || v[axis] > kMaxVoxelIndex || (is_unsigned && v[axis] < 0))
         throw InputError(std::string(name) + "[" + std::to_string(i) + "]",
-                         "is " + std::to_string(v[axis]) + " along an axis",
+                         "is " +
+                             (is_unsigned ? std::to_string(static_cast<std::uint64_t>(v[axis]))
+                                          : std::to_string(v[axis])) +
+                             " along an axis",
                          "give voxels from -1e9 to 1e9");
     voxels[i] = {static_cast<int>(v[0]), static_cast<int>(v[1]), static_cast<int>(v[2])};
   }

@@ -148,6 +148,10 @@ DepthImage image_from(py::handle value, const char* name) {
   const std::string expected = "an (H, W) array of depths, metres";
   const Doubles checked = doubles_from(value, name, expected);
   if (checked.ndim() != 2) throw InputError(name, "is " + describe(value), "give " + expected);
+  // Millimetres of a file, most likely, of which every one would lie out of range.
+  if (py::array::ensure(value).dtype().kind() != 'f')
+    throw py::type_error(std::string(name) + ": expected metres as floats, got " + describe(value) +
+                         "; divide by the units of a metre: image / 1000.0");
   constexpr py::ssize_t kLongest = 1 << 20;
   if (checked.shape(0) > kLongest || checked.shape(1) > kLongest)
     throw InputError(name, "is " + describe(value), "give a smaller image");

@@ -37,7 +37,10 @@ struct Layout {
 template <typename Value>
 struct WholeStates {
   static bool is_valid(Value v) { return v >= 0 && v <= 2; }
-  VoxelState operator()(Value v) const { return static_cast<VoxelState>(v); }
+  /// Unknown where a thread of the caller's has written something else meanwhile.
+  VoxelState operator()(Value v) const {
+    return is_valid(v) ? static_cast<VoxelState>(v) : VoxelState::kUnknown;
+  }
   static constexpr const char* kRemedy = "give 0 (unknown), 1 (free) or 2 (occupied)";
 };
 
@@ -141,6 +144,13 @@ py::array array_from(py::handle states) {
   for (int axis = 0; axis < 3; ++axis)
     if (array.shape(axis) > kMaxVoxelIndex)
       throw InputError("states", "is " + describe(states), "give 1e9 voxels at most along an axis");
+  // Every voxel is looked at: more would take hours, as a view that repeats a value may have them.
+  constexpr double kMostVoxels = 1e11;
+  double voxels = 1.0;
+  for (int axis = 0; axis < 3; ++axis) voxels *= static_cast<double>(array.shape(axis));
+  if (voxels > kMostVoxels)
+    throw InputError("states", "is " + describe(states),
+                     "give 1e11 voxels at most: cut it down to what is known");
   return array;
 }
 

@@ -86,6 +86,8 @@ def test_the_first_decision_looks_at_a_frontier():
     "call, error, words",
     [
         (lambda: ridgeway.Explorer(spacing=0), ValueError, "spacing"),
+        (lambda: ridgeway.Explorer(kept_clearance=-1), ValueError, "kept_clearance"),
+        (lambda: ridgeway.Explorer(kept_clearance=np.inf), ValueError, "kept_clearance"),
         (lambda: ridgeway.Explorer(range=-1), ValueError, "range"),
         (lambda: ridgeway.Explorer(strategy="random"), ValueError, "strategy: .*'tour', 'nearest'"),
         (lambda: ridgeway.Explorer(until=5), ValueError, "until"),

@@ -89,6 +89,7 @@ def test_truth_values_and_probabilities():
     [
         (lambda: OccupancyMap.from_numpy([[[1]]], 0.1), TypeError, "states: expected an .nx, ny, nz. array"),
         (lambda: OccupancyMap.from_numpy(np.zeros((3, 3)), 0.1), ValueError, r"states: .*shape \(3, 3\)"),
+        (lambda: OccupancyMap.from_numpy(np.broadcast_to(np.uint8(1), (10**5,) * 3), 0.1), ValueError, "states: .*1e11"),
         (lambda: OccupancyMap.from_numpy(np.zeros((2, 2, 2), complex), 0.1), TypeError, "states: .*complex"),
         (lambda: OccupancyMap.from_numpy(np.zeros((2, 2, 2), object), 0.1), TypeError, "states: .*object"),
         (lambda: OccupancyMap.from_numpy(np.zeros((2, 2, 2), ">f8"), 0.1), TypeError, "states: .*byte order"),

@@ -226,6 +226,9 @@ class ExplorationRun {
   }
 
   void finish() {
+    if (flight_.path.empty())  // it has not left its start
+      flight_.nearest =
+          surface_distance(world_at(world_, 0.0), config_.start).distance - config_.radius;
     flight_.seconds = flight_.samples.back().state.time;
     flight_.coverage = flight_.samples.back().mapped;
     flight_.is_complete = flight_.end == ExplorationStatus::kComplete;
@@ -277,6 +280,10 @@ void ExplorationFlightConfig::validate() const {
   const double turn = 2.0 * std::numbers::pi / explorer.limits.max_yaw_rate;
   require(budget >= turn, "budget", budget,
           "give at least the time that the drone takes to turn once around");
+  // The flight is looked at when an image is taken, so it ends no earlier.
+  const double period = 1.0 / scan_rate;
+  require(budget >= period, "budget", budget, "give at least the time between two images");
+  require(longest >= period, "longest", longest, "give at least the time between two images");
   if (bounds) validate_box(*bounds, "bounds");
 }
 

@@ -56,6 +56,8 @@ void ExplorerConfig::validate() const {
   detail::require(resolved_below >= 0.0 && resolved_below < 1.0, "resolved_below", resolved_below,
                   "give a share from 0 up to 1");
   detail::require(most_stops >= 1 && most_stops <= 200, "most_stops", most_stops, "give 1 to 200");
+  detail::require(kept_clearance >= 0.0 && std::isfinite(kept_clearance), "kept_clearance",
+                  kept_clearance, "give metres above 0, or 0 for the roadmap's smallest radius");
   detail::require(most_looks >= 1, "most_looks", most_looks, "give 1 or more");
   detail::require(!home || home->allFinite(), "home", 0, "give three finite coordinates");
   detail::require(until > 0.0, "until", until, "give seconds above 0");

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <tuple>
 
+#include "common/number_text.hpp"
 #include "depth_layouts.hpp"
 #include "depth_png.hpp"
 #include "pose_text.hpp"
@@ -270,6 +271,20 @@ DepthImage first_readable(const DepthSequence& sequence, const fs::path& folder)
   throw first_problem->within(folder.string() + " has no image that can be read, the first:");
 }
 
+/// fx, fy, cx, cy of a camera matrix that has nothing else: no skew, and not its columns as rows.
+Eigen::Vector4d read_intrinsics(const fs::path& file) {
+  constexpr double kMostSkew = 1e-3;  // pixels
+  const char* remedy = "give a 3 x 3 matrix: fx 0 cx, 0 fy cy, 0 0 1";
+  const std::vector<double> v = read_numbers(file, 9, remedy);
+  for (const std::size_t zero : {1u, 3u, 6u, 7u})
+    if (!(std::abs(v[zero]) <= kMostSkew))
+      throw InputError(file.string(),
+                       "has " + number_text(v[zero]) + " where a camera matrix has 0", remedy);
+  if (v[8] != 1.0)
+    throw InputError(file.string(), "ends in " + number_text(v[8]) + " in place of 1", remedy);
+  return {v[0], v[4], v[2], v[5]};
+}
+
 PinholeCamera camera_of(const DepthImage& image, const fs::path& folder,
                         const DepthSequence& sequence, const SequenceConfig& config) {
   const auto camera = [&](double fx, double fy, double cx, double cy) {
@@ -281,8 +296,8 @@ PinholeCamera camera_of(const DepthImage& image, const fs::path& folder,
   }
   for (const fs::path& file : {folder / kIntrinsicsFile, folder.parent_path() / kIntrinsicsFile}) {
     if (!is_there(file)) continue;
-    const auto v = read_numbers(file, 9, "give a 3 x 3 matrix: fx 0 cx, 0 fy cy, 0 0 1");
-    const PinholeCamera read = camera(v[0], v[4], v[2], v[5]);
+    const Eigen::Vector4d k = read_intrinsics(file);
+    const PinholeCamera read = camera(k[0], k[1], k[2], k[3]);
     try {
       read.validate();
     } catch (const InputError& error) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "ridge_header.hpp"
@@ -62,6 +63,7 @@ Defect find_edge_defect(const SparseGraph& graph, const char* part) {
 /// Whether every edge has the length and the clearance that it says: queries rely on both.
 bool edges_hold(const Roadmap& roadmap, const SparseGraph& graph) {
   constexpr double kRounding = 1e-9;
+  constexpr double kRoundingOfPlaces = 16.0 * std::numeric_limits<double>::epsilon();
   const FreeSpace space(roadmap.esdf);
   std::atomic<bool> good = true;
   parallel_for_each_index(
@@ -72,11 +74,14 @@ bool edges_hold(const Roadmap& roadmap, const SparseGraph& graph) {
         const std::array ends{graph.vertices[number(edge.from)].position,
                               graph.vertices[number(edge.to)].position};
         const double length = (ends[1] - ends[0]).norm();
+        // What is computed of places far from the origin is no better than they are themselves.
+        const double slack = kRoundingOfPlaces *
+                             std::max(ends[0].cwiseAbs().maxCoeff(), ends[1].cwiseAbs().maxCoeff());
         const bool is_free = std::isinf(edge.clearance)
                                  ? std::isinf(space.clearance(ends))
-                                 : space.is_free(ends[0], ends[1], edge.clearance);
+                                 : space.is_free(ends[0], ends[1], edge.clearance - slack);
         if (!is_free || std::abs(length - edge.length) > kRounding * length ||
-            edge.clearance < roadmap.min_clearance * (1.0 - kRounding))
+            edge.clearance < roadmap.min_clearance * (1.0 - kRounding) - slack)
           good = false;
       },
       64);

@@ -61,6 +61,15 @@ TEST_F(CliExplore, ALidarIsRecordedAsScansThatLiveReads) {
   EXPECT_EQ(run({"live", path("scans"), "-o", path("again.ridge"), "--voxel-size", "0.2"}).code, 0);
 }
 
+TEST_F(CliExplore, SaysThatAFlightWasCutOff) {
+  std::vector<std::string> all = words("1.3,1.3,1.2");
+  all.insert(all.end(), {"--longest", "0.3", "--scan-rate", "4", "--json"});
+  const Outcome outcome = run(all);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.json()["end"], "cut_off");
+  EXPECT_TRUE(outcome.json()["nearest"].is_number());
+}
+
 TEST_F(CliExplore, RefusesBeforeTheFlight) {
   expect_refused(words("9,1,1"), {"outside"});
   expect_refused(words("0.1,1,1"), {"from an obstacle"});
@@ -70,6 +79,9 @@ TEST_F(CliExplore, RefusesBeforeTheFlight) {
   std::vector<std::string> hasty = words("1.3,1.3,1.2");
   hasty.insert(hasty.end(), {"--budget", "1"});
   expect_refused(hasty, {"budget"});
+  std::vector<std::string> slow = words("1.3,1.3,1.2");
+  slow.insert(slow.end(), {"--budget", "6", "--scan-rate", "0.1"});
+  expect_refused(slow, {"budget", "between two images"});
   write_whole(folder_ / "open.yaml", "name: open\nspheres:\n  - {centre: [0, 0, 0], radius: 1}\n");
   expect_refused({"explore", path("open.yaml"), "-o", path("x.ridge"), "--start", "0,0,0"},
                  {"inside an obstacle"});

@@ -92,6 +92,33 @@ TEST_F(CliLive, FollowsAFolderThatIsStillWrittenTo) {
   EXPECT_EQ(run({"live", path("nowhere"), "-o", path("live.ridge"), "--follow", "0.3"}).code, 1);
 }
 
+TEST_F(CliLive, TakesNoPoseFromALineThatIsHalfWritten) {
+  namespace fs = std::filesystem;
+  const fs::path growing = folder_ / "growing";
+  fs::create_directories(growing / "depth");
+  fs::copy_file(fs::path(kRecording) / "camera-intrinsics.txt", growing / "camera-intrinsics.txt");
+  add_frames(growing, 0, 2);
+  const std::string poses = read_whole(growing / "groundtruth.txt");
+  // Nearly a unit quaternion still, and turned by ten degrees.
+  const std::size_t cut = poses.rfind(" 0.08") + 4;
+  write_whole(growing / "groundtruth.txt", poses.substr(0, cut));
+  const std::vector<std::string> how = {
+      "live", growing.string(), "--voxel-size", "0.2", "--max-distance", "2", "-o"};
+  std::thread writer([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    std::ofstream(growing / "groundtruth.txt", std::ios::app) << poses.substr(cut);
+  });
+  std::vector<std::string> follow = how;
+  follow.insert(follow.end(), {path("followed.ridge"), "--follow", "60", "--until", "000001.png"});
+  const Outcome followed = run(follow);
+  writer.join();
+  ASSERT_EQ(followed.code, 0) << followed.err;
+  std::vector<std::string> again = how;
+  again.push_back(path("whole.ridge"));
+  ASSERT_EQ(run(again).code, 0);
+  EXPECT_TRUE(read_whole(folder_ / "followed.ridge") == read_whole(folder_ / "whole.ridge"));
+}
+
 TEST_F(CliLive, KeepsToTheRecordingsClock) {
   const std::filesystem::path some = folder_ / "some";
   std::filesystem::create_directories(some / "depth");
@@ -107,6 +134,41 @@ TEST_F(CliLive, KeepsToTheRecordingsClock) {
   EXPECT_GE(took.count(), *sequence.frames.back().time - *sequence.frames.front().time);
   EXPECT_GE(outcome.json()["behind_seconds"], 0.0);
   EXPECT_NE(run({"info", path("live.ridge")}).out.find("keep_in"), std::string::npos);
+}
+
+TEST_F(CliLive, WritesNoTableOverWhatItReadsOrWrites) {
+  const std::filesystem::path some = folder_ / "some";
+  std::filesystem::create_directories(some / "depth");
+  add_frames(some, 0, 2);
+  std::filesystem::copy_file(std::filesystem::path(kRecording) / "camera-intrinsics.txt",
+                             some / "camera-intrinsics.txt");
+  const std::string poses = read_whole(some / "groundtruth.txt");
+  const auto live = [&](const std::string& csv) {
+    return run({"live", some.string(), "-o", path("live.ridge"), "--csv", csv});
+  };
+  for (const std::string& csv :
+       {(some / "groundtruth.txt").string(), path("live.ridge"), path("no/such/live.csv")}) {
+    const Outcome outcome = live(csv);
+    EXPECT_EQ(outcome.code, 1) << csv;
+    EXPECT_NE(outcome.err.find(csv), std::string::npos) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "live.ridge")) << csv;
+  }
+  EXPECT_EQ(read_whole(some / "groundtruth.txt"), poses);
+}
+
+TEST_F(CliLive, NamesTheFirstImageThatItPassesOver) {
+  const std::filesystem::path some = folder_ / "some";
+  std::filesystem::create_directories(some / "depth");
+  add_frames(some, 0, 4);
+  std::filesystem::copy_file(std::filesystem::path(kRecording) / "camera-intrinsics.txt",
+                             some / "camera-intrinsics.txt");
+  write_whole(some / "depth/000001.png", "no image");
+  std::filesystem::remove(some / "depth/000002.png");
+  const Outcome outcome = run({"live", some.string(), "-o", path("live.ridge"), "--voxel-size",
+                               "0.2", "--max-distance", "2", "--until", "end.png"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  for (const char* word : {"2 images", "000001.png", "no image end.png"})
+    EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
 }
 
 TEST_F(CliLive, RefusesWhatIsNoRecordingAndNamesTheFrame) {

@@ -177,6 +177,12 @@ TEST_F(TumFolder, MistakesAreNamedWithFileAndLine) {
   }
   write_whole(folder_ / "camera-intrinsics.txt", "525 0\n");
   has(refused(), "camera-intrinsics.txt");
+  // Of a matrix whose rows are columns, or that has more than a pinhole camera.
+  for (const char* matrix : {"525 0 0\n0 525 0\n320 240 1\n", "525 2 320\n0 525 240\n0 0 1\n",
+                             "525 0 320\n0 525 240\n0 0 2\n"}) {
+    write_whole(folder_ / "camera-intrinsics.txt", matrix);
+    has(refused(), "camera-intrinsics.txt: ");
+  }
   const TemporaryFolder empty;
   has(refusal([&] { open_sequence(empty.path()); }), "holds no recording");
   has(refusal([&] { open_sequence(empty / "none"); }), "is no folder");

@@ -9,6 +9,7 @@
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "support/random_maps.hpp"
 #include "support/synthetic_roadmap.hpp"
@@ -65,6 +66,20 @@ void expect_same(const Roadmap& a, const Roadmap& b) {
   EXPECT_EQ(a.tree.parent, b.tree.parent);
   EXPECT_EQ(a.tree.clearance, b.tree.clearance);
   EXPECT_EQ(a.tree.place, b.tree.place);
+}
+
+TEST(RidgeFile, RoomsFarApartAreSaved) {
+  OccupancyBuilder voxels(0.2);
+  for (const int x : {0, 499'999'000}) {  // distances are rounded to 1e-8 m there
+    voxels.fill({{x, 0, 0}, {x + 60, 20, 14}}, VoxelState::kFree);
+    voxels.fill({{x + 40, 0, 0}, {x + 60, 70, 14}}, VoxelState::kFree);
+    voxels.fill({{x + 20, 9, 0}, {x + 23, 11, 14}}, VoxelState::kOccupied);
+  }
+  const Roadmap roadmap = build_roadmap(std::move(voxels).finish(), {}).roadmap;
+  ASSERT_GT(roadmap.graph.edges.size(), 4u);
+  const TemporaryFolder folder;
+  save_roadmap(roadmap, folder / "far.ridge");
+  expect_same(roadmap, load_roadmap(folder / "far.ridge"));
 }
 
 TEST(RidgeFile, EveryFieldComesBack) {

@@ -137,6 +137,8 @@ test("answers its own page alone", async () => {
     [`Host: ${at}\r\nOrigin: http://${at}.evil.example\r\n`, 403],
     [`Host: ${at}\r\nSec-Fetch-Site: cross-site\r\n`, 403],
     [`Host: ${at}\r\nSec-Fetch-Site: same-site\r\n`, 403],
+    [`Host: ${at}\r\nOrigin: http://${at}\r\nOrigin: http://evil.example\r\n`, 403],
+    [`Host: ${at}\r\nSec-Fetch-Site: none\r\nSec-Fetch-Site: cross-site\r\n`, 403],
     [`Host: ${at}\r\nOrigin: http://${at}\r\nSec-Fetch-Site: same-origin\r\n`, 200],
     [`Host: localhost:${served.port}\r\n`, 200],
   ];
@@ -190,6 +192,18 @@ test("takes nonsense for what it is", async () => {
   for (const bytes of ["\0\0\0\0\r\n\r\n", "GET\r\n\r\n", "GET /\r\n\r\n", `GET / HTTP/9.9\r\n${host}\r\n`, `GET /%zz%1 HTTP/1.1\r\n${host}\r\n`, "\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03".repeat(20) + "\r\n\r\n", `GET / HTTP/1.1\r\n: \r\n${host}\r\n`, `GET / HTTP/1.1\nHost: x\n\n`, "PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n", `GET / HTTP/1.1\r\n${host}Range: bytes=999999999-\r\n\r\n`, `GET /api/info HTTP/1.1\r\n${host}Range: bytes=5-1\r\n\r\n`, `GET / HTTP/1.1\r\n${host}Expect: 100-continue\r\n\r\n`]) {
     await send(bytes, { wait: 7000 });
     await still_answers();
+  }
+});
+
+test("sends no byte beyond the end of an answer, whatever range is asked for", async () => {
+  for (const path of ["/", "/page.js", "/api/info", "/api/graph"]) {
+    const whole = await get(path);
+    const body = (answer) => answer.slice(answer.indexOf("\r\n\r\n") + 4);
+    for (const range of ["0-9", "-5", "0-99999999", "99999999-", "0-99999999,0-99999999", "99999999-100000000", "0-1,3-4"]) {
+      const answer = await get(path, `Range: bytes=${range}\r\n`);
+      assert.equal(status(answer), 200, `${path} ${range}: ${answer.slice(0, 200)}`);
+      assert.equal(body(answer), body(whole), `${path} ${range}`);
+    }
   }
 });
 

@@ -4,9 +4,12 @@
 
 #include <utility>
 
+#include "console.hpp"
 #include "json.hpp"
 
 namespace ridgeway::cli {
+
+LiveView::LiveView(const std::string& name) : name_(printable(name)) {}
 
 void LiveView::show(LiveScene scene) {
   LiveScene before;  // let go of when nobody waits for the lock: a map may be its last owner's

@@ -33,7 +33,7 @@ struct LiveScene {
 class LiveView {
  public:
   /// `name`: of the map, for people.
-  explicit LiveView(std::string name) : name_(std::move(name)) {}
+  explicit LiveView(const std::string& name);
 
   void show(LiveScene scene);
 

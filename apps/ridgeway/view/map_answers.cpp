@@ -106,8 +106,8 @@ Reply json_reply(int status, const Json& json) {
   return {status, kJson, std::make_shared<const std::string>(json.dump())};
 }
 
-MapAnswers::MapAnswers(const Roadmap& roadmap, std::string name)
-    : roadmap_(roadmap), name_(std::move(name)) {
+MapAnswers::MapAnswers(const Roadmap& roadmap, const std::string& name)
+    : roadmap_(roadmap), name_(printable(name)) {
   for (const bool escapes : {false, true})
     facts_.emplace(std::piecewise_construct, std::forward_as_tuple(escapes),
                    std::forward_as_tuple(roadmap, escapes));

@@ -34,7 +34,7 @@ Reply json_reply(int status, const nlohmann::ordered_json& json);
 class MapAnswers {
  public:
   /// The roadmap must outlive it. `name`: of its file, for people.
-  MapAnswers(const Roadmap& roadmap, std::string name);
+  MapAnswers(const Roadmap& roadmap, const std::string& name);
 
   Reply answer(const Question& question);
 

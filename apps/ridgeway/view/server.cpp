@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <exception>
@@ -42,10 +43,11 @@ class BoundedServer : public httplib::Server {
   bool process_and_close_socket(socket_t socket) override {
     BoundedStream stream(socket, is_over_);
     bool closed = false;
-    const bool done =
-        process_request(stream, true, closed, [&stream](const httplib::Request& request) {
-          if (request.path == kLivePath) stream.begin_endless_answer();
-        });
+    const bool done = process_request(stream, true, closed, [&stream](httplib::Request& request) {
+      // Answers are sent whole: httplib would pass on ranges that go beyond their end.
+      request.ranges.clear();
+      if (request.path == kLivePath) stream.begin_endless_answer();
+    });
     stream.finish();
     ::close(socket);
     return done;
@@ -62,6 +64,8 @@ bool is_from_here(const httplib::Request& request, int port) {
   };
   if (request.get_header_value_count("Host") != 1 || !is_here(request.get_header_value("Host")))
     return false;
+  for (const char* header : {"Sec-Fetch-Site", "Origin"})
+    if (request.get_header_value_count(header) > 1) return false;
   const std::string site = request.get_header_value("Sec-Fetch-Site");
   if (!site.empty() && site != "same-origin" && site != "none") return false;
   if (!request.has_header("Origin")) return true;
@@ -78,6 +82,7 @@ void set_headers(httplib::Response& response) {
   response.set_header("Cross-Origin-Resource-Policy", "same-origin");
   response.set_header("Referrer-Policy", "no-referrer");
   response.set_header("Cache-Control", "no-store");
+  response.set_header("Accept-Ranges", "none");
 }
 
 /// A body that is neither copied nor packed: httplib would pack the page's script for seconds, to
@@ -89,7 +94,8 @@ void set_bytes(httplib::Response& response, const std::string& type, std::string
       bytes.size(), type,
       [bytes, owner = std::move(owner)](std::size_t offset, std::size_t length,
                                         httplib::DataSink& sink) {
-        return sink.write(bytes.data() + offset, length);
+        const std::string_view part = bytes.substr(std::min(offset, bytes.size()), length);
+        return sink.write(part.data(), part.size());
       });
 }
 

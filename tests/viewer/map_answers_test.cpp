@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "view/map_answers.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support/synthetic_roadmap.hpp"
+#include "view/live_view.hpp"
+
+namespace ridgeway::cli {
+namespace {
+
+TEST(MapAnswers, TellsOfAMapWhateverItsFileIsCalled) {
+  const std::string odd = "\xff\"<b>\n.ridge";
+  const Question question{"/api/info", {}};
+  const Roadmap roadmap = synthetic_roadmap({});
+  LiveView live(odd);
+  for (const Reply& reply : {MapAnswers(roadmap, odd).answer(question), live.answer(question)}) {
+    EXPECT_EQ(reply.status, 200) << *reply.body;
+    EXPECT_EQ(nlohmann::json::parse(*reply.body)["name"], "\\xff\"<b>\\x0a.ridge");
+  }
+}
+
+}  // namespace
+}  // namespace ridgeway::cli
