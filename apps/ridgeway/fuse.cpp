@@ -208,6 +208,7 @@ void add_fuse_command(Command& program) {
       "Folders:\n"
       "  TUM RGB-D          depth.txt, groundtruth.txt, images of 1/5000 m\n"
       "  7-Scenes, 3DMatch  frame-*.depth.png in millimetres, frame-*.pose.txt\n"
+      "  Open3D, Redwood    depth/*.png in millimetres, trajectory.log\n"
       "  scans              .xyz, .ply or .pcd clouds in the sensor's frame, and poses.txt with\n"
       "                     a line for each: cloud tx ty tz qx qy qz qw (sensor to world)\n"
       "  registered scans   S_raw.xyz and registration_metrics.json, which moves each to one\n"
