@@ -188,7 +188,8 @@ void add_fuse_command(Command& program) {
   Command command = program.add("fuse", "Fuse depth images or scans with poses to a map");
   command
       .path("folder", options->folder,
-            "Recording: depth images in the layout of TUM RGB-D, 7-Scenes or 3DMatch, or point "
+            "Recording: depth images in the layout of TUM RGB-D, 7-Scenes, 3DMatch or Open3D, or "
+            "point "
             "clouds with poses.txt")
       .required();
   command.path("-o,--output", options->output, "Map to write, .ridge").required();

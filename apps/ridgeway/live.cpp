@@ -210,9 +210,12 @@ LiveOptions completed(const LiveOptions& options, RecordingKind kind) {
 int run(const LiveOptions& given, const Globals& globals) {
   const RecordingKind kind =
       given.follow > 0.0 ? RecordingKind::kImages : kind_of_recording(given.folder);
-  require_outside(given.output, given.folder);
-  require_writable({given.output}, {});
+  std::vector<std::filesystem::path> outputs = {given.output};
+  if (!given.csv.empty()) outputs.emplace_back(given.csv);
+  for (const std::filesystem::path& file : outputs) require_outside(file, given.folder);
+  require_writable(outputs, {});
   require_extension(given.output, "a roadmap", {".ridge"});
+  if (!given.csv.empty()) require_extension(given.csv, "a table", {".csv"});
   const LiveOptions options = completed(given, kind);
   Run run(options, globals);
   if (kind == RecordingKind::kScans)

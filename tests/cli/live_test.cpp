@@ -109,6 +109,16 @@ TEST_F(CliLive, KeepsToTheRecordingsClock) {
   EXPECT_NE(run({"info", path("live.ridge")}).out.find("keep_in"), std::string::npos);
 }
 
+TEST_F(CliLive, RefusesATableThatCannotBeWrittenBeforeTheFirstScan) {
+  for (const std::string& table : {path("live.ridge"), path("none/times.csv"), path("times.txt")}) {
+    SCOPED_TRACE(table);
+    const Outcome outcome = run({"live", kRecording, "-o", path("live.ridge"), "--csv", table});
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_NE(outcome.err.find(table), std::string::npos) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(path("live.ridge")));
+  }
+}
+
 TEST_F(CliLive, RefusesWhatIsNoRecordingAndNamesTheFrame) {
   EXPECT_EQ(run({"live", path("nowhere"), "-o", path("live.ridge")}).code, 1);
   // A robot that fits nowhere.
