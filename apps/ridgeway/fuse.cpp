@@ -188,7 +188,8 @@ void add_fuse_command(Command& program) {
   Command command = program.add("fuse", "Fuse depth images or scans with poses to a map");
   command
       .path("folder", options->folder,
-            "Recording: depth images in the layout of TUM RGB-D, 7-Scenes or 3DMatch, or point "
+            "Recording: depth images in the layout of TUM RGB-D, 7-Scenes, 3DMatch or Open3D, or "
+            "point "
             "clouds with poses.txt")
       .required();
   command.path("-o,--output", options->output, "Map to write, .ridge").required();
@@ -208,6 +209,7 @@ void add_fuse_command(Command& program) {
       "Folders:\n"
       "  TUM RGB-D          depth.txt, groundtruth.txt, images of 1/5000 m\n"
       "  7-Scenes, 3DMatch  frame-*.depth.png in millimetres, frame-*.pose.txt\n"
+      "  Open3D, Redwood    depth/*.png in millimetres, trajectory.log\n"
       "  scans              .xyz, .ply or .pcd clouds in the sensor's frame, and poses.txt with\n"
       "                     a line for each: cloud tx ty tz qx qy qz qw (sensor to world)\n"
       "  registered scans   S_raw.xyz and registration_metrics.json, which moves each to one\n"

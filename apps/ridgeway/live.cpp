@@ -219,6 +219,7 @@ int run(const LiveOptions& given, const Globals& globals) {
   for (const std::filesystem::path& output : outputs) require_outside(output, given.folder);
   require_writable(outputs, {});
   require_extension(given.output, "a roadmap", {".ridge"});
+  if (!given.csv.empty()) require_extension(given.csv, "a table", {".csv"});
   const LiveOptions options = completed(given, kind);
   Run run(options, globals);
   if (kind == RecordingKind::kScans)

@@ -209,7 +209,7 @@ void add_plan_command(Command& program) {
   command.flag("--raw", options->raw, "Do not shorten the path");
   command.choice_or_number(
       "--quality", options->quality, {"quick", "default", "best"}, options->within, {1.0, 1e6},
-      "quick: settle for nearly tight where the roadmap knows such a way by heart; a number: go on "
+      "quick: settle for nearly tight where the roadmap has learnt such a way; a number: go on "
       "until the path is at most so many times as long as the shortest can be, or time is up; "
       "best: 1.02");
   command.number("--time-limit", options->time_limit, kTimeLimits,

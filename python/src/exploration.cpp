@@ -55,16 +55,18 @@ class ExplorerFace {
 
   py::list frontiers() {
     std::vector<FrontierCluster> clusters;
+    std::shared_ptr<const Roadmap> roadmap;
     {
       const py::gil_scoped_release release;
       const std::scoped_lock lock(mutex_);
       const auto all = explorer_.frontiers().clusters();
       clusters.assign(all.begin(), all.end());
+      roadmap = roadmap_;
     }
     py::list list;
     for (const FrontierCluster& cluster : clusters) {
       py::dict dict;
-      dict["centroid"] = tuple_of(to_world(roadmap_->esdf, cluster.centroid));
+      dict["centroid"] = tuple_of(to_world(roadmap->esdf, cluster.centroid));
       dict["voxels"] = cluster.voxels;
       dict["normal"] = tuple_of(Point(cluster.normal));
       list.append(dict);

@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <queue>
 #include <system_error>
-#include <tuple>
 
 #include "common/number_text.hpp"
 #include "depth_layouts.hpp"
 #include "depth_png.hpp"
 #include "pose_text.hpp"
 #include "ridgeway/common/error.hpp"
+#include "time_association.hpp"
 
 namespace ridgeway {
 namespace {
@@ -59,71 +58,12 @@ std::vector<StampedPose> read_trajectory(const fs::path& file) {
   return poses;
 }
 
-/// For each image the place of the pose nearest in time, each pose once, nearest pairs first. The
-/// nearest pair of those left are always neighbours in time.
-class Association {
- public:
-  Association(const std::vector<StampedImage>& images, const std::vector<StampedPose>& poses,
-              double longest_gap)
-      : longest_gap_(longest_gap), pose_of_(images.size()) {
-    for (std::size_t i = 0; i < images.size(); ++i) stamps_.push_back({images[i].time, false, i});
-    for (std::size_t k = 0; k < poses.size(); ++k) stamps_.push_back({poses[k].time, true, k});
-    std::sort(stamps_.begin(), stamps_.end(), [](const Stamp& a, const Stamp& b) {
-      return std::tie(a.time, a.is_pose, a.place) < std::tie(b.time, b.is_pose, b.place);
-    });
-    const std::size_t count = stamps_.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      stamps_[i].previous = i == 0 ? kNone : i - 1;
-      stamps_[i].next = i + 1 == count ? kNone : i + 1;
-    }
-    for (std::size_t i = 0; i < count; ++i) offer(i, stamps_[i].next);
-    while (!pairs_.empty()) {
-      const Pair nearest = pairs_.top();
-      pairs_.pop();
-      take(nearest);
-    }
-  }
-
-  const std::optional<std::size_t>& pose_of(std::size_t image) const { return pose_of_[image]; }
-
- private:
-  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-  struct Stamp {
-    double time;
-    bool is_pose;
-    std::size_t place;  // among the images, or the poses
-    std::size_t previous = kNone, next = kNone;
-    bool is_taken = false;
-  };
-  struct Pair {
-    double gap;
-    std::size_t left, right;
-    bool operator>(const Pair& other) const {
-      return std::tie(gap, left) > std::tie(other.gap, other.left);
-    }
-  };
-
-  void offer(std::size_t left, std::size_t right) {
-    if (left == kNone || right == kNone || stamps_[left].is_pose == stamps_[right].is_pose) return;
-    const double gap = stamps_[right].time - stamps_[left].time;
-    if (gap <= longest_gap_) pairs_.push({gap, left, right});
-  }
-
-  void take(const Pair& pair) {
-    Stamp &left = stamps_[pair.left], &right = stamps_[pair.right];
-    if (left.is_taken || right.is_taken) return;
-    left.is_taken = right.is_taken = true;
-    pose_of_[left.is_pose ? right.place : left.place] = left.is_pose ? left.place : right.place;
-    if (left.previous != kNone) stamps_[left.previous].next = right.next;
-    if (right.next != kNone) stamps_[right.next].previous = left.previous;
-    offer(left.previous, right.next);
-  }
-
-  double longest_gap_;
-  std::vector<std::optional<std::size_t>> pose_of_;
-  std::vector<Stamp> stamps_;
-  std::priority_queue<Pair, std::vector<Pair>, std::greater<>> pairs_;
-};
+template <typename Stamped>
+std::vector<double> times_of(const std::vector<Stamped>& all) {
+  std::vector<double> times;
+  for (const Stamped& one : all) times.push_back(one.time);
+  return times;
+}
 
 DepthSequence open_tum(const fs::path& folder, const SequenceConfig& config) {
   DepthSequence sequence;
@@ -131,9 +71,9 @@ DepthSequence open_tum(const fs::path& folder, const SequenceConfig& config) {
   sequence.units_per_metre = kTumUnits;
   const std::vector<StampedImage> images = read_image_list(folder / kTumImages);
   const std::vector<StampedPose> poses = read_trajectory(folder / kTumPoses);
-  const Association association(images, poses, config.longest_gap);
+  const auto pose_of = associate(times_of(images), times_of(poses), config.longest_gap);
   for (std::size_t i = 0; i < images.size(); ++i) {
-    if (const auto pose = association.pose_of(i))
+    if (const auto pose = pose_of[i])
       sequence.frames.push_back({images[i].image, poses[*pose].T_world_camera, images[i].time});
     else
       ++sequence.without_pose;

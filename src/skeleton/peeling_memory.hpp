@@ -36,7 +36,7 @@ class PeelingMemory {
   VoxelField<std::uint32_t> squared_;       // levels of that
   VoxelMask traversable_, keep_;            // and what was peeled
   VoxelMask left_;                          // what it left
-  VoxelMask odd_;                           // those that did not go at their first turn
+  VoxelMask stayed_;                        // those that stayed at their first turn
   FlatTable<VoxelId, std::uint64_t> late_;  // the turns at which those of them went that went
 };
 

@@ -146,8 +146,8 @@ TEST_F(CliLive, WritesNoTableOverWhatItReadsOrWrites) {
   const auto live = [&](const std::string& csv) {
     return run({"live", some.string(), "-o", path("live.ridge"), "--csv", csv});
   };
-  for (const std::string& csv :
-       {(some / "groundtruth.txt").string(), path("live.ridge"), path("no/such/live.csv")}) {
+  for (const std::string& csv : {(some / "groundtruth.txt").string(), path("live.ridge"),
+                                 path("no/such/live.csv"), path("live.txt")}) {
     const Outcome outcome = live(csv);
     EXPECT_EQ(outcome.code, 1) << csv;
     EXPECT_NE(outcome.err.find(csv), std::string::npos) << outcome.err;

@@ -133,10 +133,13 @@ TEST(Esdf, IsExactWhereFewBlocksLieScatteredAndUnknownIsIgnored) {
 TEST(Esdf, AllocatesTheNeighboursOfKnownVoxelsWhereUnknownIsIgnored) {
   const OccupancyMap map = random_map(3);
   const EsdfMap esdf = compute_esdf(map, {.unknown = UnknownPolicy::kIgnore});
+  std::size_t known = 0;
   for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id) {
     if (esdf.state[id] == VoxelState::kUnknown) continue;
+    ++known;
     for (int d = 0; d < 27; ++d) ASSERT_NE(esdf.layout.neighbour(id, d), kNoVoxel);
   }
+  EXPECT_EQ(known, count_voxels(map).free + count_voxels(map).occupied);
 }
 
 TEST(Esdf, RefusesAPolicyThatIsNone) {

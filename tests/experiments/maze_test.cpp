@@ -41,6 +41,8 @@ TEST(Maze, AnswersAreTheSameInEveryRound) {
   const MazeResult thrice = run_maze(config);
   config.repeat = 1;
   const MazeResult once = run_maze(config);
+  ASSERT_EQ(once.rows.size(), 8u);
+  ASSERT_EQ(thrice.rows.size(), 8u);
   for (std::size_t i = 0; i < once.rows.size(); ++i) {
     if (once.rows[i].planner == "rrtstar_10s") continue;  // as far as it came in its time
     SCOPED_TRACE(once.rows[i].planner);

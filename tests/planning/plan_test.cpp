@@ -30,9 +30,8 @@ Roadmap build(const OccupancyMap& map, double min_clearance,
 }
 
 Roadmap build_shape(const std::string& name) {
-  for (const Shape& shape : testing::test_shapes())
-    if (shape.name == name) return build(shape.map(), shape.min_clearance);
-  throw std::logic_error("no shape " + name);
+  const Shape shape = testing::test_shape(name);
+  return build(shape.map(), shape.min_clearance);
 }
 
 /// Those of the obstacles that can be nearer than a distance to a point between two, voxel units.

@@ -76,6 +76,7 @@ TEST(Flatten, TakesWhateverIsBetweenTheHeightsForOneLayer) {
 }
 
 TEST(Planar, DistancesAreThoseInThePlane) {
+  int finite = 0;
   for (unsigned seed = 0; seed < 12; ++seed) {
     SCOPED_TRACE(seed);
     const auto policy = seed % 2 == 0 ? UnknownPolicy::kObstacle : UnknownPolicy::kIgnore;
@@ -106,11 +107,13 @@ TEST(Planar, DistancesAreThoseInThePlane) {
         EXPECT_NEAR(space.distance(place), 0.1 * expected, 1e-9);
       if (expected * 0.1 > 0.01)
         EXPECT_TRUE(space.is_free(place, 0.1 * std::min(expected, 1e3) * (1 - 1e-6)));
+      finite += std::isfinite(expected);
       if (std::isfinite(expected))
         EXPECT_FALSE(space.is_free(place, 0.1 * expected * (1 + 1e-6) + 1e-6));
       EXPECT_FALSE(space.is_free(place + Point(0, 0, 1e-3), 1e-3));  // out of the plane
     }
   }
+  EXPECT_GT(finite, 0);
 }
 
 /// Whether moves between the eight neighbours in the plane join two voxels of a layer, with a

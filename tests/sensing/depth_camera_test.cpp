@@ -37,12 +37,14 @@ TEST(DepthCamera, SeesAWallAtOneDepthAndNothingBeyondItsRange) {
 }
 
 TEST(DepthCamera, PixelsArePointsOfTheWorld) {
+  int worlds = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const World world = testing::random_world(seed);
     Random random(seed);
     const DepthSensor sensor{.camera = {64, 48, 32.0, 32.0, 31.5, 23.5}};
     const Eigen::Isometry3d pose = level_pose({-7.0, -7.0, 3.0}, random.uniform(0.0, 1.5));
     if (surface_distance(world, pose.translation()).distance < 0.1) continue;
+    ++worlds;
     const DepthImage image = render_depth(world, sensor, pose);
     int seen = 0;
     for (int v = 0; v < 48; ++v)
@@ -55,16 +57,19 @@ TEST(DepthCamera, PixelsArePointsOfTheWorld) {
       }
     EXPECT_GT(seen, 0);
   }
+  EXPECT_GT(worlds, 0);
 }
 
 TEST(SpinningLidar, BeamsEndOnTheWorldAllAroundWithinItsAngle) {
   const SpinningLidar lidar = {.rows = 9, .columns = 72, .vertical = 0.8, .max_range = 30.0};
+  int worlds = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const World world = testing::random_world(seed);
     Eigen::Isometry3d pose(Eigen::AngleAxisd(0.3 * static_cast<double>(seed),
                                              Eigen::Vector3d(0.1, 0.2, 1.0).normalized()));
     pose.translation() = Point(-7.0, -7.0, 3.0);
     if (surface_distance(world, pose.translation()).distance < 0.1) continue;
+    ++worlds;
     const std::vector<Point> points = scan_with(world, lidar, pose);
     EXPECT_LE(points.size(), 9u * 72u);
     EXPECT_GT(points.size(), 0u);
@@ -79,6 +84,7 @@ TEST(SpinningLidar, BeamsEndOnTheWorldAllAroundWithinItsAngle) {
     EXPECT_LE(highest, 0.4 + 1e-9);
     EXPECT_GE(lowest, -0.4 - 1e-9);
   }
+  EXPECT_GT(worlds, 0);
 }
 
 TEST(SpinningLidar, SeesAWallOnOneSideWithNoiseThatTheSeedGives) {

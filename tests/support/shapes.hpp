@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -114,6 +115,13 @@ inline std::vector<Shape> test_shapes() {
        {50, 12, 12},
        [=](const Point& p) { return room(p, 5, 1.2, 1.2); }},
   };
+}
+
+/// The one of a name. Throws where there is none.
+inline Shape test_shape(const std::string& name) {
+  for (const Shape& shape : test_shapes())
+    if (shape.name == name) return shape;
+  throw std::invalid_argument("there is no shape '" + name + "'");
 }
 
 }  // namespace ridgeway::testing

@@ -6,7 +6,6 @@
 
 #include <Eigen/LU>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <random>
 
@@ -176,7 +175,7 @@ TEST(MinimumSpline, JoinsWithFourContinuousDerivatives) {
     }
 }
 
-TEST(MinimumSpline, ThousandSegmentsTakeMillisecondsAndStayAccurate) {
+TEST(MinimumSpline, ThousandSegmentsStayAccurate) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> value(-5.0, 5.0), exponent(-3.0, 3.0);
   for (const Smoothness smoothness : kBoth) {
@@ -189,12 +188,9 @@ TEST(MinimumSpline, ThousandSegmentsTakeMillisecondsAndStayAccurate) {
     p.derivatives = MatrixXd::Zero(1001 * static_cast<Index>(rows), 3);
     for (Index knot = 0; knot <= 1000; ++knot)
       for (Index axis = 0; axis < 3; ++axis) p.derivatives(knot * rows, axis) = value(random);
-    const auto began = std::chrono::steady_clock::now();
     const MinimumSpline spline(smoothness, p.durations, p.fixed);
     MatrixXd solved = p.derivatives;
     spline.solve(solved);
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
-    EXPECT_LT(took.count(), 0.1);  // about 3 ms; much more under sanitizers
     // At the minimum the cost does not change to first order, whatever free derivative moves. Seen
     // beside what its terms amount to.
     MatrixXd gradient = MatrixXd::Zero(solved.rows(), 3);
