@@ -23,17 +23,17 @@ struct PlanningConstants {
   double cell_centring = 0.5;  ///< voxels of width that a voxel off the middle is worth
   /// One after the other; a straight search finds what is nearly as short as what a wide one finds.
   std::array<CellEffort, 3> cell_efforts{{{1.35, 400, 1.05}, {2.0, 800, 1.05}, {1.2, 1500, 1.12}}};
-  CellEffort last_cell_effort{1.2, 5000, 1.15};  ///< where those gave up and the graph's is long
+  /// Where those gave up and the graph's is long: straighter than the last, so that it gets there.
+  CellEffort last_cell_effort{1.35, 5000, 1.15};
   double landmark_share = 0.93;  ///< of lengths by landmarks that paths are hardly shorter than
 
   // What a query tries (planning/plan.cpp). Lengths over what a path may be expected to have.
   double near = 1.05;  ///< good enough: nothing else is asked, nor ways past what blocks it tried
   double far = 1.12;   ///< too long to be believed: the sparse graph is searched as well
-  double as_found = 1.1;         ///< a route over cells or corners over its tight path, at most
-  int voxel_reach = 64;          ///< voxels that ends are apart at most for a search over voxels
-  int most_voxels = 1500;        ///< taken by it before it gives up: half a millisecond
-  int most_voxels_alone = 6000;  ///< the same where the cells connect nothing
-  double voxel_weight = 1.3;  ///< of A*'s heuristic over voxels: 1 seldom gets there in the limit
+  double as_found = 1.1;       ///< a route over cells or corners over its tight path, at most
+  int voxel_reach = 40;        ///< voxels that ends are apart at most for a search over voxels
+  int most_voxels = 6000;      ///< taken by it before it gives up: two milliseconds
+  double voxel_weight = 1.15;  ///< of A*'s heuristic over voxels: 1 seldom gets there in the limit
 
   // Ways past what blocks a stretch (planning/detour.cpp).
   int detour_rays = 6;             ///< around the stretch

@@ -185,9 +185,7 @@ class Answering {
     const double reach = kPlanning.voxel_reach * esdf_.voxel_size;
     const bool are_alone = cells_ == Cells::kNone;
     if (!are_alone && (query_.goal - query_.start).norm() > reach) return;
-    const int most = are_alone ? kPlanning.most_voxels_alone : kPlanning.most_voxels;
-    known =
-        shorter(known, path_over_voxels(esdf_, space_, query_, length_of(known), most, deadline_));
+    known = shorter(known, path_over_voxels(esdf_, space_, query_, length_of(known), deadline_));
   }
 
   Route shorter(const Route& a, const Route& b) const { return excess(b) < excess(a) ? b : a; }

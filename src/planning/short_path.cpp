@@ -43,10 +43,10 @@ Route past_what_blocks(const EsdfMap& esdf, const FreeSpace& space, const RouteQ
 }
 
 Route path_over_voxels(const EsdfMap& esdf, const FreeSpace& space, const RouteQuery& query,
-                       double length, int most_voxels, const Deadline& deadline) {
+                       double length, const Deadline& deadline) {
   const LatticeOptions options{.weight = kPlanning.voxel_weight,
                                .longest = length / esdf.voxel_size,
-                               .most_expansions = most_voxels};
+                               .most_expansions = kPlanning.most_voxels};
   const LatticePath path =
       search_lattice(space, query.from, query.to, query.radius, options, deadline);
   if (path.status != SearchStatus::kFound) return {};

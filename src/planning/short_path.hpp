@@ -22,10 +22,10 @@ Route shorten_below(const FreeSpace& space, Route route, double radius, double l
 Route past_what_blocks(const EsdfMap& esdf, const FreeSpace& space, const RouteQuery& query,
                        Route path, const Deadline& deadline);
 
-/// A path shorter than `length`, metres, by a search over at most so many voxels, pulled tight;
-/// empty where that finds none.
+/// A path shorter than `length`, metres, by a search over voxels, pulled tight; empty
+/// where that finds none.
 Route path_over_voxels(const EsdfMap& esdf, const FreeSpace& space, const RouteQuery& query,
-                       double length, int most_voxels, const Deadline& deadline);
+                       double length, const Deadline& deadline);
 
 /// The shortest path over voxels at any angle (search_any_angle), pulled tight; empty where time is
 /// up.

@@ -10,6 +10,7 @@
 #include "paths/planning_constants.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
+#include "voxel/disjoint_sets.hpp"
 
 namespace ridgeway {
 namespace {
@@ -59,7 +60,7 @@ class CellGraphBuilder {
     parallel_for_each_index(
         count, [&](std::size_t i) { link(static_cast<CellId>(i)); }, 64);
     detail::add_bends(space_, radius_, graph_);
-    parallel_for_each_index(CellGraph::kLevels, [&](std::size_t level) { number_parts(level); });
+    number_parts();
     return std::move(graph_);
   }
 
@@ -140,40 +141,39 @@ class CellGraphBuilder {
     return levels;
   }
 
-  /// Of the edges and bends that let a level of radii through.
-  void number_parts(std::size_t level) {
-    std::vector<CellId> open;
-    std::uint16_t part = 0;
-    const auto places = static_cast<CellId>(cells_.size() + graph_.nooks.size());
+  /// For each level of radii, of the edges and bends that let it through. Wider robots pass less,
+  /// so their parts only grow together towards the smallest.
+  void number_parts() {
+    DisjointSets parts(cells_.size() + graph_.nooks.size());
+    for (std::size_t level = CellGraph::kLevels; level-- > 0;) {
+      join_what_passes(level, parts);
+      number_parts(level, parts);
+    }
+  }
+
+  /// Over what lets this level of radii through, but no wider one.
+  void join_what_passes(std::size_t level, DisjointSets& parts) const {
+    for (CellId cell = 0; cell < cells_.size(); ++cell)
+      for (std::size_t i = 0; i < cells_[cell].widths.size(); ++i)
+        if (cells_[cell].widths[i] == level + 1)
+          parts.join(cell, lattice_.neighbour(cell, kCentre + 1 + static_cast<int>(i)));
+    for (const CellGraph::Bend& bend : graph_.bends)
+      if (bend.width == level + 1) parts.join(bend.from, bend.to);
+  }
+
+  /// In the order of their first places.
+  void number_parts(std::size_t level, DisjointSets& parts) {
+    const CellId cells = static_cast<CellId>(cells_.size());
+    const auto places = static_cast<CellId>(cells + graph_.nooks.size());
     const auto part_of = [&](CellId place) -> std::uint16_t& {
-      return place < cells_.size() ? cells_[place].parts[level]
-                                   : graph_.nooks[place - cells_.size()].parts[level];
+      return place < cells ? cells_[place].parts[level] : graph_.nooks[place - cells].parts[level];
     };
-    const auto reach = [&](CellId place) {
-      if (part_of(place) != CellGraph::kNoPart) return;
+    std::uint16_t next = 0;
+    for (CellId place = 0; place < places; ++place) {
+      if (detail::number_in_cell(graph_, place) == CellGraph::kNoPlace) continue;
+      std::uint16_t& part = part_of(parts.find(place));
+      if (part == CellGraph::kNoPart && next != CellGraph::kNoPart) part = next++;
       part_of(place) = part;
-      open.push_back(place);
-    };
-    for (CellId first = 0; first < places; ++first) {
-      if (detail::number_in_cell(graph_, first) == CellGraph::kNoPlace ||
-          part_of(first) != CellGraph::kNoPart)
-        continue;
-      if (part == CellGraph::kNoPart) return;
-      for (reach(first); !open.empty();) {
-        const CellId place = open.back();
-        open.pop_back();
-        const bool is_nook = place >= cells_.size();
-        for (int d = 0; d < 27 && !is_nook; ++d) {
-          if (d == kCentre) continue;
-          const CellId next = lattice_.neighbour(place, d);
-          if (next != detail::kNoCell && detail::edge_width(cells_, place, next, d) > level)
-            reach(next);
-        }
-        if (!is_nook && !cells_[place].has_bends) continue;
-        for (const CellGraph::Bend& bend : detail::bends_from(graph_, place))
-          if (bend.width > level) reach(bend.to);
-      }
-      ++part;
     }
   }
 

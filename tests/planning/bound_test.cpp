@@ -107,6 +107,39 @@ TEST(Within, HoldsAgainstTheShortestPathByBruteForce) {
   EXPECT_GT(shorter_by_more, 0);
 }
 
+/// Voxels of 1 m, three tenths of them occupied, for a robot that just fits between: ways of equal
+/// length past each other on all sides, of which cells of four voxels know few as short as they
+/// are.
+OccupancyMap clutter(unsigned seed) {
+  std::mt19937 random(seed);
+  return testing::make_map(1.0, {0, 0, 0}, {27, 27, 27}, [&](const VoxelIndex&) {
+    return random() % 10 < 3 ? VoxelState::kOccupied : VoxelState::kFree;
+  });
+}
+
+TEST(ShortPaths, ThroughClutterAreHardlyLongerThanOverAllVoxels) {
+  const Roadmap roadmap = build_roadmap(clutter(0), {.min_clearance = 0.5}).roadmap;
+  const std::vector<VoxelId> places = testing::traversable_places(roadmap.esdf, 0.5);
+  std::mt19937 random(0);
+  int paths = 0;
+  double sum = 0.0;
+  for (int i = 0; i < 60; ++i) {
+    const auto place = [&] {
+      const VoxelId id = places[random() % places.size()];
+      return to_world(roadmap.esdf, centre_of(roadmap.esdf.layout.index_of(id), 1.0));
+    };
+    const Point start = place(), goal = place();
+    const PlanResult usual = plan(roadmap, start, goal);
+    if (!usual.ok()) continue;
+    const PlanResult exact = plan(roadmap, start, goal, {.planner = Planner::kEsdf});
+    EXPECT_LE(usual.length, 1.15 * exact.length);
+    sum += std::max(usual.length / exact.length, 1.0);
+    ++paths;
+  }
+  EXPECT_GT(paths, 40);
+  EXPECT_LE(sum, 1.06 * paths);
+}
+
 /// A corridor of 1.5 m that turns back four times, in a hall of 8 x 6 m.
 OccupancyMap serpentine() {
   return testing::make_map(kVoxel, {0, 0, 0}, {79, 59, 9}, [](const VoxelIndex& v) {

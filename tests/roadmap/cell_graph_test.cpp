@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "paths/planning_constants.hpp"
 #include "ridgeway/common/parallel.hpp"
@@ -164,6 +167,56 @@ TEST(CellGraph, ConnectsWhatMovesAcrossFacesConnect) {
   }
   EXPECT_GT(nooks, 100u);
   EXPECT_GT(moves, 5000u);
+}
+
+/// Pairs of places that a level of radii lets through.
+std::vector<std::pair<detail::CellId, detail::CellId>> links_at(const Roadmap& roadmap,
+                                                                std::size_t level) {
+  const CellGraph& graph = roadmap.cells;
+  const detail::CellLattice lattice(roadmap.esdf.layout);
+  std::vector<std::pair<detail::CellId, detail::CellId>> links;
+  for (detail::CellId cell = 0; cell < graph.cells.size(); ++cell)
+    for (int d = kCentre + 1; d < 27; ++d)
+      if (const detail::CellId next = lattice.neighbour(cell, d);
+          next != detail::kNoCell && detail::edge_width(graph.cells, cell, next, d) > level)
+        links.emplace_back(cell, next);
+  for (const CellGraph::Bend& bend : graph.bends)
+    if (bend.width > level) links.emplace_back(bend.from, bend.to);
+  return links;
+}
+
+TEST(CellGraph, PartsAreWhatEdgesAndBendsConnectAtEachRadius) {
+  std::size_t parts = 0;
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    SCOPED_TRACE(seed);
+    const Roadmap roadmap = seed < 2 ? clutter(seed) : pillar_roadmap(seed);
+    const CellGraph& graph = roadmap.cells;
+    const auto places = static_cast<detail::CellId>(graph.cells.size() + graph.nooks.size());
+    for (std::size_t level = 0; level < CellGraph::kLevels; ++level) {
+      std::vector<detail::CellId> first(places);  // of those that a place is connected with
+      std::iota(first.begin(), first.end(), 0u);
+      const auto links = links_at(roadmap, level);
+      for (bool has_changed = true; has_changed;) {
+        has_changed = false;
+        for (const auto& [a, b] : links) {
+          if (first[a] == first[b]) continue;
+          first[a] = first[b] = std::min(first[a], first[b]);
+          has_changed = true;
+        }
+      }
+      std::uint16_t next = 0;
+      for (detail::CellId place = 0; place < places; ++place) {
+        if (detail::number_in_cell(graph, place) == CellGraph::kNoPlace) continue;
+        const auto part_of = [&](detail::CellId of) {
+          return of < graph.cells.size() ? graph.cells[of].parts[level]
+                                         : graph.nooks[of - graph.cells.size()].parts[level];
+        };
+        ASSERT_EQ(part_of(place), first[place] == place ? next++ : part_of(first[place]));
+      }
+      parts += next;
+    }
+  }
+  EXPECT_GT(parts, 100u);
 }
 
 TEST(CellGraph, BendsAreMovesThatKeepTheirRadius) {
