@@ -81,7 +81,8 @@ void add_to_class(py::handle type) {
       continue;
     add_to_function(type, function, name + "." + function, !is_static);
   }
-  if (members.contains("__init__")) return;
+  // Others have pybind11's, which is no method.
+  if (PyInstanceMethod_Check(py::object(members["__init__"]).ptr())) return;
   const auto refuse = [name, makers](py::detail::value_and_holder&, const py::args&,
                                      const py::kwargs&) { refuse_making(name, makers); };
   type.attr("__init__") = py::cpp_function(refuse, py::name("__init__"), py::is_method(type),
