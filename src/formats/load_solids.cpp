@@ -45,14 +45,14 @@ void tell_of_frame(const MeshFrame& own, const LoadConfig& config, LoadNotes* no
 }
 
 std::string enclosed_text(const MeshMapReport& report) {
-  if (report.enclosed == 0) return "";
+  if (report.enclosed == 0) return " (option inside)";
   const std::string spaces = report.enclosed == 1
                                  ? "; a space that the mesh encloses is taken as solid, of "
                                  : "; " + std::to_string(report.enclosed) +
                                        " spaces that the mesh encloses are taken as solid, the "
                                        "largest of ";
-  return spaces + millimetres_text(report.largest_enclosed) + " m3 around " +
-         point_text(report.in_largest);
+  return spaces + millimetres_text(report.largest_enclosed) + " m3 (option inside " +
+         point_text(report.in_largest) + " makes that one free)";
 }
 
 void tell_of_space(const MeshMapReport& report, const LoadConfig& config, LoadNotes* notes) {
@@ -66,7 +66,7 @@ void tell_of_space(const MeshMapReport& report, const LoadConfig& config, LoadNo
          "encloses is taken as free (option inside)");
   else if (report.free == Free::kAround)
     tell(notes, "what is reached from the bounds is taken as free, outside the mesh too" +
-                    enclosed_text(report) + " (option inside)");
+                    enclosed_text(report));
   if (report.leak)
     tell(notes, "the space is not closed: it is open to the bounds at " +
                     point_text(report.leak->exit) + "; the widest way there is narrowest, about " +
