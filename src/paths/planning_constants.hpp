@@ -27,7 +27,7 @@ struct PlanningConstants {
   CellEffort last_cell_effort{1.35, 5000, 1.15};
   double landmark_share = 0.93;  ///< of lengths by landmarks that paths are hardly shorter than
 
-  // What a query tries (planning/plan.cpp). Lengths over what a path may be expected to have.
+  // What a query tries (planning/answering.cpp). Lengths over what a path may be expected to have.
   double near = 1.05;  ///< good enough: nothing else is asked, nor ways past what blocks it tried
   double far = 1.12;   ///< too long to be believed: the sparse graph is searched as well
   double as_found = 1.1;       ///< a route over cells or corners over its tight path, at most
