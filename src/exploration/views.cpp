@@ -64,6 +64,15 @@ std::uint32_t Views::headings_to(const Point& from, const Point& target) const {
   return bits;
 }
 
+/// The share of a frontier voxel's worth that is expected to be measured from so far off. Free
+/// space is measured up to a surface alone, which has to be in range: the less of the range is left
+/// behind a voxel, the rarer there is one.
+double Views::share_from(double distance) const {
+  constexpr double kLeast = 0.1;  // whatever is in view counts
+  const double share = distance / view_.range;
+  return std::max(1.0 - share * share, kLeast);
+}
+
 void Views::ban(const Place& place, const FrontierPart& part) {
   banned_[{part.first, part.version}].push_back(place.id);
   const auto found = of_part_.find(part.first);
@@ -246,12 +255,15 @@ bool Views::look(const Roadmap& roadmap, const FrontierPart& part, Candidate& ca
   cached.all_seen = true;
   for (std::size_t i = 0; i < looks; ++i) {
     const VoxelIndex& target = part.targets[i * count / looks];
-    const std::uint32_t headings = headings_to(from, centre_of(target, roadmap.esdf.voxel_size));
+    const Point centre = centre_of(target, roadmap.esdf.voxel_size);
+    const std::uint32_t headings = headings_to(from, centre);
     if (headings == 0) continue;  // does not depend on the map
     --rays_left;
     if (sees(roadmap.esdf, from, target))
-      cached.rays.push_back({headings, static_cast<std::uint8_t>(i % kMostTargets),
-                             static_cast<float>(part.voxels) / static_cast<float>(looks)});
+      cached.rays.push_back(
+          {headings, static_cast<std::uint8_t>(i % kMostTargets),
+           static_cast<float>(static_cast<double>(part.voxels) *
+                              share_from((centre - from).norm()) / static_cast<double>(looks))});
     else
       cached.all_seen = false;
   }
@@ -307,16 +319,16 @@ double Views::gain_now(const Roadmap& roadmap, const Frontiers& frontiers, std::
     const double reach = view_.range + kBlockSide * roadmap.esdf.voxel_size;
     if ((part.centroid - place.position).squaredNorm() > reach * reach) continue;
     const std::size_t count = part.targets.size(), looks = std::min(count, kTargets);
-    std::size_t seen = 0;
+    double seen = 0.0;
     for (std::size_t i = 0; i < looks; ++i) {
       const VoxelIndex& target = part.targets[i * count / looks];
       const Point centre = centre_of(target, roadmap.esdf.voxel_size);
       if ((headings_to(place.position, centre) >> heading & 1) != 0 &&
           sees(roadmap.esdf, place.position, target))
-        ++seen;
+        seen += share_from((centre - place.position).norm());
     }
-    if (seen > 0)
-      gain += static_cast<double>(part.voxels * seen) / static_cast<double>(looks) *
+    if (seen > 0.0)
+      gain += static_cast<double>(part.voxels) * seen / static_cast<double>(looks) *
               depth_behind(roadmap.esdf, within_, part, deepest_);
   }
   return gain;

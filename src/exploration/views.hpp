@@ -133,6 +133,7 @@ class Views {
                        PartViews& views) const;
   bool is_candidate(const EsdfMap& esdf, const FrontierPart& part, const Place& place,
                     double& distance) const;
+  double share_from(double distance) const;
   bool is_banned(const Place& place, const FrontierPart& part) const;
   template <typename Visit>
   void for_each_asked(PartViews& views, const Visit& visit) const;

@@ -90,5 +90,38 @@ TEST(Views, FarPartsAreSeenInTimeAndStaySeen) {
   }
 }
 
+/// A cube of unknown space at the far end, from places that all see its front at the same targets.
+TEST(Views, LessIsExpectedFromFartherOff) {
+  LiveRoadmap live({.fusion = {.voxel_size = kVoxel},
+                    .build = {.min_clearance = 0.4, .max_distance = 2.0},
+                    .origin = VoxelIndex{}});
+  std::vector<VoxelChange> changes = hall();
+  add_cube(changes, {50, 5, 4}, VoxelState::kUnknown);
+  live.set_voxels(changes);
+  std::vector<detail::Place> places = places_along_the_hall();
+  std::erase_if(places, [](const detail::Place& place) { return place.voxel.x > 35; });
+  Frontiers frontiers;
+  frontiers.update(live.snapshot());
+  const FieldOfView view{.range = 10.0};
+  detail::Views views(view, 16, kAllVoxels, 0.0);
+  ASSERT_TRUE(
+      views.update(*live.snapshot(), frontiers, 1, places, places[0].position, 100'000, true));
+  const std::vector<std::uint64_t> nothing(views.parts(), 0);
+  double gain_before = 0.0, now_before = 0.0;
+  int compared = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (views.from_places()[i].empty()) continue;
+    const detail::Stop stop = views.best_heading(i, nothing);
+    const double now =
+        views.gain_now(*live.snapshot(), frontiers, 1, places[i], stop.heading);  // by samples
+    EXPECT_GT(stop.gain, 1.05 * gain_before) << "from " << places[i].position.transpose();
+    EXPECT_GT(now, 1.05 * now_before) << "from " << places[i].position.transpose();
+    gain_before = stop.gain;
+    now_before = now;
+    ++compared;
+  }
+  EXPECT_GT(compared, 4);
+}
+
 }  // namespace
 }  // namespace ridgeway
