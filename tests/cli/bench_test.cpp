@@ -90,8 +90,9 @@ TEST_F(CliBench, MazeIsPlannedOnWhatADroneHasExplored) {
       run({"bench", "maze", "--explored", "--cells", "2", "--voxel-size", "0.2", "--pairs", "4",
            "--long-pairs", "0", "--repeat", "1", "--time-limit", "0.3", "--json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_EQ(outcome.json()["explored"], true);
-  for (const auto& row : outcome.json()["rows"])
+  const nlohmann::json json = outcome.json();
+  EXPECT_EQ(json["explored"], true);
+  for (const auto& row : json["rows"])
     if (row["planner"] == "esdf" || row["planner"] == "graph") {
       EXPECT_EQ(row["solved"], 4) << row["planner"];
       EXPECT_GT(row["single"]["length"], 3.0) << row["planner"];
