@@ -3,12 +3,21 @@
 #pragma once
 
 #include <chrono>
+#include <ctime>
 
 namespace ridgeway::detail {
 
 /// Seconds since some moment; never goes back. For differences.
 inline double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Seconds of processor time of this thread; for differences. What else runs on the machine hardly
+/// counts.
+inline double thread_seconds_now() {
+  timespec now{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 }  // namespace ridgeway::detail

@@ -3,9 +3,9 @@
 #include "live_queries.hpp"
 
 #include <chrono>
-#include <ctime>
 #include <utility>
 
+#include "common/clock.hpp"
 #include "common/random.hpp"
 #include "ridgeway/live/graph_delta.hpp"
 #include "ridgeway/planning/plan.hpp"
@@ -15,13 +15,6 @@ namespace {
 
 constexpr std::size_t kMostKept = 2000;  // queries that are asked again
 constexpr int kTries = 1000;             // to meet a traversable voxel
-
-/// Of the thread that asks: others may have taken its processor for a while.
-double own_seconds() {
-  timespec now{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 Point random_place(const Roadmap& roadmap, Random& random) {
   const EsdfMap& esdf = roadmap.esdf;
@@ -73,9 +66,9 @@ void LiveQueryLoad::finish() {
 void LiveQueryLoad::ask_again() {
   end(End::kNow);
   for (const Asked& asked : asked_) {
-    const double start = own_seconds();
+    const double start = detail::thread_seconds_now();
     plan(*asked.roadmap, asked.start, asked.goal);
-    results_.alone.push_back(own_seconds() - start);
+    results_.alone.push_back(detail::thread_seconds_now() - start);
   }
 }
 
@@ -99,9 +92,9 @@ void LiveQueryLoad::run(const LiveRoadmap& live, std::uint64_t seed) {
   Random random(seed, 1);
   while (const std::shared_ptr<const Roadmap> now = wait_for_next(live)) {
     const Asked asked{now, random_place(*now, random), random_place(*now, random)};
-    const double start = own_seconds();
+    const double start = detail::thread_seconds_now();
     const PlanResult path = plan(*now, asked.start, asked.goal);
-    const double seconds = own_seconds() - start;
+    const double seconds = detail::thread_seconds_now() - start;
     ++results_.asked;
     results_.solved += path.ok();
     results_.wrong += path.ok() && !still_safe(path.waypoints, now->min_clearance, *now);

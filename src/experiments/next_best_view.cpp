@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/clock.hpp"
 #include "exploration/shaped_trajectory.hpp"
-#include "exploration/thread_clock.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/mapping/occupancy_map.hpp"
 #include "ridgeway/trajectory/plan_trajectory.hpp"

@@ -8,10 +8,10 @@
 #include <cstdint>
 #include <queue>
 
+#include "common/clock.hpp"
 #include "exploration/legs.hpp"
 #include "exploration/ray_walk.hpp"
 #include "exploration/shaped_trajectory.hpp"
-#include "exploration/thread_clock.hpp"
 #include "exploration/views.hpp"
 #include "exploration/ways.hpp"
 #include "planning/endpoint.hpp"
@@ -106,8 +106,9 @@ OfflineTour::OfflineTour(const World& world, double voxel_size, const VoxelRange
     const detail::WaysFrom ways(world_, to_local(esdf, stops_[i].view.position), access[i]);
     std::vector<double> row;
     for (std::size_t j = 0; j < stops_.size(); ++j)
-      row.push_back(seconds_between(ways.to(to_local(esdf, stops_[j].view.position), access[j]),
-                                    detail::turn_between(stops_[i].view.yaw, stops_[j].view.yaw)));
+      row.push_back(detail::seconds_of_leg(
+          limits_, ways.to(to_local(esdf, stops_[j].view.position), access[j]),
+          detail::turn_between(stops_[i].view.yaw, stops_[j].view.yaw)));
     between_.push_back(std::move(row));
   }
 }
@@ -160,14 +161,6 @@ void OfflineTour::choose_stops(const FieldOfView& view, const Point& start,
   }
 }
 
-/// Of a flight that begins and ends slowly, while the robot turns.
-double OfflineTour::seconds_between(double length, double turn) const {
-  const double v = limits_.max_speed, a = limits_.max_acceleration;
-  const double way = std::min(length, 1e6);
-  const double flight = way < v * v / a ? 2.0 * std::sqrt(way / a) : way / v + v / a;
-  return std::max(flight, std::abs(turn) / limits_.max_yaw_rate);
-}
-
 void OfflineTour::leave_out_known(const Roadmap& now) {
   const EsdfMap& esdf = now.esdf;
   for (Stop& stop : stops_) {
@@ -192,8 +185,9 @@ std::vector<std::size_t> OfflineTour::order(const FlightState& state) const {
   detail::TourCosts costs;
   for (const std::size_t i : left) {
     const Point place = to_local(esdf, stops_[i].view.position);
-    costs.first.push_back(seconds_between(ways.to(place, access_at(world_, place)),
-                                          detail::turn_between(state.yaw, stops_[i].view.yaw)));
+    costs.first.push_back(
+        detail::seconds_of_leg(limits_, ways.to(place, access_at(world_, place)),
+                               detail::turn_between(state.yaw, stops_[i].view.yaw)));
     std::vector<double> row;
     for (const std::size_t j : left) row.push_back(between_[i][j]);
     costs.between.push_back(std::move(row));

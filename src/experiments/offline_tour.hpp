@@ -42,7 +42,6 @@ class OfflineTour {
                     const std::vector<VoxelIndex>& targets);
   void leave_out_known(const Roadmap& now);
   std::vector<std::size_t> order(const FlightState& state) const;
-  double seconds_between(double length, double turn) const;
 
   Roadmap world_;
   MotionLimits limits_;

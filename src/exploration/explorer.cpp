@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/clock.hpp"
 #include "explorer_state.hpp"
 #include "legs.hpp"
 #include "planning/endpoint.hpp"
 #include "ridgeway/common/error.hpp"
-#include "thread_clock.hpp"
 
 namespace ridgeway {
 namespace {

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/clock.hpp"
 #include "explorer_state.hpp"
 #include "legs.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/trajectory/plan_trajectory.hpp"
 #include "shaped_trajectory.hpp"
-#include "thread_clock.hpp"
 
 namespace ridgeway {
 

@@ -69,7 +69,6 @@ struct Explorer::State {
                                  double& seconds) const;
   void refine_first(std::vector<TourStop>& stops, const std::vector<std::size_t>& tour,
                     const FlightState& state, const detail::WaysFrom& ways) const;
-  double seconds_between(double length, double turn) const;
   double seconds_from_robot(const TourStop& stop, const FlightState& state) const;
   double seconds_home(const Point& from_local, const detail::Access& access) const;
   bool fly_to(const Point& goal_local, double yaw, const FlightState& state,

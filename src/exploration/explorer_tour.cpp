@@ -6,6 +6,7 @@
 #include <queue>
 
 #include "explorer_state.hpp"
+#include "legs.hpp"
 #include "shaped_trajectory.hpp"
 
 namespace ridgeway {
@@ -22,19 +23,12 @@ constexpr double kAsGood = 0.8;   // of a stop's gain: a nearer place that sees 
 
 }  // namespace
 
-/// Of a flight that begins and ends slowly, while the robot turns.
-double Explorer::State::seconds_between(double length, double turn) const {
-  const double v = config.limits.max_speed, a = config.limits.max_acceleration;
-  const double flight = length < v * v / a ? 2.0 * std::sqrt(length / a) : length / v + v / a;
-  return std::max(flight, std::abs(turn) / config.limits.max_yaw_rate);
-}
-
 /// To a stop from the motion that the robot has now.
 double Explorer::State::seconds_from_robot(const TourStop& stop, const FlightState& state) const {
   const Place& place = places[stop.stop.place];
   const double v = config.limits.max_speed, a = config.limits.max_acceleration;
   const double turn = detail::turn_between(state.yaw, views.yaw_of(stop.stop.heading));
-  double seconds = seconds_between(stop.from_robot, turn);
+  double seconds = detail::seconds_of_leg(config.limits, stop.from_robot, turn);
   const Eigen::Vector3d way = place.position - to_local(roadmap->esdf, state.position);
   const double speed = state.velocity.norm();
   if (speed > 0.0 && way.norm() > 0.0) {
@@ -121,8 +115,8 @@ std::vector<std::size_t> Explorer::State::order(const std::vector<TourStop>& sto
     const detail::WaysFrom ways(*roadmap, at, from.access);
     std::vector<double> row;
     for (const TourStop& to : stops)
-      row.push_back(seconds_between(
-          &from == &to ? 0.0 : std::min(1e6, ways.to(places[to.stop.place].position, to.access)),
+      row.push_back(detail::seconds_of_leg(
+          config.limits, &from == &to ? 0.0 : ways.to(places[to.stop.place].position, to.access),
           detail::turn_between(views.yaw_of(from.stop.heading), views.yaw_of(to.stop.heading))));
     costs.between.push_back(std::move(row));
   }
@@ -150,10 +144,10 @@ void Explorer::State::refine_first(std::vector<TourStop>& stops,
   const auto cost_of = [&](const TourStop& stop) {
     double cost = seconds_from_robot(stop, state);
     if (onward)
-      cost +=
-          seconds_between(std::min(1e6, onward->to(places[stop.stop.place].position, stop.access)),
-                          detail::turn_between(views.yaw_of(stop.stop.heading),
-                                               views.yaw_of(stops[tour[1]].stop.heading)));
+      cost += detail::seconds_of_leg(
+          config.limits, onward->to(places[stop.stop.place].position, stop.access),
+          detail::turn_between(views.yaw_of(stop.stop.heading),
+                               views.yaw_of(stops[tour[1]].stop.heading)));
     return cost;
   };
   TourStop best = first;

@@ -66,6 +66,14 @@ std::pair<double, double> nearest_approach(const Trajectory& trajectory, const P
 
 }  // namespace
 
+double seconds_of_leg(const MotionLimits& limits, double length, double turn) {
+  constexpr double kFarthest = 1e6;
+  const double v = limits.max_speed, a = limits.max_acceleration;
+  const double way = std::min(length, kFarthest);
+  const double flight = way < v * v / a ? 2.0 * std::sqrt(way / a) : way / v + v / a;
+  return std::max(flight, std::abs(turn) / limits.max_yaw_rate);
+}
+
 std::optional<Trajectory> fly_to_rest(const Roadmap& roadmap, const MotionLimits& limits,
                                       const Viewpoint& stop, const FlightState& state) {
   const TrajectoryConfig fly = flight_from(roadmap, limits, state);

@@ -9,6 +9,10 @@
 
 namespace ridgeway::detail {
 
+/// Seconds that a flight of so many metres takes from rest to rest, along a straight line and while
+/// the robot turns by so many radians. An infinite length counts as a thousand kilometres.
+double seconds_of_leg(const MotionLimits& limits, double length, double turn);
+
 /// From the motion that a robot has along the roadmap to a place, and to rest there with its yaw.
 /// The robot's radius is the roadmap's min_clearance. None where there is no such trajectory.
 std::optional<Trajectory> fly_to_rest(const Roadmap& roadmap, const MotionLimits& limits,

@@ -40,6 +40,13 @@ TEST_F(CliLive, ReplaysARecordingThatABatchBuildVerifies) {
   EXPECT_EQ(run({"check", path("live.ridge"), "--queries", "20"}).code, 0);
 }
 
+/// A recording without frames yet.
+void begin_recording(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder / "depth");
+  std::filesystem::copy_file(std::filesystem::path(kRecording) / "camera-intrinsics.txt",
+                             folder / "camera-intrinsics.txt");
+}
+
 /// Appends what a recording's text file has of frames, and copies their images.
 void add_frames(const std::filesystem::path& to, std::size_t first, std::size_t last) {
   namespace fs = std::filesystem;
@@ -64,8 +71,7 @@ void add_frames(const std::filesystem::path& to, std::size_t first, std::size_t 
 TEST_F(CliLive, FollowsAFolderThatIsStillWrittenTo) {
   namespace fs = std::filesystem;
   const fs::path growing = folder_ / "growing";
-  fs::create_directories(growing / "depth");
-  fs::copy_file(fs::path(kRecording) / "camera-intrinsics.txt", growing / "camera-intrinsics.txt");
+  begin_recording(growing);
   std::thread writer([&] {
     for (std::size_t first = 0; first < 12; first += 4) {
       std::this_thread::sleep_for(std::chrono::milliseconds(300));
@@ -95,8 +101,7 @@ TEST_F(CliLive, FollowsAFolderThatIsStillWrittenTo) {
 TEST_F(CliLive, TakesNoPoseFromALineThatIsHalfWritten) {
   namespace fs = std::filesystem;
   const fs::path growing = folder_ / "growing";
-  fs::create_directories(growing / "depth");
-  fs::copy_file(fs::path(kRecording) / "camera-intrinsics.txt", growing / "camera-intrinsics.txt");
+  begin_recording(growing);
   add_frames(growing, 0, 2);
   const std::string poses = read_whole(growing / "groundtruth.txt");
   // Nearly a unit quaternion still, and turned by ten degrees.
@@ -121,9 +126,7 @@ TEST_F(CliLive, TakesNoPoseFromALineThatIsHalfWritten) {
 
 TEST_F(CliLive, KeepsToTheRecordingsClock) {
   const std::filesystem::path some = folder_ / "some";
-  std::filesystem::create_directories(some / "depth");
-  std::filesystem::copy_file(std::filesystem::path(kRecording) / "camera-intrinsics.txt",
-                             some / "camera-intrinsics.txt");
+  begin_recording(some);
   add_frames(some, 0, 6);
   const auto began = std::chrono::steady_clock::now();
   const Outcome outcome = run({"live", some.string(), "-o", path("live.ridge"), "--voxel-size",
@@ -138,10 +141,8 @@ TEST_F(CliLive, KeepsToTheRecordingsClock) {
 
 TEST_F(CliLive, WritesNoTableOverWhatItReadsOrWrites) {
   const std::filesystem::path some = folder_ / "some";
-  std::filesystem::create_directories(some / "depth");
+  begin_recording(some);
   add_frames(some, 0, 2);
-  std::filesystem::copy_file(std::filesystem::path(kRecording) / "camera-intrinsics.txt",
-                             some / "camera-intrinsics.txt");
   const std::string poses = read_whole(some / "groundtruth.txt");
   const auto live = [&](const std::string& csv) {
     return run({"live", some.string(), "-o", path("live.ridge"), "--csv", csv});
@@ -158,10 +159,8 @@ TEST_F(CliLive, WritesNoTableOverWhatItReadsOrWrites) {
 
 TEST_F(CliLive, NamesTheFirstImageThatItPassesOver) {
   const std::filesystem::path some = folder_ / "some";
-  std::filesystem::create_directories(some / "depth");
+  begin_recording(some);
   add_frames(some, 0, 4);
-  std::filesystem::copy_file(std::filesystem::path(kRecording) / "camera-intrinsics.txt",
-                             some / "camera-intrinsics.txt");
   write_whole(some / "depth/000001.png", "no image");
   std::filesystem::remove(some / "depth/000002.png");
   const Outcome outcome = run({"live", some.string(), "-o", path("live.ridge"), "--voxel-size",
