@@ -82,6 +82,10 @@ Json row_of(const ExplorationFlight& flight) {
           {"trajectory_milliseconds", milliseconds_of(flight, &ExplorationSeconds::trajectory)}};
 }
 
+std::string picture_name(const std::string& world, int seed, const std::string& planner) {
+  return "explore_" + world + "_" + std::to_string(seed) + "_" + planner;
+}
+
 void draw(const ExplorationFlight& flight, const std::string& folder, const std::string& name) {
   PictureConfig picture;
   picture.title = name;
@@ -111,8 +115,7 @@ int run(const BenchExploreOptions& options, const Globals& globals) {
           row.update(row_of(flight));
           table.add(row);
           if (!options.output.empty())
-            draw(flight, options.output,
-                 "explore_" + name + "_" + std::to_string(seed) + "_" + planner);
+            draw(flight, options.output, picture_name(name, seed, planner));
         }
   });
   bar.clear();

@@ -16,7 +16,7 @@
 #include "pictures/scatter.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/load_map.hpp"
-#include "ridgeway/mapping/world_map.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
 #include "sensing/poses.hpp"
 #include "sensing/world_generators.hpp"
 

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "command.hpp"
-#include "ridgeway/common/progress.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/mapping/occupancy_map.hpp"
 #include "ridgeway/planning/check.hpp"
 

@@ -8,7 +8,6 @@
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/common/progress.hpp"
 #include "ridgeway/esdf/distance_field.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/esdf/free_space.hpp"
@@ -19,7 +18,6 @@
 #include "ridgeway/mapping/occupancy_builder.hpp"
 #include "ridgeway/mapping/occupancy_map.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
-#include "ridgeway/mapping/world_map.hpp"
 #include "ridgeway/planning/alternatives.hpp"
 #include "ridgeway/planning/blocked_route.hpp"
 #include "ridgeway/planning/check.hpp"

@@ -11,7 +11,6 @@
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/common/progress.hpp"
 
 namespace ridgeway::python {
 

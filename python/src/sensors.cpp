@@ -8,7 +8,7 @@
 #include "maps.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/world_file.hpp"
-#include "ridgeway/mapping/world_map.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
 #include "ridgeway/recordings/depth_sequence.hpp"
 #include "ridgeway/recordings/scan_sequence.hpp"
 

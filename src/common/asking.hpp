@@ -4,7 +4,6 @@
 
 #include "common/clock.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/progress.hpp"
 
 namespace ridgeway::detail {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "ridgeway/common/progress.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/exploration/explorer.hpp"
 #include "ridgeway/live/live_roadmap.hpp"
 #include "ridgeway/sensing/world.hpp"

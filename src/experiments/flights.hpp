@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "flight_judge.hpp"
-#include "ridgeway/common/progress.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/planning/check.hpp"
 #include "ridgeway/roadmap/roadmap.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "ridgeway/common/progress.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
 #include "ridgeway/planning/check.hpp"
 #include "sensing/poses.hpp"

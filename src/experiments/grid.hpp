@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "ridgeway/common/progress.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/mapping/occupancy_map.hpp"
 #include "ridgeway/planning/check.hpp"
 

@@ -13,7 +13,7 @@
 #include "process_memory.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "ridgeway/mapping/world_map.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
 #include "ridgeway/planning/check.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/skeleton/gvd.hpp"

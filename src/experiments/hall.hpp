@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "ridgeway/common/progress.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "sensing/world_generators.hpp"
 

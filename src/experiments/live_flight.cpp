@@ -13,7 +13,7 @@
 #include "live_queries.hpp"
 #include "process_memory.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/mapping/world_map.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "sensing/poses.hpp"
 

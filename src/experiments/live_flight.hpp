@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "live_judge.hpp"
-#include "ridgeway/common/progress.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/sensing/world.hpp"
 
 namespace ridgeway {

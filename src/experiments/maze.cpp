@@ -12,7 +12,7 @@
 #include "common/random.hpp"
 #include "exploration_flight.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/mapping/world_map.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "ridgeway/sampling/plan_by_sampling.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "ridgeway/common/progress.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/planning/check.hpp"
 #include "ridgeway/roadmap/roadmap.hpp"
 #include "sensing/world_generators.hpp"

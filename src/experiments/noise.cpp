@@ -14,7 +14,7 @@
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/mapping/map_edits.hpp"
-#include "ridgeway/mapping/world_map.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/skeleton/basins.hpp"
 #include "ridgeway/skeleton/gvd.hpp"

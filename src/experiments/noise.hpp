@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "ridgeway/common/progress.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
 #include "ridgeway/planning/check.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"

@@ -15,7 +15,7 @@
 #include "exploration/views.hpp"
 #include "exploration/ways.hpp"
 #include "planning/endpoint.hpp"
-#include "ridgeway/mapping/world_map.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 
 namespace ridgeway {
@@ -117,6 +117,7 @@ void OfflineTour::choose_stops(const FieldOfView& view, const Point& start,
                                const std::vector<VoxelIndex>& targets) {
   const EsdfMap& esdf = world_.esdf;
   std::vector<VoxelIndex> local;
+  local.reserve(targets.size());
   for (const VoxelIndex& target : targets) local.push_back(target - esdf.origin);
   detail::DiagramPlaces diagram(kBetweenStops);
   diagram.update(world_);
@@ -189,6 +190,7 @@ std::vector<std::size_t> OfflineTour::order(const FlightState& state) const {
         detail::seconds_of_leg(limits_, ways.to(place, access_at(world_, place)),
                                detail::turn_between(state.yaw, stops_[i].view.yaw)));
     std::vector<double> row;
+    row.reserve(left.size());
     for (const std::size_t j : left) row.push_back(between_[i][j]);
     costs.between.push_back(std::move(row));
   }
@@ -217,6 +219,7 @@ ExplorationStep OfflineTour::decide(const Roadmap& now, const FlightState& state
   FlightState from = state;
   if (at_rest) from.velocity = from.acceleration = Point::Zero();
   std::vector<Viewpoint> stops;
+  stops.reserve(tour.size());
   for (const std::size_t i : tour) stops.push_back(stops_[i].view);
   if (auto passing = detail::fly_past(world_, limits_, stops, from, kBetweenStops)) {
     passed_at_ = state.time + passing->time;

@@ -9,7 +9,7 @@
 
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
-#include "ridgeway/mapping/world_map.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
 
 namespace ridgeway {
 namespace {

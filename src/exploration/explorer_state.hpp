@@ -35,7 +35,7 @@ struct Explorer::State {
     double from_robot = 0.0;  ///< metres
   };
 
-  ExplorationStep decide(std::shared_ptr<const Roadmap> now, const FlightState& state);
+  ExplorationStep decide(std::shared_ptr<const Roadmap> now, const FlightState& given);
 
   const ExplorerConfig config;
   Frontiers frontiers;

@@ -114,6 +114,7 @@ std::vector<std::size_t> Explorer::State::order(const std::vector<TourStop>& sto
     const Point& at = places[from.stop.place].position;
     const detail::WaysFrom ways(*roadmap, at, from.access);
     std::vector<double> row;
+    row.reserve(stops.size());
     for (const TourStop& to : stops)
       row.push_back(detail::seconds_of_leg(
           config.limits, &from == &to ? 0.0 : ways.to(places[to.stop.place].position, to.access),
@@ -121,7 +122,7 @@ std::vector<std::size_t> Explorer::State::order(const std::vector<TourStop>& sto
     costs.between.push_back(std::move(row));
   }
   for (const TourStop& stop : stops) costs.gain.push_back(stop.stop.gain);
-  const std::vector<std::size_t> tour = detail::best_tour(costs);
+  std::vector<std::size_t> tour = detail::best_tour(costs);
   seconds = detail::seconds_of(costs, tour);
   return tour;
 }

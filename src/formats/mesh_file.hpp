@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "mapping/mesh_map.hpp"
-#include "ridgeway/common/progress.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/load_map.hpp"
 #include "ridgeway/sensing/solid_mesh.hpp"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/mapping/world_map.hpp"
 
 #include <vector>
 

@@ -8,7 +8,7 @@
 
 #include "mapping/memory_limit.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/mapping/world_map.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
 #include "sensing/poses.hpp"
 #include "support/random_maps.hpp"
 

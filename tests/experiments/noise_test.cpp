@@ -6,7 +6,7 @@
 
 #include "experiments/fusion_speed.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/mapping/world_map.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
 #include "support/cancelling.hpp"
 #include "support/lattice.hpp"
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "house_flight.hpp"
-#include "ridgeway/mapping/world_map.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
 #include "support/random_changes.hpp"
 
 namespace ridgeway {

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/progress.hpp"
 
 namespace ridgeway::testing {
 

@@ -12,7 +12,7 @@
 #include "experiments/flight_judge.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/load_map.hpp"
-#include "ridgeway/mapping/world_map.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
 #include "ridgeway/planning/check.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "sensing/world_generators.hpp"

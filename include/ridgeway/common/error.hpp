@@ -2,8 +2,10 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <functional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace ridgeway {
 
@@ -43,5 +45,10 @@ class Cancelled : public std::runtime_error {
  public:
   Cancelled() : std::runtime_error("cancelled by the caller") {}
 };
+
+/// Called by long stages, from the calling thread, with the stage's name and the share done in
+/// [0, 1]: at its beginning, and by those that can be cancelled anywhere (with_progress) some
+/// twenty times a second meanwhile. Return false to cancel: the stage then throws `Cancelled`.
+using Progress = std::function<bool(std::string_view stage, double share)>;
 
 }  // namespace ridgeway

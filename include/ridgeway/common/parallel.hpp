@@ -17,7 +17,6 @@
 #include <utility>
 
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/common/progress.hpp"
 
 #if defined(__SANITIZE_THREAD__)  // gcc
 #define RIDGEWAY_THREAD_SANITIZER

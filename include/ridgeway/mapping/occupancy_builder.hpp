@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "ridgeway/mapping/occupancy_map.hpp"
+#include "ridgeway/sensing/world.hpp"
 
 namespace ridgeway {
 
@@ -83,5 +84,10 @@ void validate_voxel_size(double voxel_size, const std::string& name);
 /// Throws InputError where a known voxel lies outside kAllVoxels of the lattice, or the known
 /// voxels span more than 5e8 along an axis.
 OccupancyMap normalised(OccupancyMap map);
+
+/// What perfect knowledge of a world would give: voxels are free where their centre lies outside of
+/// all solids, occupied elsewhere; known in `bounds` (metres) and a voxel around it. Throws
+/// InputError for a voxel size or bounds that are none, or more voxels than memory holds.
+OccupancyMap occupancy_of(const World& world, double voxel_size, const Box& bounds);
 
 }  // namespace ridgeway

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "ridgeway/common/progress.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/planning/plan.hpp"
 
 namespace ridgeway {

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "ridgeway/common/progress.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/roadmap/roadmap.hpp"
 
 namespace ridgeway {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "ridgeway/common/progress.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/planning/plan.hpp"
 
 namespace ridgeway {
