@@ -64,7 +64,9 @@ class ObstacleScan {
 
   /// As run(), of some blocks alone.
   double run_over(const BlockBox& box, double best) {
+    constexpr double kSlack = 1e-6;
     best_ = best;
+    reach_ = std::sqrt(best) + kSlack;
     for (int z = box.first.z; z <= box.last.z; ++z)
       for (int y = box.first.y; y <= box.last.y; ++y) {
         const BlockRow row = row_in_reach(y, z, box.first.x, box.last.x);
@@ -169,14 +171,27 @@ class ObstacleScan {
     return slot;
   }
 
+  /// Of the places along an axis of a block in reach, those in reach of the segment's bounding box,
+  /// both inclusive.
+  struct Places {
+    int first, last;
+  };
+  Places places_in_reach(int axis, const Eigen::Vector3d& corner) const {
+    const double first = low_[axis] - reach_ - corner[axis];
+    const double last = high_[axis] + reach_ - corner[axis];
+    return {first > 0.0 ? static_cast<int>(first) : 0,
+            last < kBlockSide ? static_cast<int>(std::max(last, 0.0)) : kBlockSide - 1};
+  }
+
   void scan_layers(const VoxelMask::Block& block, const Eigen::Vector3d& corner) {
-    for (int z = 0; z < kBlockSide; ++z) {
+    const Places rows = places_in_reach(1, corner), layers = places_in_reach(2, corner);
+    for (int z = layers.first; z <= layers.last; ++z) {
       const std::uint64_t layer = block[static_cast<std::size_t>(z)];
       if (layer == 0) continue;
       const double z0 = corner.z() + z;
       const double dz = std::max({z0 - high_.z(), low_.z() - z0 - 1.0, 0.0});
       if (dz * dz >= best_) continue;
-      for (int y = 0; y < kBlockSide; ++y) {
+      for (int y = rows.first; y <= rows.last; ++y) {
         const auto row = static_cast<unsigned>(layer >> (8 * y) & 0xff);
         if (row == 0) continue;
         const double y0 = corner.y() + y;
@@ -207,6 +222,7 @@ class ObstacleScan {
   Eigen::Vector3d ball_centre_ = Eigen::Vector3d::Zero();
   double ball_squared_ = 0.0;  // its inside, without the border, is free
   double best_ = 0.0;
+  double reach_ = 0.0;  // voxels, never too small
 };
 
 /// Unit cube of a voxel.

@@ -24,7 +24,7 @@ struct PlanningConstants {
   /// One after the other; a straight search finds what is nearly as short as what a wide one finds.
   std::array<CellEffort, 3> cell_efforts{{{1.35, 400, 1.05}, {2.0, 800, 1.05}, {1.2, 1500, 1.12}}};
   /// Where those gave up and the graph's is long: straighter than the last, so that it gets there.
-  CellEffort last_cell_effort{1.35, 5000, 1.15};
+  CellEffort last_cell_effort{1.35, 8000, 1.15};
   double landmark_share = 0.93;  ///< of lengths by landmarks that paths are hardly shorter than
 
   // What a query tries (planning/answering.cpp). Lengths over what a path may be expected to have.
@@ -32,7 +32,7 @@ struct PlanningConstants {
   double far = 1.12;   ///< too long to be believed: the sparse graph is searched as well
   double as_found = 1.1;       ///< a route over cells or corners over its tight path, at most
   int voxel_reach = 40;        ///< voxels that ends are apart at most for a search over voxels
-  int most_voxels = 6000;      ///< taken by it before it gives up: two milliseconds
+  int most_voxels = 3700;      ///< taken by it before it gives up: a millisecond
   double voxel_weight = 1.15;  ///< of A*'s heuristic over voxels: 1 seldom gets there in the limit
 
   // Ways past what blocks a stretch (planning/detour.cpp).

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -15,15 +16,23 @@ namespace ridgeway::detail {
 namespace {
 
 constexpr double kRoot2 = 1.41421356237309504880, kRoot3 = 1.73205080756887729352;
-constexpr std::array<double, 4> kLengths{0.0, 1.0, kRoot2, kRoot3};
+/// Lengths of the steps in the 27 directions, voxels.
+constexpr std::array<double, 27> kLengths = [] {
+  std::array<double, 27> lengths{};
+  for (int d = 0; d < 27; ++d)
+    lengths[static_cast<std::size_t>(d)] =
+        std::array{0.0, 1.0, kRoot2, kRoot3}[static_cast<std::size_t>(squared_length(d))];
+  return lengths;
+}();
 constexpr double kNoGain = 1e-9;  // voxels
 constexpr int kExpansionsBetweenLooks = 1024;
 
 /// Length of the shortest 26-path between two voxels of empty space.
-double lattice_distance(const VoxelIndex& a, const VoxelIndex& b) {
-  std::array<int, 3> d{std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)};
-  std::sort(d.begin(), d.end());
-  return (kRoot3 - kRoot2) * d[0] + (kRoot2 - 1.0) * d[1] + d[2];
+inline double lattice_distance(const VoxelIndex& a, const VoxelIndex& b) {
+  const int x = std::abs(a.x - b.x), y = std::abs(a.y - b.y), z = std::abs(a.z - b.z);
+  const int least = std::min({x, y, z}), most = std::max({x, y, z});
+  const int middle = x + y + z - least - most;
+  return (kRoot3 - kRoot2) * least + (kRoot2 - 1.0) * middle + most;
 }
 
 /// Costs and parents of the voxels seen so far, a block at a time.
@@ -31,7 +40,7 @@ class SearchMemory {
  public:
   struct Block {
     std::array<double, kBlockVoxels> cost;
-    std::array<Direction, kBlockVoxels> from;  // direction back to the parent
+    std::array<std::uint8_t, kBlockVoxels> from;  // direction back to the parent, and kOpen
     Block() { cost.fill(std::numeric_limits<double>::infinity()); }
   };
 
@@ -42,66 +51,135 @@ class SearchMemory {
     if (!block) block = std::make_unique<Block>();
     return *block;
   }
+  /// Infinite for what was not reached, kNoVoxel with it.
+  double cost_of(VoxelId id) const {
+    const Block* block = id == kNoVoxel ? nullptr : blocks_[id / kBlockVoxels].get();
+    return block == nullptr ? std::numeric_limits<double>::infinity()
+                            : block->cost[id % kBlockVoxels];
+  }
+  std::uint8_t& from(VoxelId id) { return blocks_[id / kBlockVoxels]->from[id % kBlockVoxels]; }
 
  private:
   std::vector<std::unique_ptr<Block>> blocks_;
 };
 
-std::vector<VoxelId> trace_back(const BlockLayout& layout, SearchMemory& memory, VoxelId start,
-                                VoxelId goal) {
-  std::vector<VoxelId> voxels{goal};
-  for (VoxelId id = goal; id != start;) {
-    const VoxelIndex& o = offset_of(memory.block_of(id).from[id % kBlockVoxels]);
-    id = layout.step(id, o.x, o.y, o.z);
-    voxels.push_back(id);
+/// Set beside a voxel's direction once all moves from it were found free.
+constexpr std::uint8_t kOpen = 32;
+
+/// By the direction back to a parent: the neighbours that are none of the parent's.
+constexpr std::array<Cube27, 27> kBeyondParent = [] {
+  std::array<Cube27, 27> beyond{};
+  for (std::size_t d = 0; d < 27; ++d) beyond[d] = kCells26 & ~grow26(Cube27{1} << d);
+  return beyond;
+}();
+
+class LatticeSearch {
+ public:
+  LatticeSearch(const FreeSpace& space, VoxelId start, VoxelId goal, double radius,
+                const LatticeOptions& options)
+      : esdf_(space.map()),
+        space_(space),
+        options_(options),
+        start_(start),
+        goal_(goal),
+        target_(esdf_.layout.index_of(goal)),
+        threshold_(least_clearance(space.inner_radius(radius), esdf_.voxel_size)),
+        memory_(esdf_.layout.block_count()),
+        open_(estimate(esdf_.layout.index_of(start))) {}
+
+  LatticePath run(const Deadline& deadline) {
+    reach(start_, {0.0, kCentre}, estimate(esdf_.layout.index_of(start_)));
+    const double& goal_cost = memory_.block_of(goal_).cost[goal_ % kBlockVoxels];
+    int expansions = 0;
+    while (const std::optional<OpenBuckets::Entry> best = open_.pop(goal_cost)) {
+      if (best->cost > memory_.cost_of(best->voxel)) continue;
+      if (++expansions > options_.most_expansions) break;
+      if (expansions % kExpansionsBetweenLooks == 0 && deadline.has_passed())
+        return {SearchStatus::kTimeout, {}};
+      look_around(best->voxel, best->cost);
+    }
+    if (std::isinf(goal_cost)) return {SearchStatus::kNoRoute, {}};
+    return {SearchStatus::kFound, trace_back(), goal_cost};
   }
-  std::reverse(voxels.begin(), voxels.end());
-  return voxels;
-}
+
+ private:
+  struct Arrival {
+    double cost;  // voxels
+    Direction from;
+  };
+
+  double estimate(const VoxelIndex& voxel) const {
+    return options_.weight * lattice_distance(voxel, target_);
+  }
+
+  bool is_taken(VoxelId id) const {
+    return esdf_.squared[id] >= threshold_ && esdf_.is_open(id) &&
+           (options_.within == nullptr || options_.within->test(id)) && space_.is_within_limits(id);
+  }
+
+  void reach(VoxelId id, const Arrival& arrival, double estimate) {
+    SearchMemory::Block& block = memory_.block_of(id);
+    block.cost[id % kBlockVoxels] = arrival.cost;
+    block.from[id % kBlockVoxels] = arrival.from;
+    open_.push(estimate, {arrival.cost, id});
+  }
+
+  /// Neighbours that a voxel may be the way to. Where all moves from its parent are free, those of
+  /// the parent's are reached from there, and as cheaply.
+  Cube27 worth_a_look(VoxelId id) {
+    const std::uint8_t from = memory_.from(id) & ~kOpen;
+    if (from == kCentre) return kCells26;
+    const VoxelId parent = esdf_.layout.neighbour(id, from);
+    return (memory_.from(parent) & kOpen) != 0 ? kBeyondParent[from] : kCells26;
+  }
+
+  void look_around(VoxelId id, double own) {
+    const VoxelIndex here = esdf_.layout.index_of(id);
+    const SearchMemory::Block& block = memory_.block_of(id);
+    bool all_free = true;
+    for (Cube27 left = worth_a_look(id); left != 0; left &= left - 1) {
+      const int d = std::countr_zero(left);
+      const bool is_near = has_neighbour_in_block(id, d);
+      const VoxelId next = is_near ? neighbour_in_block(id, d) : esdf_.layout.neighbour(id, d);
+      // Most neighbours were reached before, and as cheaply: that is asked first. Sums of the same
+      // steps in another order may differ in the last digit: no improvement.
+      const double cost = own + kLengths[static_cast<std::size_t>(d)];
+      const double known = is_near ? block.cost[next % kBlockVoxels] : memory_.cost_of(next);
+      if (cost > known - kNoGain) continue;
+      const double to_go = lattice_distance(here + offset_of(d), target_);
+      if (cost + to_go > options_.longest) continue;
+      if (next == kNoVoxel || !is_taken(next) || !space_.move_is_free(id, next, d, threshold_)) {
+        all_free = false;
+        continue;
+      }
+      reach(next, {cost, static_cast<Direction>(opposite(d))}, cost + options_.weight * to_go);
+    }
+    if (all_free) memory_.from(id) |= kOpen;
+  }
+
+  std::vector<VoxelId> trace_back() {
+    std::vector<VoxelId> voxels{goal_};
+    while (voxels.back() != start_)
+      voxels.push_back(esdf_.layout.neighbour(voxels.back(), memory_.from(voxels.back()) & ~kOpen));
+    std::reverse(voxels.begin(), voxels.end());
+    return voxels;
+  }
+
+  const EsdfMap& esdf_;
+  const FreeSpace space_;
+  const LatticeOptions options_;
+  const VoxelId start_, goal_;
+  const VoxelIndex target_;
+  const SquaredHalves threshold_;
+  SearchMemory memory_;
+  OpenBuckets open_;
+};
 
 }  // namespace
 
 LatticePath search_lattice(const FreeSpace& space, VoxelId start, VoxelId goal, double radius,
                            const LatticeOptions& options, const Deadline& deadline) {
-  const EsdfMap& esdf = space.map();
-  const SquaredHalves threshold = least_clearance(space.inner_radius(radius), esdf.voxel_size);
-  const VoxelIndex target = esdf.layout.index_of(goal);
-  SearchMemory memory(esdf.layout.block_count());
-  const double least = options.weight * lattice_distance(esdf.layout.index_of(start), target);
-  OpenBuckets open(least);
-  memory.block_of(start).cost[start % kBlockVoxels] = 0.0;
-  open.push(least, {0.0, start});
-  double& goal_cost = memory.block_of(goal).cost[goal % kBlockVoxels];
-  int expansions = 0;
-  while (const std::optional<OpenBuckets::Entry> best = open.pop(goal_cost)) {
-    if (best->cost > memory.block_of(best->voxel).cost[best->voxel % kBlockVoxels]) continue;
-    if (++expansions > options.most_expansions) break;
-    if (expansions % kExpansionsBetweenLooks == 0 && deadline.has_passed())
-      return {SearchStatus::kTimeout, {}};
-    const VoxelIndex here = esdf.layout.index_of(best->voxel);
-    for (int d = 0; d < 27; ++d) {
-      const VoxelIndex& o = offset_of(d);
-      const VoxelId next = esdf.layout.step(best->voxel, o.x, o.y, o.z);
-      if (d == kCentre || next == kNoVoxel || esdf.squared[next] < threshold ||
-          !esdf.is_open(next) || (options.within != nullptr && !options.within->test(next)) ||
-          !space.is_within_limits(next))
-        continue;
-      SearchMemory::Block& there = memory.block_of(next);
-      const std::size_t place = next % kBlockVoxels;
-      const double cost = best->cost + kLengths[static_cast<std::size_t>(squared_length(d))];
-      // Sums of the same steps in another order may differ in the last digit: no improvement.
-      if (cost > there.cost[place] - kNoGain) continue;
-      const VoxelIndex there_index = here + o;
-      const double to_go = lattice_distance(there_index, target);
-      if (cost + to_go > options.longest || !space.move_is_free(best->voxel, next, d, threshold))
-        continue;
-      there.cost[place] = cost;
-      there.from[place] = static_cast<Direction>(opposite(d));
-      open.push(cost + options.weight * to_go, {cost, next});
-    }
-  }
-  if (std::isinf(goal_cost)) return {SearchStatus::kNoRoute, {}};
-  return {SearchStatus::kFound, trace_back(esdf.layout, memory, start, goal), goal_cost};
+  return LatticeSearch(space, start, goal, radius, options).run(deadline);
 }
 
 }  // namespace ridgeway::detail

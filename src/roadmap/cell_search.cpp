@@ -204,18 +204,19 @@ class CellSearch {
     return rest;
   }
 
-  void reach(CellId cell, float cost, CellId from, float rest, MetCells::Met& met) {
+  void reach(float cost, CellId from, MetCells::Met& met) {
     met.cost = cost;
     met.from = from;
-    open_.push({cost + static_cast<float>(query_.effort.weight) * rest, cost, cell});
+    open_.push({cost + static_cast<float>(query_.effort.weight) * met.rest, cost, met.cell});
   }
 
   /// The last cell of the best route found, or kNoCell.
   CellId search(Approach& out, Approach& in) {
     for (Approach::Join& join : out.joins)
       if (sees(out, join)) {
-        const float rest = rest_from(join.cell, place_of(join.cell));
-        reach(join.cell, join.length, join.cell, rest, met_[join.cell]);
+        MetCells::Met& met = met_[join.cell];
+        met.rest = rest_from(join.cell, place_of(join.cell));
+        reach(join.length, join.cell, met);
       }
     float best = longest_;
     CellId best_last = kNoCell;
@@ -251,21 +252,23 @@ class CellSearch {
       const Place there =
           place_in(next, first + VoxelIndex{CellGraph::kSide * o.x, CellGraph::kSide * o.y,
                                             CellGraph::kSide * o.z});
-      const float cost = here.cost + (there - place).norm(), rest = rest_from(next, there);
-      if (cost + rest >= best) continue;
+      const float cost = here.cost + (there - place).norm();
       MetCells::Met& met = met_[next];
-      if (cost < met.cost && (!is_beyond_levels_ || is_free(here.cell, next)))
-        reach(next, cost, here.cell, rest, met);
+      if (cost >= met.cost) continue;  // as most have
+      if (met.rest < 0.0f) met.rest = rest_from(next, there);
+      if (cost + met.rest < best && (!is_beyond_levels_ || is_free(here.cell, next)))
+        reach(cost, here.cell, met);
     }
   }
 
   void follow_bends(const Open& here, float best) {
     for (const CellGraph::Bend& bend : bends_from(graph_, here.cell)) {
       if (bend.width < least_width_) continue;
-      const float cost = here.cost + bend.length, rest = rest_from(bend.to, place_of(bend.to));
-      if (cost + rest >= best) continue;
-      if (MetCells::Met& met = met_[bend.to]; cost < met.cost)
-        reach(bend.to, cost, here.cell, rest, met);
+      const float cost = here.cost + bend.length;
+      MetCells::Met& met = met_[bend.to];
+      if (cost >= met.cost) continue;
+      if (met.rest < 0.0f) met.rest = rest_from(bend.to, place_of(bend.to));
+      if (cost + met.rest < best) reach(cost, here.cell, met);
     }
   }
 

@@ -16,6 +16,7 @@ class MetCells {
   struct Met {
     CellId cell = kNoCell, from = kNoCell;
     float cost = std::numeric_limits<float>::infinity();  ///< voxels
+    float rest = -1.0f;  ///< of the way to the goal, about, voxels; below 0: not known yet
   };
 
   Met& operator[](CellId cell) {
