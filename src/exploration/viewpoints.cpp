@@ -89,6 +89,7 @@ std::vector<Place> widest_places(const Roadmap& roadmap, double spacing) {
     if (esdf.is_open(id) && esdf.squared[id] >= threshold)
       offer(best, esdf.layout.index_of(id), esdf.squared[id], side);
   std::vector<Place> places;
+  places.reserve(best.size());
   for (const auto& [cube, candidate] : best)
     places.push_back(
         {id_of(candidate.voxel), candidate.voxel, centre_of(candidate.voxel, esdf.voxel_size)});

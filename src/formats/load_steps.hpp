@@ -40,6 +40,6 @@ OccupancyMap load_world_map(const std::filesystem::path& file, const LoadConfig&
 
 /// A planar map of the image that a ROS map file names, in the layer from 0 to a voxel's height.
 OccupancyMap load_planar_map(const std::filesystem::path& file, std::string_view text,
-                             const LoadConfig& config, LoadNotes* notes);
+                             const LoadConfig& given, LoadNotes* notes);
 
 }  // namespace ridgeway

@@ -15,7 +15,7 @@ namespace {
 
 class Keys {
  public:
-  Keys(YAML::Node map, const std::string& name) : map_(std::move(map)), name_(name) {}
+  Keys(const YAML::Node& map, const std::string& name) : map_(map), name_(name) {}
 
   [[noreturn]] void fail(const YAML::Node& node, const std::string& what,
                          const std::string& remedy) const {

@@ -2,6 +2,9 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <array>
+#include <cstdint>
+
 #include "ridgeway/roadmap/roadmap.hpp"
 #include "ridgeway/voxel/neighbourhood.hpp"
 
@@ -10,6 +13,24 @@ namespace ridgeway::detail {
 /// Place of a cell in CellGraph::cells.
 using CellId = std::uint32_t;
 inline constexpr CellId kNoCell = 0xffffffffu;
+
+/// From one of the eight cells of a block to the next cell in a direction.
+struct OctantStep {
+  Direction block;      ///< direction of that one's block; kCentre: the same block
+  std::uint8_t octant;  ///< its place in there
+};
+inline constexpr auto kOctantSteps = [] {
+  std::array<std::array<OctantStep, 27>, CellGraph::kPerBlock> steps{};
+  for (int octant = 0; octant < 8; ++octant)
+    for (int d = 0; d < 27; ++d) {
+      const VoxelIndex o = offset_of(d);
+      const int x = (octant & 1) + o.x, y = (octant >> 1 & 1) + o.y, z = (octant >> 2) + o.z;
+      steps[static_cast<std::size_t>(octant)][static_cast<std::size_t>(d)] = {
+          static_cast<Direction>((x >> 1) + 1 + 3 * ((y >> 1) + 1) + 9 * ((z >> 1) + 1)),
+          static_cast<std::uint8_t>((x & 1) | (y & 1) << 1 | (z & 1) << 2)};
+    }
+  return steps;
+}();
 
 /// Where the cells of a layout lie, and which are beside each other.
 class CellLattice {
@@ -36,30 +57,24 @@ class CellLattice {
   }
 
   CellId neighbour(CellId cell, int direction) const {
-    const VoxelIndex there = octant_beyond(cell, direction);
+    const OctantStep& step = step_from(cell, direction);
     std::uint32_t rank = cell / CellGraph::kPerBlock;
-    if (const int beyond = direction_of(there); beyond != kCentre) {
-      const std::uint32_t slot = layout_.neighbour_block(layout_.slot_at(rank), beyond);
+    if (step.block != kCentre) {
+      const std::uint32_t slot = layout_.neighbour_block(layout_.slot_at(rank), step.block);
       if (slot == BlockLayout::kNoBlock) return kNoCell;
       rank = layout_.rank(slot);
     }
-    return rank * CellGraph::kPerBlock +
-           static_cast<CellId>((there.x & 1) | (there.y & 1) << 1 | (there.z & 1) << 2);
+    return rank * CellGraph::kPerBlock + step.octant;
   }
 
   /// In which direction the block of that neighbour lies.
   static int block_direction(CellId cell, int direction) {
-    return direction_of(octant_beyond(cell, direction));
+    return step_from(cell, direction).block;
   }
 
  private:
-  /// Counted in cells from the first one of the cell's block.
-  static VoxelIndex octant_beyond(CellId cell, int direction) {
-    const auto bit = [&](unsigned k) { return static_cast<int>(cell >> k & 1); };
-    return VoxelIndex{bit(0), bit(1), bit(2)} + offset_of(direction);
-  }
-  static int direction_of(const VoxelIndex& octant) {
-    return (octant.x >> 1) + 1 + 3 * ((octant.y >> 1) + 1) + 9 * ((octant.z >> 1) + 1);
+  static const OctantStep& step_from(CellId cell, int direction) {
+    return kOctantSteps[cell % CellGraph::kPerBlock][static_cast<std::size_t>(direction)];
   }
   static CellId octant_of(const VoxelIndex& v) {
     return static_cast<CellId>((v.x >> 2 & 1) | (v.y >> 2 & 1) << 1 | (v.z >> 2 & 1) << 2);
