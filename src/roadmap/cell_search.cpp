@@ -6,38 +6,14 @@
 #include <cmath>
 #include <queue>
 
+#include "cell_approach.hpp"
 #include "cell_bends.hpp"
 #include "cell_neighbours.hpp"
-#include "cell_walks.hpp"
 #include "met_cells.hpp"
 #include "paths/planning_constants.hpp"
 
 namespace ridgeway::detail {
 namespace {
-
-/// Places of cells around a place on the way from an end. Whether they are in sight of it is looked
-/// at only where that counts.
-struct Approach {
-  enum class Sight : std::uint8_t { kUnknown, kYes, kWalk, kNo };
-  struct Join {
-    CellId cell;            ///< or a nook of it
-    float length;           ///< of the segment to its place, or of the walk, voxels
-    bool has_walk = false;  ///< moves within the cell lead there
-    Sight sight = Sight::kUnknown;
-  };
-  Point place;              ///< metres
-  VoxelId voxel;            ///< that it joins
-  std::size_t walked = 0;   ///< voxels of the way that lead to the place; 0: the end itself
-  std::vector<Join> joins;  ///< the nearest first
-};
-
-/// How many levels of radii an edge has to let through for a radius over the smallest; the widest
-/// have to be looked at beyond all levels.
-std::size_t width_for(double factor) {
-  std::size_t width = 1;
-  while (width < kRadiusLevels.size() && factor > kRadiusLevels[width - 1] * (1.0 + 1e-9)) ++width;
-  return width;
-}
 
 const CellGraph::Lengths& lengths_for(const CellGraph& cells, double factor) {
   return width_for(factor) == kRadiusLevels.size() ? cells.lengths_wide : cells.lengths;
@@ -46,31 +22,31 @@ const CellGraph::Lengths& lengths_for(const CellGraph& cells, double factor) {
 class CellSearch {
  public:
   CellSearch(const Roadmap& roadmap, const FreeSpace& space, const CellQuery& query)
-      : esdf_(roadmap.esdf),
+      : around_(roadmap, space, query.radius),
         graph_(roadmap.cells),
         cells_(roadmap.cells.cells),
-        space_(space),
         query_(query),
         lattice_(roadmap.esdf.layout),
-        threshold_(least_clearance(query.radius, roadmap.esdf.voxel_size)),
+        voxel_size_(roadmap.esdf.voxel_size),
         is_beyond_levels_(query.radius >
                           kRadiusLevels.back() * roadmap.min_clearance * (1.0 + 1e-9)),
-        least_width_(width_for(query.radius / roadmap.min_clearance)),
+        least_width_(around_.least_width),
         lengths_(lengths_for(roadmap.cells, query.radius / roadmap.min_clearance)),
-        goal_((query.goal / roadmap.esdf.voxel_size).cast<float>()),
-        longest_(static_cast<float>(query.longest / roadmap.esdf.voxel_size)) {}
+        goal_((query.goal / voxel_size_).cast<float>()),
+        longest_(static_cast<float>(query.longest / voxel_size_)) {}
 
   CellRoute run() {
-    Approach out = look_around(query_.start, query_.from.voxels.front(), 0);
-    Approach in = look_around(query_.goal, query_.to.voxels.front(), 0);
-    while (!have_common_part(out, in)) {
-      const bool can_walk = walk_on(query_.from, out);
-      if (!walk_on(query_.to, in) && !can_walk) return {};
+    CellApproach out(around_, query_.start, query_.from), in(around_, query_.goal, query_.to);
+    while (!have_common_part(around_, out, in)) {
+      const bool can_walk = out.walk_on();
+      if (!in.walk_on() && !can_walk) return {};
     }
-    aim_at(in.joins.front().cell);
+    aim_at(in.joins().front().cell);
     const CellId last = search(out, in);
-    CellRoute result{
-        {}, last != kNoCell, out.walked == 0 && in.walked == 0, taken_ >= query_.effort.most_cells};
+    CellRoute result{{},
+                     last != kNoCell,
+                     out.walked() == 0 && in.walked() == 0,
+                     taken_ >= query_.effort.most_cells};
     if (last != kNoCell) result.waypoints = route_over(out, in, last);
     return result;
   }
@@ -85,100 +61,7 @@ class CellSearch {
             static_cast<float>(first.y + (place >> 2 & 3)) + 0.5f,
             static_cast<float>(first.z + (place >> 4)) + 0.5f};
   }
-  VoxelIndex first_voxel(CellId cell) const {
-    return lattice_.first_voxel(cell_of_place(graph_, cell));
-  }
-  Place place_of(CellId cell) const { return place_in(cell, first_voxel(cell)); }
-  std::uint16_t part_of(CellId cell) const {
-    const std::size_t level = least_width_ - 1;
-    return cell < cells_.size() ? cells_[cell].parts[level]
-                                : graph_.nooks[cell - cells_.size()].parts[level];
-  }
-  Point point_of(CellId cell) const {
-    return centre_of(lattice_.voxel_at(cell_of_place(graph_, cell), number_in_cell(graph_, cell)),
-                     esdf_.voxel_size);
-  }
-  Point point_of_voxel(VoxelId id) const {
-    return centre_of(esdf_.layout.index_of(id), esdf_.voxel_size);
-  }
-
-  Approach look_around(const Point& place, VoxelId voxel, std::size_t walked) const {
-    Approach approach{place, voxel, walked, {}};
-    const CellId own = lattice_.cell_of(voxel_at(place, esdf_.voxel_size));
-    for (int d = 0; d < 27 && own != kNoCell; ++d) {
-      const CellId cell = lattice_.neighbour(own, d);
-      if (cell != kNoCell && part_of(cell) != CellGraph::kNoPart) add_join(cell, approach);
-    }
-    look_inside(approach);
-    std::stable_sort(
-        approach.joins.begin(), approach.joins.end(),
-        [](const Approach::Join& a, const Approach::Join& b) { return a.length < b.length; });
-    return approach;
-  }
-
-  Approach::Join& add_join(CellId cell, Approach& approach) const {
-    const double length = (point_of(cell) - approach.place).norm() / esdf_.voxel_size;
-    approach.joins.push_back({cell, static_cast<float>(length)});
-    return approach.joins.back();
-  }
-
-  /// Moves in the place's own cell lead to one of its places, whatever is in sight.
-  void look_inside(Approach& approach) const {
-    const VoxelIndex v = esdf_.layout.index_of(approach.voxel);
-    const CellId cell = lattice_.cell_of(v);
-    const CellMask inside =
-        flood(bit_of(place_of_voxel(v)), fitting_voxels(space_, cell, threshold_));
-    if (cells_[cell].place != CellGraph::kNoPlace && (inside & bit_of(cells_[cell].place)) != 0)
-      for (Approach::Join& join : approach.joins) join.has_walk |= join.cell == cell;
-    const PlaceRange nooks = nooks_of(graph_, cell);
-    for (CellId nook = nooks.first; nook < nooks.last; ++nook)
-      if ((inside & bit_of(number_in_cell(graph_, nook))) != 0 &&
-          part_of(nook) != CellGraph::kNoPart)
-        add_join(nook, approach).has_walk = true;
-  }
-
-  static std::uint8_t place_of_voxel(const VoxelIndex& v) {
-    return static_cast<std::uint8_t>((v.x & 3) | (v.y & 3) << 2 | (v.z & 3) << 4);
-  }
-
-  /// The moves in its cell to the place of a join.
-  std::vector<std::uint8_t> walk_to(const Approach& approach, CellId place) const {
-    const CellMask room = fitting_voxels(space_, cell_of_place(graph_, place), threshold_);
-    return CellWalks({room, 0}, 0)
-        .walk(place_of_voxel(esdf_.layout.index_of(approach.voxel)), number_in_cell(graph_, place));
-  }
-
-  /// Or reaches it by a walk.
-  bool sees(const Approach& approach, Approach::Join& join) const {
-    if (join.sight != Approach::Sight::kUnknown) return join.sight != Approach::Sight::kNo;
-    if (space_.is_free(approach.place, point_of(join.cell), query_.radius)) {
-      join.sight = Approach::Sight::kYes;
-    } else if (join.has_walk) {
-      join.sight = Approach::Sight::kWalk;
-      const double before = (point_of_voxel(approach.voxel) - approach.place).norm();
-      join.length = length_of_walk(walk_to(approach, join.cell), 0) +
-                    static_cast<float>(before / esdf_.voxel_size);
-    } else {
-      join.sight = Approach::Sight::kNo;
-    }
-    return join.sight != Approach::Sight::kNo;
-  }
-
-  /// Looks around from a cell farther along the way; false at its end.
-  bool walk_on(const AttachWay& way, Approach& approach) const {
-    if (approach.walked >= way.voxels.size()) return false;
-    const std::size_t walked = std::min(approach.walked + CellGraph::kSide, way.voxels.size());
-    const VoxelId voxel = way.voxels[walked - 1];
-    approach = look_around(point_of_voxel(voxel), voxel, walked);
-    return true;
-  }
-
-  bool have_common_part(Approach& a, Approach& b) const {
-    for (Approach::Join& x : a.joins)
-      for (Approach::Join& y : b.joins)
-        if (part_of(x.cell) == part_of(y.cell) && sees(a, x) && sees(b, y)) return true;
-    return false;
-  }
+  Place place_of(CellId cell) const { return place_in(cell, around_.first_voxel(cell)); }
 
   struct Open {
     float estimate, cost;
@@ -211,9 +94,9 @@ class CellSearch {
   }
 
   /// The last cell of the best route found, or kNoCell.
-  CellId search(Approach& out, Approach& in) {
-    for (Approach::Join& join : out.joins)
-      if (sees(out, join)) {
+  CellId search(CellApproach& out, CellApproach& in) {
+    for (CellApproach::Join& join : out.joins())
+      if (out.sees(join)) {
         MetCells::Met& met = met_[join.cell];
         met.rest = rest_from(join.cell, place_of(join.cell));
         reach(join.length, join.cell, met);
@@ -225,8 +108,8 @@ class CellSearch {
       open_.pop();
       if (best_last != kNoCell && next.estimate >= best) break;
       if (next.cost > met_[next.cell].cost) continue;
-      for (Approach::Join& join : in.joins)
-        if (join.cell == next.cell && next.cost + join.length < best && sees(in, join) &&
+      for (CellApproach::Join& join : in.joins())
+        if (join.cell == next.cell && next.cost + join.length < best && in.sees(join) &&
             next.cost + join.length < best) {  // a walk is longer than a segment
           best = next.cost + join.length;
           best_last = next.cell;
@@ -273,58 +156,40 @@ class CellSearch {
   }
 
   bool is_free(CellId a, CellId b) const {
-    return space_.is_free(point_of(a), point_of(b), query_.radius);
+    return around_.space.is_free(around_.point_of(a), around_.point_of(b), query_.radius);
   }
 
-  std::vector<Point> route_over(const Approach& out, const Approach& in, CellId last) {
-    std::vector<Point> route{query_.goal};
-    for (std::size_t i = 0; i < in.walked; ++i)
-      route.push_back(point_of_voxel(query_.to.voxels[i]));
-    std::vector<Point> walk = end_walk(in, last);
-    route.insert(route.end(), walk.begin(), walk.end());
+  std::vector<Point> route_over(const CellApproach& out, const CellApproach& in, CellId last) {
+    std::vector<Point> route = in.way_to(last);
     CellId cell = last;
     for (;; cell = met_[cell].from) {
-      route.push_back(point_of(cell));
+      route.push_back(around_.point_of(cell));
       if (met_[cell].from == cell) break;
       if (has_edge(cell, met_[cell].from)) continue;
-      for (const VoxelIndex& v : way_over_bend(graph_, space_, cell, met_[cell].from, threshold_))
-        route.push_back(centre_of(v, esdf_.voxel_size));
+      for (const VoxelIndex& v :
+           way_over_bend(graph_, around_.space, cell, met_[cell].from, around_.threshold))
+        route.push_back(centre_of(v, voxel_size_));
     }
-    walk = end_walk(out, cell);
-    route.insert(route.end(), walk.rbegin(), walk.rend());
-    for (std::size_t i = out.walked; i-- > 0;)
-      route.push_back(point_of_voxel(query_.from.voxels[i]));
-    route.push_back(query_.start);
+    const std::vector<Point> way = out.way_to(cell);
+    route.insert(route.end(), way.rbegin(), way.rend());
     std::reverse(route.begin(), route.end());
     return route;
   }
 
-  /// The moves from an end to the place of a cell that it does not see.
-  std::vector<Point> end_walk(const Approach& approach, CellId place) const {
-    std::vector<Point> walk;
-    const VoxelIndex first = first_voxel(place);
-    for (const Approach::Join& join : approach.joins)
-      if (join.cell == place && join.sight == Approach::Sight::kWalk)
-        for (const std::uint8_t passed : walk_to(approach, place))
-          walk.push_back(centre_of(first + step_to(passed, 0), esdf_.voxel_size));
-    return walk;
-  }
-
   bool has_edge(CellId a, CellId b) const {
     if (a >= cells_.size() || b >= cells_.size()) return false;
-    const VoxelIndex step = first_voxel(b) - first_voxel(a);
+    const VoxelIndex step = around_.first_voxel(b) - around_.first_voxel(a);
     const int d = direction_of(
         {step.x / CellGraph::kSide, step.y / CellGraph::kSide, step.z / CellGraph::kSide});
     return edge_width(cells_, a, b, d) >= least_width_;
   }
 
-  const EsdfMap& esdf_;
+  const CellsForRobot around_;
   const CellGraph& graph_;
   const std::vector<CellGraph::Cell>& cells_;
-  const FreeSpace& space_;
   const CellQuery& query_;
   const CellLattice lattice_;
-  const SquaredHalves threshold_;
+  const double voxel_size_;
   const bool is_beyond_levels_;  ///< edges may be free that the widest robots pass
   const std::size_t least_width_;
   const CellGraph::Lengths& lengths_;
