@@ -41,7 +41,7 @@ std::string extension_of(const fs::path& file) {
 
 /// The format that a file's name says.
 std::string format_of(const fs::path& file) {
-  const std::string extension = extension_of(file);
+  std::string extension = extension_of(file);
   if (std::find(kFormats.begin(), kFormats.end(), extension) == kFormats.end())
     throw InputError(file.string(), "names no format of meshes that can be read",
                      "use .ply, .obj, .stl, .dae or .glb");
