@@ -184,11 +184,7 @@ void build_on_watershed(VoxelMask traversable, const EdgesOf& edges_of, Watershe
   VoxelMask diagram;
   parallel_for_each_index(beside ? 2 : 1, [&](std::size_t task) {
     if (task == 1) return beside();
-    if (memory == nullptr)
-      open_shells(esdf, kernel, peeled.peaks);
-    else
-      kernel =
-          memory->diagram.kernel_shells.open(esdf, kernel, peeled.peaks, memory->diagram.changed());
+    open_shells(esdf, kernel, peeled.peaks);
     diagram = join_diagram(space, edges, kernel, config.min_clearance, basins,
                            memory == nullptr ? nullptr : &memory->diagram);
   });

@@ -41,7 +41,7 @@ VoxelMask detail::join_diagram(const RememberedSpace& space, const VoxelMask& ed
   if (memory == nullptr)
     open_shells(esdf, all, diagram);
   else
-    all = memory->edge_shells.open(esdf, all, diagram, memory->changed());
+    all = memory->shells.open(esdf, all, diagram, memory->changed());
   hook_edges(known, all, threshold, basins, diagram);
   remove_redundant_voxels(known, threshold, basins, diagram);
   return diagram;

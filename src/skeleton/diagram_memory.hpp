@@ -26,7 +26,7 @@ class DiagramMemory {
   /// The voxels whose level may be another than when the diagram was made last.
   const VoxelMask& changed() const { return changed_; }
 
-  ShellMemory kernel_shells, edge_shells;
+  ShellMemory shells;  ///< of edges and joined kernel
 
  private:
   VoxelMask changed_;

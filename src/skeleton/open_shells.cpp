@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "shell_memory.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include "common/parallel_sort.hpp"
 #include "parallel_deletion.hpp"
 #include "ridgeway/skeleton/diagram.hpp"
+#include "shell_memory.hpp"
 #include "simple_point.hpp"
 
 namespace ridgeway {
@@ -158,7 +157,8 @@ void open_shells_among(const EsdfMap& esdf, VoxelMask& voxels, const VoxelMask& 
       if (sheets.empty()) break;
       deletion.process_after(piercing_places(esdf, sheets, scratch.sheet), may_be_pierced, may_go);
     }
-  });  for (const VoxelId id : among) scratch.due.reset(id);
+  });
+  for (const VoxelId id : among) scratch.due.reset(id);
 }
 
 /// The 26-components of what is not kept, in or beside which a member, a level or what is kept has
@@ -206,8 +206,7 @@ VoxelMask ShellMemory::open(const EsdfMap& esdf, const VoxelMask& voxels, const 
   const BlockLayout& layout = esdf.layout;
   ShellScratch scratch(layout);
   VoxelMask opened = mask_of(layout, opened_);
-  const std::vector<VoxelId> among =
-      touched(layout, voxels, keep, changed, opened, scratch.due);
+  const std::vector<VoxelId> among = touched(layout, voxels, keep, changed, opened, scratch.due);
   open_shells_among(esdf, opened, keep, among, scratch);
   voxels_ = voxels.members(layout);
   keep_ = keep.members(layout);
