@@ -132,6 +132,7 @@ std::shared_ptr<const Roadmap> LiveRoadmap::State::built_on(Live& live, detail::
   build.seconds.kernel = lap.seconds();
   live.memory->segments.change(field.esdf.layout, changed_since(field));
   live.memory->peeling.change(field.esdf.layout, field.changed.voxels, field.changed.slots);
+  live.memory->diagram.change(field.esdf.layout, field.changed.voxels, field.changed.slots);
   if (build.traversable_voxels == 0) {
     update_edges(live.ridges, field);
     return nullptr;

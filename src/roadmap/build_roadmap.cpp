@@ -185,7 +185,8 @@ void build_on_watershed(VoxelMask traversable, const EdgesOf& edges_of, Watershe
   parallel_for_each_index(beside ? 2 : 1, [&](std::size_t task) {
     if (task == 1) return beside();
     open_shells(esdf, kernel, peeled.peaks);
-    diagram = detail::join_diagram(space, edges, kernel, config.min_clearance, basins);
+    diagram = join_diagram(space, edges, kernel, config.min_clearance, basins,
+                           memory == nullptr ? nullptr : &memory->diagram);
   });
   clock.end(report.seconds.kernel);
 
@@ -202,7 +203,10 @@ void build_on_watershed(VoxelMask traversable, const EdgesOf& edges_of, Watershe
   clock.end(report.seconds.graph);
 
   clock.begin("attach");
-  if (memory != nullptr) memory->basin = std::move(basins.basin);
+  if (memory != nullptr) {
+    memory->basin = std::move(basins.basin);
+    memory->diagram.forget_changes();
+  }
   roadmap.attach = detail::build_attach_field(esdf, curves, roadmap.graph, std::move(basins));
   roadmap.diagram.voxels = std::move(diagram);
   roadmap.diagram.complete = !config.paper_diagram;

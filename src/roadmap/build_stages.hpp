@@ -10,6 +10,7 @@
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
+#include "skeleton/diagram_memory.hpp"
 #include "skeleton/peeling_memory.hpp"
 #include "skeleton/watershed.hpp"
 
@@ -20,6 +21,7 @@ namespace ridgeway::detail {
 struct BuildMemory {
   SegmentMemory segments;
   PeelingMemory peeling;
+  DiagramMemory diagram;
   BasinNumbers basin;  ///< of the watershed that was built on last
 };
 

@@ -16,27 +16,54 @@ namespace {
 
 constexpr SquaredHalves kMeasuredByTheOther(-1.0);  // clearance that the move back has
 
-/// A move to each neighbour in a diagram, its clearance known to the first of the two.
-std::vector<DiagramMove> moves_to_neighbours(const RememberedSpace& space,
-                                             const DiagramCurves& curves, DiagramNumber from,
-                                             Cube27 neighbours) {
-  constexpr std::array<float, 4> kLengths{0.0f, 1.0f, 1.41421356f, 1.73205081f};
-  std::vector<DiagramMove> moves;
-  const VoxelId id = curves.voxels[from];
-  for (; neighbours != 0; neighbours &= neighbours - 1) {
-    const int d = std::countr_zero(neighbours);
-    const VoxelId other = curves.layout->neighbour(id, d);
-    const DiagramNumber to = curves.find(other);
-    moves.push_back({to, kLengths[static_cast<std::size_t>(squared_length(d))],
-                     from < to ? space.move_clearance(id, other, d) : kMeasuredByTheOther});
-  }
-  return moves;
+/// Number of a diagram voxel, by how many of its block come before it.
+DiagramNumber number_of(const DiagramCurves& curves, const VoxelMask& diagram, VoxelId id) {
+  const VoxelMask::Block& block = diagram.block(id / kBlockVoxels);
+  const std::size_t layer = id / 64 % kBlockSide;
+  int before = bit_count(block[layer] & ((std::uint64_t{1} << id % 64) - 1));
+  for (std::size_t z = 0; z < layer; ++z) before += bit_count(block[z]);
+  return curves.first_of_block[curves.layout->rank(id / kBlockVoxels)] +
+         static_cast<DiagramNumber>(before);
 }
 
-SquaredHalves clearance_of_move(const std::vector<DiagramMove>& moves, DiagramNumber to) {
-  return std::find_if(moves.begin(), moves.end(),
-                      [&](const DiagramMove& move) { return move.to == to; })
-      ->clearance;
+/// A move to each neighbour in a diagram, its clearance known to the first of the two.
+void find_moves(const RememberedSpace& space, const VoxelMask& diagram, DiagramNumber from,
+                Cube27 neighbours, DiagramCurves& curves) {
+  constexpr std::array<float, 4> kLengths{0.0f, 1.0f, 1.41421356f, 1.73205081f};
+  const VoxelId id = curves.voxels[from];
+  for (std::size_t move = curves.first_move[from]; neighbours != 0;
+       ++move, neighbours &= neighbours - 1) {
+    const int d = std::countr_zero(neighbours);
+    const VoxelId other = curves.layout->neighbour(id, d);
+    const DiagramNumber to = number_of(curves, diagram, other);
+    curves.moves[move] = {to, kLengths[static_cast<std::size_t>(squared_length(d))],
+                          from < to ? space.move_clearance(id, other, d) : kMeasuredByTheOther};
+  }
+}
+
+/// Gives the moves from a voxel the clearances that the others have measured.
+void take_clearances(DiagramNumber from, DiagramCurves& curves) {
+  for (std::size_t i = curves.first_move[from]; i < curves.first_move[from + 1]; ++i) {
+    DiagramMove& move = curves.moves[i];
+    if (move.to > from) continue;
+    const std::span<const DiagramMove> others = curves.moves_of(move.to);
+    move.clearance = std::find_if(others.begin(), others.end(), [&](const DiagramMove& other) {
+                       return other.to == from;
+                     })->clearance;
+  }
+}
+
+/// Drops the moves that are narrower than a threshold.
+void drop_narrow_moves(SquaredHalves threshold, DiagramCurves& curves) {
+  std::uint32_t kept = 0, first = 0;
+  for (DiagramNumber from = 0; from < curves.size(); ++from) {
+    const std::uint32_t last = curves.first_move[from + 1];
+    for (std::uint32_t i = first; i < last; ++i)
+      if (curves.moves[i].clearance >= threshold) curves.moves[kept++] = curves.moves[i];
+    curves.first_move[from + 1] = kept;
+    first = last;
+  }
+  curves.moves.resize(kept);
 }
 
 }  // namespace
@@ -64,26 +91,30 @@ DiagramCurves index_diagram(const EsdfMap& esdf, const VoxelMask& diagram, doubl
                    curves.first_of_block.begin());
   curves.squared.resize(curves.size());
   curves.position.resize(curves.size());
-  std::vector<std::vector<DiagramMove>> moves(curves.size());
+  std::vector<Cube27> neighbours(curves.size());
+  curves.first_move.assign(curves.size() + 1, 0);
   parallel_for_each_index(
       curves.size(),
       [&](std::size_t i) {
         const VoxelId id = curves.voxels[i];
         curves.squared[i] = esdf.squared[id];
         curves.position[i] = centre_of(esdf.layout.index_of(id), esdf.voxel_size);
-        moves[i] = moves_to_neighbours(space, curves, static_cast<DiagramNumber>(i),
-                                       cube_around(esdf.layout, diagram, id) & kCells26);
+        neighbours[i] = cube_around(esdf.layout, diagram, id) & kCells26;
+        curves.first_move[i + 1] = static_cast<std::uint32_t>(bit_count(neighbours[i]));
       },
       64);
-  curves.first_move.push_back(0);
-  for (DiagramNumber from = 0; from < curves.size(); ++from) {
-    for (DiagramMove move : moves[from]) {
-      if (move.clearance == kMeasuredByTheOther)
-        move.clearance = clearance_of_move(moves[move.to], from);
-      if (move.clearance >= threshold) curves.moves.push_back(move);
-    }
-    curves.first_move.push_back(static_cast<std::uint32_t>(curves.moves.size()));
-  }
+  std::partial_sum(curves.first_move.begin(), curves.first_move.end(), curves.first_move.begin());
+  curves.moves.resize(curves.first_move.back());
+  parallel_for_each_index(
+      curves.size(),
+      [&](std::size_t i) {
+        find_moves(space, diagram, static_cast<DiagramNumber>(i), neighbours[i], curves);
+      },
+      64);
+  parallel_for_each_index(
+      curves.size(), [&](std::size_t i) { take_clearances(static_cast<DiagramNumber>(i), curves); },
+      256);
+  drop_narrow_moves(threshold, curves);
   return curves;
 }
 

@@ -18,17 +18,6 @@ inline std::uint64_t height(const EsdfMap& esdf, VoxelId id) {
   return std::uint64_t{esdf.squared[id]} << 32 | (0xffffffffu - esdf.layout.order_of(id));
 }
 
-/// Sorts voxels by level, the lowest first, and by their order where they are equally high.
-inline void sort_lowest_first(const EsdfMap& esdf, std::vector<VoxelId>& ids) {
-  std::vector<std::pair<std::uint64_t, VoxelId>> by_level;
-  by_level.reserve(ids.size());
-  for (const VoxelId id : ids)
-    by_level.emplace_back(std::uint64_t{esdf.squared[id]} << 32 | esdf.layout.order_of(id), id);
-  parallel_sort(by_level.begin(), by_level.end());
-  std::transform(by_level.begin(), by_level.end(), ids.begin(),
-                 [](const auto& voxel) { return voxel.second; });
-}
-
 /// The members of a mask, the highest first.
 inline std::vector<VoxelId> highest_first(const EsdfMap& esdf, const VoxelMask& voxels) {
   std::vector<VoxelId> ids = voxels.members(esdf.layout);

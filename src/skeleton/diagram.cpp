@@ -28,7 +28,8 @@ VoxelMask join_diagram(const EsdfMap& esdf, const VoxelMask& edges, const VoxelM
 }
 
 VoxelMask detail::join_diagram(const RememberedSpace& space, const VoxelMask& edges,
-                               const VoxelMask& kernel, double min_clearance, Basins& basins) {
+                               const VoxelMask& kernel, double min_clearance, Basins& basins,
+                               DiagramMemory* memory) {
   const EsdfMap& esdf = space.map();
   const SquaredHalves threshold = least_clearance(min_clearance, esdf.voxel_size);
   std::optional<MeasuredMoves> moves;
@@ -36,7 +37,11 @@ VoxelMask detail::join_diagram(const RememberedSpace& space, const VoxelMask& ed
   const RememberedSpace known(esdf, space.memory(), moves ? &*moves : nullptr);
   VoxelMask diagram = join_kernel(known, kernel, threshold, basins);
   VoxelMask all = united(edges, diagram);
-  open_shells(esdf, all, diagram);  // thins edges onto the curves that they touch
+  // Thins edges onto the curves that they touch.
+  if (memory == nullptr)
+    open_shells(esdf, all, diagram);
+  else
+    all = memory->shells.open(esdf, all, diagram, memory->changed());
   hook_edges(known, all, threshold, basins, diagram);
   remove_redundant_voxels(known, threshold, basins, diagram);
   return diagram;

@@ -33,7 +33,7 @@ class EdgeHooks {
         diagram_(diagram) {}
 
   void run(const VoxelMask& edges) {
-    const std::vector<VoxelId> voxels = highest_first(esdf_, edges);
+    const std::vector<VoxelId> voxels = highest_first(esdf_, without_exact(edges));
     piece_.reserve(voxels.size());
     for (const VoxelId id : voxels) {
       stop_if_cancelled();
@@ -44,6 +44,12 @@ class EdgeHooks {
   }
 
  private:
+  VoxelMask without_exact(VoxelMask edges) const {
+    for (std::uint32_t slot = 0; slot < edges.block_count(); ++slot)
+      for (std::size_t z = 0; z < kBlockSide; ++z) edges.block(slot)[z] &= ~exact_.block(slot)[z];
+    return edges;
+  }
+
   /// Something that happens once the level has sunk to it: two voxels of pieces connect, or
   /// (from == to) a voxel's piece has waited long enough.
   struct Event {
@@ -91,7 +97,7 @@ class EdgeHooks {
       if (width >= threshold_) moves[count++] = {width, other};
       alone &= width < level;
     }
-    if (alone && steps_to_diagram(id) <= kBesideSteps) return;
+    if (alone && is_beside_diagram(id)) return;
     piece_.add(id, mixed(id), piece);
     diagram_.set(id);
     for (const Move& move : std::span(moves).first(count)) {
@@ -118,10 +124,13 @@ class EdgeHooks {
 
   VoxelId after(VoxelId id) const { return layout_.neighbour(id, basins_.next[id]); }
 
-  std::size_t steps_to_diagram(VoxelId id) const {
-    std::size_t steps = 1;
-    for (id = after(id); !diagram_.test(id); id = after(id)) ++steps;
-    return steps;
+  /// Whether the way from a voxel is on the diagram within so few steps.
+  bool is_beside_diagram(VoxelId id) const {
+    for (std::size_t step = 0; step < kBesideSteps; ++step) {
+      id = after(id);
+      if (diagram_.test(id)) return true;
+    }
+    return false;
   }
 
   /// Adds the way from a voxel up to a hooked part of the diagram.

@@ -2,13 +2,15 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include "diagram_memory.hpp"
 #include "esdf/remembered_space.hpp"
 #include "ridgeway/skeleton/diagram.hpp"
 
 namespace ridgeway::detail {
 
-/// The same, with what is remembered of moves.
+/// The same, with what is remembered of moves. `memory`: where the map is one that changes.
 VoxelMask join_diagram(const RememberedSpace& space, const VoxelMask& edges,
-                       const VoxelMask& kernel, double min_clearance, Basins& basins);
+                       const VoxelMask& kernel, double min_clearance, Basins& basins,
+                       DiagramMemory* memory = nullptr);
 
 }  // namespace ridgeway::detail

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <queue>
 #include <vector>
 
-#include "by_height.hpp"
+#include "common/parallel_sort.hpp"
 #include "parallel_deletion.hpp"
 #include "simple_point.hpp"
 
@@ -62,42 +64,94 @@ bool can_do_without(const RememberedSpace& space, SquaredHalves threshold, Voxel
   return count > 0;
 }
 
+/// Deletes voxels one after the other, the lowest first. What may go depends on what is left around
+/// it alone: so all are asked at once, and in turn come only those that might go then, and those
+/// beside which one has gone since.
+template <typename MayGo>
+class OrderedRound {
+ public:
+  OrderedRound(const EsdfMap& esdf, const MayGo& may_go, VoxelMask& diagram)
+      : esdf_(esdf), may_go_(may_go), diagram_(diagram), work_(esdf.layout) {}
+
+  /// The deleted ones of a list in which each is named once.
+  std::vector<VoxelId> run(const std::vector<VoxelId>& work) {
+    for (const VoxelId id : work) work_.set(id);
+    ask_all(work);
+    std::vector<VoxelId> deleted;
+    for (std::size_t next = 0; next < due_.size() || !again_.empty();) {
+      const bool is_due = again_.empty() || (next < due_.size() && due_[next].turn <= again_.top());
+      const Due due = is_due ? due_[next++] : Due{again_.top(), kNobodys};
+      while (!again_.empty() && again_.top() == due.turn) again_.pop();
+      const VoxelId id = voxel_at(due.turn);
+      const Cube27 cube = cube_around(esdf_.layout, diagram_, id);
+      if (cube != due.cube && !may_go_(id, cube)) continue;
+      diagram_.reset(id);
+      deleted.push_back(id);
+      ask_again_around(due.turn, id, cube);
+    }
+    for (const VoxelId id : work) work_.reset(id);
+    return deleted;
+  }
+
+ private:
+  using Turn = std::uint64_t;              // level, then place in the order of voxels
+  static constexpr Cube27 kNobodys = ~0u;  // no neighbourhood
+  struct Due {
+    Turn turn;
+    Cube27 cube;  ///< with which it may go
+  };
+
+  Turn turn_of(VoxelId id) const {
+    return std::uint64_t{esdf_.squared[id]} << 32 | esdf_.layout.order_of(id);
+  }
+  VoxelId voxel_at(Turn turn) const {
+    return esdf_.layout.voxel_at_order(static_cast<std::uint32_t>(turn));
+  }
+
+  void ask_all(const std::vector<VoxelId>& work) {
+    std::vector<Cube27> with(work.size());
+    parallel_for_each_index(
+        work.size(),
+        [&](std::size_t i) {
+          const Cube27 cube = cube_around(esdf_.layout, diagram_, work[i]);
+          with[i] = may_go_(work[i], cube) ? cube : kNobodys;
+        },
+        64);
+    due_.clear();
+    for (std::size_t i = 0; i < work.size(); ++i)
+      if (with[i] != kNobodys) due_.push_back({turn_of(work[i]), with[i]});
+    parallel_sort(due_.begin(), due_.end(),
+                  [](const Due& a, const Due& b) { return a.turn < b.turn; });
+  }
+
+  void ask_again_around(Turn turn, VoxelId id, Cube27 cube) {
+    for (Cube27 cells = cube & kCells26; cells != 0; cells &= cells - 1) {
+      const VoxelId beside = esdf_.layout.neighbour(id, std::countr_zero(cells));
+      if (const Turn later = turn_of(beside); later > turn && work_.test(beside))
+        again_.push(later);
+    }
+  }
+
+  const EsdfMap& esdf_;
+  const MayGo& may_go_;
+  VoxelMask& diagram_;
+  VoxelMask work_;        // those of the round
+  std::vector<Due> due_;  // that may go unless something around them goes before
+  std::priority_queue<Turn, std::vector<Turn>, std::greater<>> again_;
+};
+
 }  // namespace
 
 void remove_redundant_voxels(const RememberedSpace& space, SquaredHalves threshold,
                              const Basins& basins, VoxelMask& diagram) {
   const EsdfMap& esdf = space.map();
-  std::vector<VoxelId> work = diagram.members(esdf.layout);
   const auto may_go = [&](VoxelId id, Cube27 cube) {
     return basins.next[id] != kCentre && is_simple(cube) && !is_curve_end(cube) &&
            can_do_without(space, threshold, id, cube);
   };
-  // What may go depends on what is left around it alone. So all are asked at once, and again those
-  // around which a voxel has gone when their turn comes.
-  struct Answer {
-    Cube27 cube;
-    bool may_go;
-  };
-  std::vector<Answer> answers;
-  while (!work.empty()) {
-    sort_lowest_first(esdf, work);
-    answers.resize(work.size());
-    parallel_for_each_index(
-        work.size(),
-        [&](std::size_t i) {
-          const Cube27 cube = cube_around(esdf.layout, diagram, work[i]);
-          answers[i] = {cube, may_go(work[i], cube)};
-        },
-        64);
-    std::vector<VoxelId> deleted;
-    for (std::size_t i = 0; i < work.size(); ++i) {
-      const Cube27 cube = cube_around(esdf.layout, diagram, work[i]);
-      if (!(cube == answers[i].cube ? answers[i].may_go : may_go(work[i], cube))) continue;
-      diagram.reset(work[i]);
-      deleted.push_back(work[i]);
-    }
-    work = neighbours_of(esdf.layout, diagram, deleted);
-  }
+  OrderedRound round(esdf, may_go, diagram);
+  for (std::vector<VoxelId> work = diagram.members(esdf.layout); !work.empty();)
+    work = neighbours_of(esdf.layout, diagram, round.run(work));
 }
 
 }  // namespace ridgeway::detail
