@@ -166,6 +166,31 @@ test("dragging the goal plans as it moves, and draws the route anew, not the map
   assert.notEqual(await text_of(page, "#length"), before);
 });
 
+test("a step of a drag is one frame: words change with the picture, which hides the page below", async () => {
+  const at = await page.evaluate(() => {
+    const { app, stage } = window.ridgeway;
+    const draw = stage.draw;
+    window.steps = [];
+    stage.draw = () => {
+      const before = document.getElementById("to").value;
+      draw.call(stage);
+      window.steps.push([before, document.getElementById("to").value]);
+    };
+    window.end_steps = () => (stage.draw = draw);
+    return stage.on_canvas(app.routes.goal.position);
+  });
+  await page.mouse.move(at.x, at.y);
+  await page.mouse.down();
+  for (let i = 1; i <= 4; ++i) await planned(page, () => page.mouse.move(at.x, at.y + 8 * i));
+  const steps = await page.evaluate(() => window.steps.filter(([before, after]) => before !== after));
+  assert.equal(steps.length, 4, "the goal in the form changed without a frame");
+  await planned(page, () => page.mouse.up());
+  await page.evaluate(() => window.end_steps());
+  const goal = (await page.inputValue("#to")).split(",").map(Number);
+  assert.deepEqual(goal, await page.evaluate(() => [...window.ridgeway.app.query.goal]));
+  assert.equal(await page.evaluate(() => window.ridgeway.stage.renderer.getContext().getContextAttributes().alpha), false);
+});
+
 test("what moves over the map is hidden by it as if all were drawn at once", async () => {
   await planned(page, () => set("alternatives", "1"));
   await page.locator("#orbit").click();
