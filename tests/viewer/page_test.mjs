@@ -91,6 +91,27 @@ test("sliders move the cut and the slice", async () => {
   await set("cut", "2.2");
 });
 
+test("a wall that is cut is one colour, not a way to look below the floor", async () => {
+  await page.locator("#top").click();
+  const colour = () => page.evaluate(async () => {
+    const { app, stage } = window.ridgeway;
+    await app.heights.sectioned;
+    stage.draw();
+    const at = stage.on_canvas(app.routes.local([0.05, 1.25, 1]));
+    const gl = stage.renderer.getContext();
+    const pixel = new Uint8Array(4);
+    const ratio = stage.renderer.getPixelRatio();
+    gl.readPixels(Math.floor(at.x * ratio), gl.drawingBufferHeight - 1 - Math.floor(at.y * ratio), 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+    return [...pixel.subarray(0, 3)];
+  });
+  for (const cut of ["0.8", "1.65"]) {
+    await set("cut", cut);
+    assert.deepEqual(await colour(), [0x3a, 0x44, 0x50], `cut at ${cut}`);
+  }
+  await set("cut", "2.2");
+  await page.locator("#orbit").click();
+});
+
 test("clicks on start and goal plan what the command line plans", async () => {
   await page.locator("#top").click();
   await page.locator("[data-tool=start]").click();
