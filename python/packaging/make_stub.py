@@ -46,14 +46,14 @@ PARAMETERS = {
     "horizontal vertical nearest range spacing persistence resolved_below kept_clearance until share_of_range time yaw min_volume latitude longitude altitude x_heading "
     "max_speed max_acceleration max_jerk max_yaw_rate truncation depth_behind min_range max_weight "
     "clear_radius window": "float",
-    "radius start_yaw units section_x section_y": "Optional[float]",
+    "radius start_yaw units section_x section_y row_gap": "Optional[float]",
     "unknown planner smoothness integrator source strategy diagram_colour title": "str",
     "up": "Optional[str]", "home": "Optional[_Point]", "band": "Optional[Sequence[float]]",
     "inside": "ArrayLike", "position velocity acceleration point": "_Point", "file": "_Path",
     "paths": "Optional[Dict[str, Union[PlanResult, ArrayLike]]]", "roadmap": "Roadmap",
     "simplify basis_point_edges paper_diagram shorten quick escape follow_yaw stop_and_go carve floors sides narrow_places": "bool",
     "threads count queries seed slot index min_cluster isolated_below tangent_pairs most_evaluations "
-    "width height forget_after log_bytes least_frontier headings most_rays most_stops most_looks": "int",
+    "width height rows columns forget_after log_bytes least_frontier headings most_rays most_stops most_looks": "int",
     "limits flight_limits": "Optional[FlightLimits]",
     "progress": "_Progress",
     "loading": "Any",
@@ -62,6 +62,7 @@ PARAMETERS = {
     "diagram traversable gvd": "VoxelMask",
     "graph": "SparseGraph",
     "camera": "PinholeCamera",
+    "lidar": "SpinningLidar",
     "before now": "Roadmap",
     "poses": "Dict[int, ArrayLike]",
 }
@@ -101,11 +102,11 @@ RETURNS = {
     "plan": "PlanResult", "plan_many": "List[PlanResult]",
     "plan_nearest": "Tuple[Optional[int], PlanResult]", "plan_via": "Tuple[PlanResult, Optional[int]]",
     "alternatives": "Alternatives", "explain": "Optional[BlockedRoute]", "trajectory": "Trajectory",
-    "save save_mission save_surface export_graph export_voxblox draw begin_correcting": "None",
+    "save save_mission add finish save_surface export_graph export_voxblox draw begin_correcting": "None",
     "components": "List[Dict[str, Any]]",
     "check integrate_depth integrate_points set_voxels correct_poses finish_correcting catch_up":
         "Dict[str, Any]",
-    "sample": "TrajectorySamples", "surface": "Surface", "to_networkx": "Any",
+    "sample": "TrajectorySamples", "surface": "Surface", "scan_with": "NDArray[np.float64]", "to_networkx": "Any",
     "snapshot settled": "Optional[Roadmap]", "render_depth": "NDArray[np.float32]",
     "__len__": "int", "__bool__ __eq__": "bool", "__repr__": "str", "__init__": "None",
     "map": "OccupancyMap",
@@ -128,9 +129,9 @@ PROPERTIES = {
     "block_distances block_weights": "NDArray[np.float32]",
     "voxel_size min_clearance max_distance truncation length clearance within radius duration "
     "max_speed max_acceleration max_jerk max_yaw_rate escape_start escape_goal moved_start moved_goal "
-    "fx fy cx cy tour_seconds": "float", "goal": "Optional[Tuple[float, float, float, float]]",
+    "fx fy cx cy vertical min_range max_range range_sigma tour_seconds": "float", "goal": "Optional[Tuple[float, float, float, float]]",
     "source unknown status reason answered_by by step name layout": "str",
-    "planar ok complete is_settled is_empty was_in_doubt is_braking": "bool", "stops width height without_pose frontiers frontier_voxels": "int",
+    "planar ok complete is_settled is_empty was_in_doubt is_braking": "bool", "stops width height rows columns without_pose frontiers frontier_voxels": "int",
     "esdf": "EsdfMap", "diagram": "VoxelMask", "graph": "SparseGraph", "camera": "PinholeCamera",
 }
 ATTRIBUTES = {name: kind for names, kind in PROPERTIES.items() for name in names.split()}
@@ -178,6 +179,10 @@ def stub_of(cls):
         elif name == "__eq__":
             lines.append(function(where, "    ", ["other: object"], "bool"))
             lines.append("    __hash__: None  # type: ignore\n")
+        elif name == "__enter__":
+            lines.append(function(where, "    ", [], cls.__name__))
+        elif name == "__exit__":
+            lines.append(function(where, "    ", ["error: object", "value: object", "traceback: object"], "None"))
         elif name == "__getitem__":
             lines.append(function(where, "    ", ["index: int"], RESULTS[where]))
         elif not name.startswith("_"):

@@ -9,6 +9,7 @@
 #include "faces.hpp"
 #include "flights.hpp"
 #include "ridgeway/exploration/explorer.hpp"
+#include "sensors.hpp"
 
 namespace ridgeway::python {
 namespace {
@@ -163,7 +164,12 @@ py::dict view_of_camera(const PinholeCamera& camera, py::handle min_range, py::h
   const double share = number_from(share_of_range, "share_of_range");
   if (!(share > 0.0 && share <= 1.0))
     throw InputError("share_of_range", "is " + literal(share), "give a share above 0, up to 1");
-  const FieldOfView view = field_of_view(sensor, share);
+  return dict_of(field_of_view(sensor, share));
+}
+
+}  // namespace
+
+py::dict dict_of(const FieldOfView& view) {
   py::dict dict;
   dict["horizontal"] = view.horizontal;
   dict["vertical"] = view.vertical;
@@ -171,8 +177,6 @@ py::dict view_of_camera(const PinholeCamera& camera, py::handle min_range, py::h
   dict["range"] = view.range;
   return dict;
 }
-
-}  // namespace
 
 void add_exploration(py::module_& module) {
   add_step(module);

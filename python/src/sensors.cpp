@@ -10,7 +10,6 @@
 #include "ridgeway/formats/world_file.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
 #include "ridgeway/recordings/depth_sequence.hpp"
-#include "ridgeway/recordings/scan_sequence.hpp"
 
 namespace ridgeway::python {
 namespace {
@@ -69,44 +68,15 @@ py::array render(const World& world, const PinholeCamera& camera, py::handle pos
   return array_of(std::move(image));
 }
 
-py::tuple scan_of(const ScanSequence& sequence, py::ssize_t i) {
-  const auto count = static_cast<py::ssize_t>(sequence.scans.size());
-  if (i < 0) i += count;
-  if (i < 0 || i >= count) throw py::index_error("there are " + std::to_string(count) + " scans");
-  const Scan& scan = sequence.scans[static_cast<std::size_t>(i)];
-  PointCloud cloud;
+py::array scan(const World& world, const SpinningLidar& lidar, py::handle pose, py::handle seed) {
+  const Eigen::Isometry3d T_world_sensor = pose_from(pose, "T_world_sensor");
+  const auto number = static_cast<std::uint64_t>(whole_from(seed, "seed"));
+  std::vector<Point> points;
   {
     const py::gil_scoped_release release;
-    cloud = read_scan(scan);
+    points = scan_with(world, lidar, T_world_sensor, number);
   }
-  return py::make_tuple(python::array_of(std::move(cloud.points)),
-                        python::array_of(scan.T_world_sensor));
-}
-
-void add_scans(py::module_& module) {
-  py::class_<ScanSequence>(
-      module, "ScanSequence",
-      "A recording of scans with poses; sequence[i] is the i-th: (points, T_world_sensor), points "
-      "(N, 3) in the\nsensor's frame.")
-      .def_readonly("layout", &ScanSequence::layout, "'scans' or 'registration'.")
-      .def_readonly("without_pose", &ScanSequence::without_pose,
-                    "Scans whose pose is not finite, passed over.")
-      .def("__len__", [](const ScanSequence& sequence) { return sequence.scans.size(); })
-      .def("__getitem__", &scan_of, py::arg("index"))
-      .def("__repr__", [](const ScanSequence& sequence) {
-        return "ScanSequence(" + std::to_string(sequence.scans.size()) + " scans, layout='" +
-               sequence.layout + "')";
-      });
-  module.def(
-      "open_scans",
-      [](py::handle folder) {
-        const std::filesystem::path path = path_from(folder, "folder");
-        const py::gil_scoped_release release;
-        return open_scans(path);
-      },
-      py::arg("folder"),
-      "open_scans(folder)\n--\n\n"
-      "A recording of lidar scans with poses (poses.txt, or a registration): a ScanSequence.");
+  return python::array_of(std::move(points));
 }
 
 void add_world(py::module_& module) {
@@ -128,6 +98,10 @@ void add_world(py::module_& module) {
            "render_depth(self, camera, T_world_camera, max_range=10.0, range_sigma=0.0, seed=0)"
            "\n--\n\nWhat a depth camera sees from a pose (4, 4): (H, W) float32, metres, 0 where "
            "nothing is near.")
+      .def("scan_with", &scan, py::arg("lidar"), py::arg("T_world_sensor"), py::arg("seed") = 0,
+           "scan_with(self, lidar, T_world_sensor, seed=0)\n--\n\n"
+           "What a SpinningLidar measures in one turn, from a pose (4, 4) that it has all the "
+           "while: points (N, 3),\nmetres, in its frame, without beams that meet nothing in range.")
       .def("__repr__", [](const World& world) {
         return "World(name='" + world.name + "', boxes=" + std::to_string(world.boxes.size()) +
                ", meshes=" + std::to_string(world.meshes.size()) + ")";

@@ -108,6 +108,65 @@ def test_scans_are_arrays(tmp_path):
         scans[1]
 
 
+def test_a_lidar_scans_a_world_and_scans_are_written(source, tmp_path):
+    world = ridgeway.load_world(source / "worlds/house.yaml")
+    lidar = ridgeway.SpinningLidar(rows=8, columns=90, vertical=0.8, max_range=6.0)
+    assert (lidar.rows, lidar.columns, lidar.vertical, lidar.max_range) == (8, 90, 0.8, 6.0)
+    pose = np.eye(4)
+    pose[:3, :3] = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]  # it looks along the world's y
+    pose[:3, 3] = 1.2, 1.2, 1.5
+    points = world.scan_with(lidar, pose)
+    assert points.dtype == np.float64 and points.shape[1] == 3 and 100 < len(points) <= 8 * 90
+    ranges = np.linalg.norm(points, axis=1)
+    assert ranges.max() <= 6.0 and np.all(np.abs(np.arcsin(points[:, 2] / ranges)) <= 0.4 + 1e-9)
+    with ridgeway.ScanWriter(tmp_path / "run") as writer:
+        writer.add(points, pose)
+        writer.add(np.vstack([points[:5], [np.nan, 0, 0]]), pose)
+        assert len(writer) == 2 and not (tmp_path / "run").exists()
+    scans = ridgeway.open_scans(tmp_path / "run")
+    assert len(scans) == 2 and len(scans[1][0]) == 5
+    again, read_pose = scans[0]
+    assert np.allclose(again, points, atol=1e-6) and np.allclose(read_pose, pose)
+    seen = lidar.field_of_view(share_of_range=1.0, row_gap=0.1)
+    assert seen["vertical"] == pytest.approx(0.8) and seen["range"] < lidar.field_of_view()["range"]
+    ridgeway.Explorer(**seen)
+
+
+def test_scans_are_written_whole_or_not_at_all(tmp_path):
+    with pytest.raises(RuntimeError, match="in between"):
+        with ridgeway.ScanWriter(tmp_path / "run") as writer:
+            writer.add(np.zeros((1, 3)), np.eye(4))
+            raise RuntimeError("in between")
+    assert not list(tmp_path.iterdir())
+    writer = ridgeway.ScanWriter(tmp_path / "run")
+    writer.finish()
+    for call in (writer.finish, lambda: writer.add(np.zeros((1, 3)), np.eye(4))):
+        with pytest.raises(ValueError, match="written already"):
+            call()
+    with pytest.raises(ValueError, match="not empty"):
+        ridgeway.ScanWriter(tmp_path / "run")
+
+
+@pytest.mark.parametrize(
+    "call, error, words",
+    [
+        (lambda w: ridgeway.SpinningLidar(rows=0), ValueError, "rows"),
+        (lambda w: ridgeway.SpinningLidar(columns=1.5), TypeError, "columns"),
+        (lambda w: ridgeway.SpinningLidar(vertical=9.0), ValueError, "vertical"),
+        (lambda w: ridgeway.SpinningLidar(min_range=5.0, max_range=2.0), ValueError, "range"),
+        (lambda w: ridgeway.SpinningLidar(range_sigma=np.nan), ValueError, "range_sigma"),
+        (lambda w: ridgeway.SpinningLidar().field_of_view(share_of_range=0), ValueError, "share_of_range"),
+        (lambda w: ridgeway.SpinningLidar().field_of_view(row_gap=-1), ValueError, "row_gap"),
+        (lambda w: w.add(np.zeros((3, 2)), np.eye(4)), ValueError, "points"),
+        (lambda w: w.add(np.zeros((3, 3)), np.eye(3)), ValueError, "T_world_sensor"),
+        (lambda w: ridgeway.ScanWriter(3), TypeError, "folder"),
+    ],
+)
+def test_bad_lidars_and_scans_are_named(tmp_path, call, error, words):
+    with pytest.raises(error, match=words):
+        call(ridgeway.ScanWriter(tmp_path / "run"))
+
+
 def test_files_of_voxblox_are_read_back(roadmap, tmp_path):
     roadmap.export_voxblox(tmp_path / "rooms.vxblx")
     roadmap.export_graph(tmp_path / "rooms.pb")

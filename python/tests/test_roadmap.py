@@ -284,6 +284,7 @@ def test_what_things_say_of_themselves(roadmap):
     things = [roadmap, roadmap.esdf, roadmap.graph, roadmap.diagram, roadmap.plan(START, GOAL),
               roadmap.alternatives(START, GOAL), roadmap.trajectory(roadmap.plan(START, GOAL)),
               roadmap.explain(START, GOAL, 0.5), ridgeway.FlightLimits(), ridgeway.PinholeCamera(),
+              ridgeway.SpinningLidar(),
               ridgeway.TsdfFusion(), ridgeway.LiveRoadmap()]
     for thing in things:
         assert repr(thing).startswith(type(thing).__name__ + "(")

@@ -3,7 +3,9 @@
 #include "deformation.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <vector>
 
 #include "paths/planning_constants.hpp"
 #include "ridgeway/voxel/index.hpp"
@@ -11,39 +13,46 @@
 namespace ridgeway::detail {
 namespace {
 
-/// Walks along a path; lengths must not fall from call to call.
-class Walker {
+/// Places on a path by their length along it.
+class Along {
  public:
-  explicit Walker(std::span<const Point> path) : path_(path) {}
+  explicit Along(std::span<const Point> path) : path_(path), passed_(path.size()) {
+    for (std::size_t i = 1; i < path.size(); ++i)
+      passed_[i] = passed_[i - 1] + (path[i] - path[i - 1]).norm();
+  }
 
-  Point at(double length) {
-    for (; next_ < path_.size(); ++next_) {
-      const double segment = (path_[next_] - path_[next_ - 1]).norm();
-      if (passed_ + segment > length)
-        return path_[next_ - 1] +
-               (path_[next_] - path_[next_ - 1]) * ((length - passed_) / segment);
-      passed_ += segment;
-    }
-    return path_.back();
+  double length() const { return passed_.back(); }
+
+  Point at(double length) const {
+    const auto next = std::upper_bound(passed_.begin() + 1, passed_.end(), length);
+    if (next == passed_.end()) return path_.back();
+    const auto i = static_cast<std::size_t>(next - passed_.begin());
+    const Point segment = path_[i] - path_[i - 1];
+    return path_[i - 1] + segment * ((length - passed_[i - 1]) / segment.norm());
   }
 
  private:
   std::span<const Point> path_;
-  std::size_t next_ = 1;
-  double passed_ = 0.0;
+  std::vector<double> passed_;  ///< length up to each of its points
 };
 
 }  // namespace
 
 bool deforms_into(const FreeSpace& space, std::span<const Point> a, std::span<const Point> b,
                   double radius) {
-  const double length_a = length_of(a), length_b = length_of(b);
-  const double steps = std::ceil(std::max(length_a, length_b) / (kPlanning.look_step * radius));
-  Walker on_a(a), on_b(b);
-  for (double k = 1.0; k < steps; k += 1.0)
-    if (!space.is_free(on_a.at(length_a * k / steps), on_b.at(length_b * k / steps),
-                       kPlanning.deform_radius * radius))
-      return false;
+  const Along on_a(a), on_b(b);
+  const double steps =
+      std::ceil(std::max(on_a.length(), on_b.length()) / (kPlanning.look_step * radius));
+  const auto looks = steps > 1.0 ? static_cast<std::size_t>(steps) - 1 : 0;
+  // Paths of two classes mostly begin and end alike: from the middle on, at half the distance each
+  // time, it is sooner seen that something is between them.
+  for (std::size_t stride = std::bit_floor(looks); stride > 0; stride /= 2)
+    for (std::size_t k = stride; k <= looks; k += 2 * stride) {
+      const auto share = [&](const Along& path) {
+        return path.at(path.length() * static_cast<double>(k) / steps);
+      };
+      if (!space.is_free(share(on_a), share(on_b), kPlanning.deform_radius * radius)) return false;
+    }
   return true;
 }
 

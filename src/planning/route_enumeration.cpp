@@ -134,18 +134,19 @@ Route RouteEnumeration::route_to(std::uint32_t piece) const {
 bool RouteEnumeration::is_redundant(std::uint32_t piece) {
   const VertexId fork = pieces_[piece].vertex;
   if (roadmap_.graph.links_of(fork).size() < 3) return false;
-  std::vector<std::uint32_t>& others = followed_[fork];
-  const Route route = route_to(piece);
-  const std::vector<VertexId> vertices = vertices_to(piece);
+  std::vector<Followed>& others = followed_[fork];
+  Followed here{route_to(piece), vertices_to(piece)};
   int alike = 0;
-  for (const std::uint32_t other : others) {
-    if (!deforms_into(space_, route_to(other), route, query_.radius)) continue;
-    const std::vector<VertexId> fewer = vertices_to(other);
-    if (++alike == kPlanning.most_alike ||
-        std::includes(vertices.begin(), vertices.end(), fewer.begin(), fewer.end()))
-      return true;
-  }
-  others.push_back(piece);
+  // One over some of the same vertices is enough: those first.
+  for (const bool is_over_fewer : {true, false})
+    for (const Followed& other : others) {
+      if (std::includes(here.vertices.begin(), here.vertices.end(), other.vertices.begin(),
+                        other.vertices.end()) != is_over_fewer)
+        continue;
+      if (!deforms_into(space_, other.route, here.route, query_.radius)) continue;
+      if (is_over_fewer || ++alike == kPlanning.most_alike) return true;
+    }
+  others.push_back(std::move(here));
   return false;
 }
 

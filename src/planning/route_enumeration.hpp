@@ -47,6 +47,11 @@ class RouteEnumeration {
       return estimate != other.estimate ? estimate > other.estimate : piece > other.piece;
     }
   };
+  /// A route to a fork.
+  struct Followed {
+    Route route;
+    std::vector<VertexId> vertices;  ///< sorted
+  };
   using Legs = std::map<VertexId, Route>;  ///< from an end of the query to a vertex
 
   Legs legs_from(const Point& end, VoxelId voxel) const;
@@ -69,7 +74,7 @@ class RouteEnumeration {
   std::vector<double> rest_;  ///< length from each vertex to the goal
   std::vector<Piece> pieces_;
   std::priority_queue<OpenEntry> open_;
-  std::map<VertexId, std::vector<std::uint32_t>> followed_;  ///< pieces at a fork
+  std::map<VertexId, std::vector<Followed>> followed_;  ///< by the fork
   std::size_t expansions_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <vector>
 
 #include "layer_bytes.hpp"
 #include "ridgeway/common/error.hpp"
@@ -26,6 +27,44 @@ void append_position(std::string& bytes, const Point& local) {
 
 float clearance_of_voxel(const EsdfMap& esdf, VoxelId id) {
   return static_cast<float>(esdf.distance(id));
+}
+
+/// Cells of `stride` voxels that cover a horizontal layer, from the voxel (x, y) on.
+struct LayerGrid {
+  int x = 0, y = 0, stride = 1, columns = 0, rows = 0;
+};
+
+/// How many voxels a height (world, metres) is above the map's zero.
+double voxels_up(const EsdfMap& esdf, double height) {
+  const double up = to_local(esdf, Point(0.0, 0.0, height)).z() / esdf.voxel_size;
+  if (!std::isfinite(up) || std::abs(up) >= kMaxVoxelIndex)
+    throw InputError("z", "is no height that a voxel can have", "give metres, in the map's frame");
+  return up;
+}
+
+LayerGrid grid_of_layer(const EsdfMap& esdf, int layer, int most_cells) {
+  BlockIndex low{0, 0, 0}, high{-1, -1, 0};
+  bool any = false;
+  for (const BlockIndex& b : esdf.layout.blocks()) {
+    if (b.z != layer >> kBlockBits) continue;
+    low = any ? BlockIndex{std::min(low.x, b.x), std::min(low.y, b.y), 0} : b;
+    high = any ? BlockIndex{std::max(high.x, b.x), std::max(high.y, b.y), 0} : b;
+    any = true;
+  }
+  const std::int64_t width = (std::int64_t{high.x} - low.x + 1) * kBlockSide,
+                     depth = (std::int64_t{high.y} - low.y + 1) * kBlockSide;
+  const std::int64_t stride =
+      std::max<std::int64_t>(1, (std::max(width, depth) + most_cells - 1) / most_cells);
+  return {low.x * kBlockSide, low.y * kBlockSide, static_cast<int>(stride),
+          static_cast<int>(width / stride), static_cast<int>(depth / stride)};
+}
+
+/// The grid's corner at a height in voxels, the side of its cells, and how many there are.
+void append_grid(std::string& bytes, const EsdfMap& esdf, const LayerGrid& grid, double up) {
+  append_origin(bytes, to_world(esdf, Point(grid.x, grid.y, up) * esdf.voxel_size));
+  append(bytes, grid.stride * esdf.voxel_size);
+  append(bytes, static_cast<std::uint32_t>(grid.columns));
+  append(bytes, static_cast<std::uint32_t>(grid.rows));
 }
 
 }  // namespace
@@ -50,41 +89,50 @@ std::string surface_layer(const EsdfMap& esdf, std::size_t most_quads) {
 std::string slice_layer(const EsdfMap& esdf, double height, int most_samples) {
   constexpr std::uint16_t kNotKnown = 65535;
   constexpr double kFarthest = 65534.0;  // millimetres
-  const Point local = to_local(esdf, Point(0.0, 0.0, height));
-  if (!std::isfinite(local.z()) || std::abs(local.z()) >= kMaxVoxelIndex * esdf.voxel_size)
-    throw InputError("z", "is no height that a voxel can have", "give metres, in the map's frame");
-  const int layer = floor_to_int(local.z() / esdf.voxel_size);
-  BlockIndex low{0, 0, 0}, high{-1, -1, 0};
-  bool any = false;
-  for (const BlockIndex& b : esdf.layout.blocks()) {
-    if (b.z != layer >> kBlockBits) continue;
-    low = any ? BlockIndex{std::min(low.x, b.x), std::min(low.y, b.y), 0} : b;
-    high = any ? BlockIndex{std::max(high.x, b.x), std::max(high.y, b.y), 0} : b;
-    any = true;
-  }
-  const std::int64_t width = (std::int64_t{high.x} - low.x + 1) * kBlockSide,
-                     depth = (std::int64_t{high.y} - low.y + 1) * kBlockSide;
-  const auto stride = static_cast<int>(
-      std::max<std::int64_t>(1, (std::max(width, depth) + most_samples - 1) / most_samples));
-  const auto columns = static_cast<int>(width / stride), rows = static_cast<int>(depth / stride);
-
+  const int layer = floor_to_int(voxels_up(esdf, height));
+  const LayerGrid grid = grid_of_layer(esdf, layer, most_samples);
   std::string bytes;
-  append_origin(bytes, to_world(esdf, Point(low.x * kBlockSide, low.y * kBlockSide, layer + 0.5) *
-                                          esdf.voxel_size));
-  append(bytes, stride * esdf.voxel_size);
-  append(bytes, static_cast<std::uint32_t>(columns));
-  append(bytes, static_cast<std::uint32_t>(rows));
+  append_grid(bytes, esdf, grid, layer + 0.5);
   VoxelFinder finder(esdf.layout);
-  for (int row = 0; row < rows; ++row)
-    for (int column = 0; column < columns; ++column) {
-      const VoxelId id = finder.find({low.x * kBlockSide + column * stride + stride / 2,
-                                      low.y * kBlockSide + row * stride + stride / 2, layer});
+  for (int row = 0; row < grid.rows; ++row)
+    for (int column = 0; column < grid.columns; ++column) {
+      const VoxelId id = finder.find({grid.x + column * grid.stride + grid.stride / 2,
+                                      grid.y + row * grid.stride + grid.stride / 2, layer});
       if (id == kNoVoxel || esdf.state[id] == VoxelState::kUnknown)
         append(bytes, kNotKnown);
       else
         append(bytes, static_cast<std::uint16_t>(
                           std::min(kFarthest, std::round(1000.0 * esdf.distance(id)))));
     }
+  return bytes;
+}
+
+std::string section_layer(const EsdfMap& esdf, double height, int most_cells) {
+  constexpr double kBeside = 1e-3;  // of a voxel: a height between two layers is of both
+  const double up = voxels_up(esdf, height);
+  const int below = floor_to_int(up - kBeside), above = floor_to_int(up + kBeside);
+  const LayerGrid grid = grid_of_layer(esdf, below, most_cells);
+  VoxelFinder finder(esdf.layout);
+  const auto state = [&](int x, int y, int z) {
+    const VoxelId id = finder.find({x, y, z});
+    return id == kNoVoxel ? VoxelState::kUnknown : esdf.state[id];
+  };
+  std::vector<bool> is_cut(static_cast<std::size_t>(grid.columns) *
+                           static_cast<std::size_t>(grid.rows));
+  for (int y = 0; y < grid.rows * grid.stride; ++y)
+    for (int x = 0; x < grid.columns * grid.stride; ++x)
+      if (state(grid.x + x, grid.y + y, below) == VoxelState::kOccupied &&
+          state(grid.x + x, grid.y + y, above) != VoxelState::kFree)
+        is_cut[static_cast<std::size_t>(y / grid.stride) * static_cast<std::size_t>(grid.columns) +
+               static_cast<std::size_t>(x / grid.stride)] = true;
+  std::string bytes;
+  append_grid(bytes, esdf, grid, up);
+  for (std::size_t first = 0; first < is_cut.size(); first += 8) {
+    unsigned eight = 0;
+    for (std::size_t k = 0; k < 8 && first + k < is_cut.size(); ++k)
+      if (is_cut[first + k]) eight |= 1U << k;
+    append(bytes, static_cast<std::uint8_t>(eight));
+  }
   return bytes;
 }
 

@@ -24,6 +24,12 @@ std::string surface_layer(const EsdfMap& esdf, std::size_t most_quads);
 /// Throws InputError where the height is not finite or beyond what a voxel can have.
 std::string slice_layer(const EsdfMap& esdf, double height, int most_samples);
 
+/// Where a cut at a height (world, metres) goes through obstacles: cells that are occupied just
+/// below it and not known to be free just above, which a surface of faces towards free space leaves
+/// open. Of larger maps cells of 2, 3, .. voxels, `most_cells` along a side at most, that hold such
+/// a voxel. Throws as slice_layer does.
+std::string section_layer(const EsdfMap& esdf, double height, int most_cells);
+
 /// Voxels of the diagram, in the order of VoxelMask::members, and the moves between neighbouring
 /// ones.
 std::string diagram_layer(const Roadmap& roadmap);

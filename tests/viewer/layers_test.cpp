@@ -112,6 +112,51 @@ TEST(Layers, SliceOfALargeMapIsThinned) {
   EXPECT_DOUBLE_EQ(number_at<double>(bytes, 24), 0.4);
 }
 
+/// Which cells of a section are cut, by column and row.
+bool is_cut(const std::string& section, std::uint32_t column, std::uint32_t row) {
+  const std::size_t cell = std::size_t{row} * number_at<std::uint32_t>(section, 32) + column;
+  return (number_at<std::uint8_t>(section, 40 + cell / 8) >> (cell % 8) & 1) != 0;
+}
+
+TEST(Layers, SectionHoldsWhatACutGoesThroughAndNoFaceCloses) {
+  const EsdfMap esdf = rooms_roadmap().esdf;
+  // Within a layer, between two of them, and on the floor, which has faces of its own but below
+  // walls.
+  for (const double height : {31.05, 31.0, 30.1}) {
+    const std::string bytes = section_layer(esdf, height, 4096);
+    const Point origin = origin_of(bytes);
+    EXPECT_DOUBLE_EQ(origin.z(), height);
+    std::size_t cut = 0;
+    for (std::uint32_t row = 0; row < number_at<std::uint32_t>(bytes, 36); ++row)
+      for (std::uint32_t column = 0; column < number_at<std::uint32_t>(bytes, 32); ++column) {
+        const Point world = origin + 0.1 * Point(column + 0.5, row + 0.5, 0.0);
+        const VoxelIndex v = voxel_at(to_local(esdf, world), 0.1);
+        const bool is_inside = v.x >= 0 && v.y >= 0 && v.x < 60 && v.y < 30;
+        const bool is_hull = v.x == 0 || v.y == 0 || v.x == 59 || v.y == 29;
+        const bool is_wall = v.x == 30 && (v.y < 10 || v.y > 18);
+        EXPECT_EQ(is_cut(bytes, column, row), is_inside && (is_hull || is_wall))
+            << height << " " << v.x << " " << v.y;
+        cut += is_cut(bytes, column, row);
+      }
+    EXPECT_EQ(cut, 2u * 60 + 2 * 28 + 19);
+  }
+}
+
+TEST(Layers, SectionOfALargeMapLosesNoWall) {
+  const std::string bytes = section_layer(rooms_roadmap().esdf, 31.05, 20);
+  EXPECT_DOUBLE_EQ(number_at<double>(bytes, 24), 0.4);
+  EXPECT_TRUE(is_cut(bytes, 30 / 4, 0));
+  EXPECT_TRUE(is_cut(bytes, 30 / 4, 1));
+  EXPECT_FALSE(is_cut(bytes, 30 / 4, 13 / 4));
+}
+
+TEST(Layers, SectionBesideTheMapIsEmptyAndBadHeightsAreRefused) {
+  const EsdfMap esdf = rooms_roadmap().esdf;
+  EXPECT_EQ(section_layer(esdf, 500.0, 100).size(), 40u);
+  for (const double height : {std::nan(""), 1e300, -1e300})
+    EXPECT_THROW(section_layer(esdf, height, 100), InputError);
+}
+
 TEST(Layers, SliceBesideTheMapIsEmptyAndBadHeightsAreRefused) {
   const EsdfMap esdf = rooms_roadmap().esdf;
   EXPECT_EQ(number_at<std::uint32_t>(slice_layer(esdf, 500.0, 100), 32), 0u);

@@ -91,6 +91,27 @@ test("sliders move the cut and the slice", async () => {
   await set("cut", "2.2");
 });
 
+test("a wall that is cut is one colour, not a way to look below the floor", async () => {
+  await page.locator("#top").click();
+  const colour = () => page.evaluate(async () => {
+    const { app, stage } = window.ridgeway;
+    await app.heights.sectioned;
+    stage.draw();
+    const at = stage.on_canvas(app.routes.local([0.05, 1.25, 1]));
+    const gl = stage.renderer.getContext();
+    const pixel = new Uint8Array(4);
+    const ratio = stage.renderer.getPixelRatio();
+    gl.readPixels(Math.floor(at.x * ratio), gl.drawingBufferHeight - 1 - Math.floor(at.y * ratio), 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+    return [...pixel.subarray(0, 3)];
+  });
+  for (const cut of ["0.8", "1.65"]) {
+    await set("cut", cut);
+    assert.deepEqual(await colour(), [0x3a, 0x44, 0x50], `cut at ${cut}`);
+  }
+  await set("cut", "2.2");
+  await page.locator("#orbit").click();
+});
+
 test("clicks on start and goal plan what the command line plans", async () => {
   await page.locator("#top").click();
   await page.locator("[data-tool=start]").click();
@@ -164,6 +185,31 @@ test("dragging the goal plans as it moves, and draws the route anew, not the map
   assert.equal(last.stills, first.stills, "the map was drawn anew while the goal moved");
   await planned(page, () => page.mouse.up());
   assert.notEqual(await text_of(page, "#length"), before);
+});
+
+test("a step of a drag is one frame: words change with the picture, which hides the page below", async () => {
+  const at = await page.evaluate(() => {
+    const { app, stage } = window.ridgeway;
+    const draw = stage.draw;
+    window.steps = [];
+    stage.draw = () => {
+      const before = document.getElementById("to").value;
+      draw.call(stage);
+      window.steps.push([before, document.getElementById("to").value]);
+    };
+    window.end_steps = () => (stage.draw = draw);
+    return stage.on_canvas(app.routes.goal.position);
+  });
+  await page.mouse.move(at.x, at.y);
+  await page.mouse.down();
+  for (let i = 1; i <= 4; ++i) await planned(page, () => page.mouse.move(at.x, at.y + 8 * i));
+  const steps = await page.evaluate(() => window.steps.filter(([before, after]) => before !== after));
+  assert.equal(steps.length, 4, "the goal in the form changed without a frame");
+  await planned(page, () => page.mouse.up());
+  await page.evaluate(() => window.end_steps());
+  const goal = (await page.inputValue("#to")).split(",").map(Number);
+  assert.deepEqual(goal, await page.evaluate(() => [...window.ridgeway.app.query.goal]));
+  assert.equal(await page.evaluate(() => window.ridgeway.stage.renderer.getContext().getContextAttributes().alpha), false);
 });
 
 test("what moves over the map is hidden by it as if all were drawn at once", async () => {

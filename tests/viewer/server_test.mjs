@@ -214,7 +214,7 @@ test("names the parameter that it cannot use", async () => {
     "api/plan?from=-2,0,1&to=2,0,1&planner=magic": "planner", "api/plan?from=-2,0,1&to=2,0,1&planner=rrtstar": "planner",
     "api/plan?from=-2,0,1&to=2,0,1&alternatives=1000000000": "alternatives", "api/plan?from=-2,0,1&to=2,0,1&alternatives=-1": "alternatives",
     "api/plan?from=-2,0,1&to=2,0,1&snap=-1": "snap", "api/plan?from=-2,0,1&to=2,0,1&prefer_clearance=inf": "prefer_clearance",
-    "api/trajectory?from=-2,0,1&to=2,0,1&max_speed=0": "max_speed", "api/trajectory?path=": "path", "api/trajectory?path=1,2": "path", "api/trajectory?path=0,0,1;": "path", "api/trajectory?path=0,0,1;1e9,0,0": "path", "api/components": "of", "api/components?of=gvd": "of", "api/slice": "z", "api/slice?z=nan": "z", "api/slice?z=1e300": "z",
+    "api/trajectory?from=-2,0,1&to=2,0,1&max_speed=0": "max_speed", "api/trajectory?path=": "path", "api/trajectory?path=1,2": "path", "api/trajectory?path=0,0,1;": "path", "api/trajectory?path=0,0,1;1e9,0,0": "path", "api/components": "of", "api/components?of=gvd": "of", "api/slice": "z", "api/slice?z=nan": "z", "api/slice?z=1e300": "z", "api/section": "z", "api/section?z=nan": "z", "api/section?z=1e300": "z",
     "api/place?at=1e9,0,0": "at", "api/place?at=%00": "at",
   };
   for (const [path, name] of Object.entries(cases)) {

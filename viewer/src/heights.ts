@@ -2,9 +2,10 @@
 // Copyright (c) 2026 The Ridgeway authors
 import { element, input } from "./dom";
 import { SliceDrawing } from "./drawings";
-import { read_slice } from "./layers";
+import { read_section, read_slice } from "./layers";
 import { metres } from "./numbers";
 import type { Page } from "./page";
+import { SectionDrawing } from "./section";
 
 /** The sliders: where obstacles are cut off, and where distances are shown. */
 export class HeightPanel {
@@ -12,8 +13,13 @@ export class HeightPanel {
   /** Set where the slice is switched on and off. */
   is_slice_shown: () => boolean = () => false;
   show_slice_layer: () => void = () => {};
+  /** When the section of the last cut is there. */
+  sectioned: Promise<void> = Promise.resolve();
+  private readonly section = new SectionDrawing();
   private is_cut_chosen = false;
   private asking = false;
+  private is_section_wanted = false;
+  private is_section_asked = false;
 
   constructor(private readonly page: Page) {
     this.set_range();
@@ -23,6 +29,7 @@ export class HeightPanel {
       page.surface.cut = input("cut").valueAsNumber;
       this.tell();
       page.stage.changed();
+      this.cut_anew();
     });
     input("slice").addEventListener("input", () => {
       this.tell();
@@ -30,6 +37,8 @@ export class HeightPanel {
       else this.show_slice_layer();
     });
     this.tell();
+    page.surface.mesh.add(this.section.mesh);
+    this.cut_anew();
   }
 
   /** The map reaches elsewhere now. A cut that nobody has chosen follows its ceilings. */
@@ -38,6 +47,29 @@ export class HeightPanel {
     if (!this.is_cut_chosen) surface.cut = surface.height_below_ceilings();
     this.set_range();
     this.tell();
+    this.cut_anew();
+  }
+
+  private cut_anew(): void {
+    this.section.mesh.position.z = this.page.surface.cut; // meanwhile what is known of the cut before
+    this.is_section_wanted = true;
+    if (!this.is_section_asked) this.sectioned = this.show_section();
+  }
+
+  /** Asks for where obstacles are cut; of those that wait only the last is asked. */
+  private async show_section(): Promise<void> {
+    const { page, section } = this;
+    this.is_section_asked = true;
+    while (this.is_section_wanted) {
+      this.is_section_wanted = false;
+      try {
+        section.show(read_section(await page.source.ask("/api/section", { z: String(page.base.z + page.surface.cut) })), page.base);
+      } catch {
+        section.mesh.visible = false; // the picture is as good as it can be without
+      }
+      page.stage.changed();
+    }
+    this.is_section_asked = false;
   }
 
   async show_slice(): Promise<void> {

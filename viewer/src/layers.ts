@@ -110,6 +110,24 @@ export function read_slice(bytes: ArrayBuffer): Slice {
   return { origin, step, columns, rows, millimetres: reader.take(Uint16Array, columns * rows) };
 }
 
+/** Cells at a height: those that a cut there goes through. */
+export interface Section {
+  origin: Vector; // of the corner of the first cell
+  step: number; // metres
+  columns: number;
+  rows: number;
+  bits: Uint8Array; // a cell each, the lowest first
+}
+
+export function read_section(bytes: ArrayBuffer): Section {
+  const reader = new Reader(bytes);
+  const origin = reader.origin();
+  const step = reader.f64();
+  const columns = reader.u32();
+  const rows = reader.u32();
+  return { origin, step, columns, rows, bits: reader.take(Uint8Array, Math.ceil((columns * rows) / 8)) };
+}
+
 // JSON answers.
 
 export interface Info {

@@ -44,6 +44,7 @@ async function begin_map(source: MapSource, stage: Stage, info: Info): Promise<v
   show_to_tests({ app, stage, surface });
   element("loading").textContent = "";
   await app.layers.load();
+  await app.heights.sectioned;
   surface.draw_little(); // the first frame compiles the shaders: the next tells whether frames are slow
   stage.draw();
   surface.cut = surface.cut;

@@ -22,10 +22,12 @@ export class QueryPanel {
   private asking = false; // a plan is under way
   private wanted: "nothing" | "route" | "all" = "nothing"; // of the next
   private blocked_place?: Vector;
+  private unwritten?: "start" | "goal"; // moved, and not yet in the form
 
   constructor(private readonly page: Page, private readonly flight: FlightPanel, fly_to: (place: Vector) => void) {
     input("radius").value = metres(page.info.min_clearance);
     page.routes.set_radius(this.radius);
+    page.stage.after_frame.push(() => this.write_end());
     for (const id of ["from", "to"] as const)
       input(id).addEventListener("change", () => {
         this.set_end(id === "from" ? "start" : "goal", place_of(input(id).value));
@@ -50,9 +52,19 @@ export class QueryPanel {
   /** Sets an end, for the form and the picture. */
   set_end(which: "start" | "goal", place: Vector | undefined): void {
     this[which] = place;
-    this.page.routes.set_end(which, place, this.is_dragging && !!this.start && !!this.goal);
-    if (place) input(which === "start" ? "from" : "to").value = place_text(place).replaceAll(",", ", ");
+    this.unwritten = which;
+    const awaits_route = this.is_dragging && !!this.start && !!this.goal;
+    this.page.routes.set_end(which, place, awaits_route);
+    // A word that changes is a frame of the whole page, which the frame with the route would wait for.
+    if (!awaits_route) this.write_end();
     if (!this.is_dragging) this.page.update_legend();
+  }
+
+  private write_end(): void {
+    const which = this.unwritten;
+    this.unwritten = undefined;
+    const place = which && this[which];
+    if (place) input(which === "start" ? "from" : "to").value = place_text(place).replaceAll(",", ", ");
   }
 
   /**

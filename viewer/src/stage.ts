@@ -27,6 +27,8 @@ export class Stage {
   readonly box = new THREE.Box3(new THREE.Vector3(), new THREE.Vector3(1, 1, 1));
   /** Called before a frame, which is coarse while the view moves and frames are slow: whether less than all is drawn. */
   readonly before_frame: ((is_coarse: boolean) => boolean | void)[] = [];
+  /** Called once a frame has been drawn, for what has to be seen with it. */
+  readonly after_frame: (() => void)[] = [];
   /** Pixels at the canvas's left that something lies over. */
   covered: () => number = () => 0;
   /** Nothing is drawn but when draw() is called: not all that belongs to the first picture is there. */
@@ -166,6 +168,7 @@ export class Stage {
     }
     this.is_still_old = false;
     ++this.frames;
+    for (const act of this.after_frame) act();
   }
 
   /** Drawing ends after its commands: a pixel that is read back waits for it. Not while things move. */
@@ -334,7 +337,9 @@ export class Stage {
 
 function renderer_of(canvas: HTMLCanvasElement): THREE.WebGLRenderer {
   try {
-    return new THREE.WebGLRenderer({ canvas, antialias: false, powerPreference: "high-performance" });
+    // Opaque: what puts the page together has nothing to mix, which in software is a quarter of its work.
+    const options: WebGLContextAttributes = { alpha: false, antialias: false, powerPreference: "high-performance" };
+    return new THREE.WebGLRenderer({ canvas, context: canvas.getContext("webgl2", options) as WebGL2RenderingContext });
   } catch {
     throw new Error("this browser has no WebGL 2. Turn on graphics acceleration in its settings, or take another one");
   }

@@ -27,7 +27,7 @@ constexpr const char* kBytes = "application/octet-stream";
 constexpr const char* kJson = "application/json";
 /// What software draws in a frame that still feels alive, and a page loads in a few seconds.
 constexpr std::size_t kMostQuads = 800'000, kMostCoarseQuads = 80'000, kMostGvdPoints = 250'000;
-constexpr int kMostSliceSamples = 1024;
+constexpr int kMostSliceSamples = 1024, kMostSectionCells = 2048;
 /// A page waits no longer for a planner that searches voxels.
 constexpr double kLongestPlan = 10.0;
 
@@ -275,6 +275,11 @@ Reply MapAnswers::answer(const Question& question) {
               std::make_shared<const std::string>(
                   slice_layer(roadmap_.esdf, parse_number(get(question, "z"), {-1e9, 1e9}, "z"),
                               kMostSliceSamples))};
+    if (path == "/api/section")
+      return {200, kBytes,
+              std::make_shared<const std::string>(
+                  section_layer(roadmap_.esdf, parse_number(get(question, "z"), {-1e9, 1e9}, "z"),
+                                kMostSectionCells))};
     if (path == "/api/plan") return json_reply(200, plan(question));
     if (path == "/api/trajectory") return json_reply(200, trajectory(question));
     if (path == "/api/place") return json_reply(200, place(question));
