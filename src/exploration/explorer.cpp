@@ -117,6 +117,7 @@ bool Explorer::State::fly_tour(const std::vector<TourStop>& stops,
     step.seconds.trajectory += detail::thread_seconds_now() - began;
     if (passing) {
       step.trajectory = std::move(passing->trajectory);
+      look_on_the_way(step.trajectory, passing->time);
       goal = Goal{place, stop.heading, stop.gain, state.time + passing->time, next};
     } else {
       if (is_kept) return true;
@@ -128,6 +129,8 @@ bool Explorer::State::fly_tour(const std::vector<TourStop>& stops,
         refused.push_back(place.id);
         continue;
       }
+      if (config.strategy == ExplorationStrategy::kTour)
+        look_on_the_way(step.trajectory, step.trajectory.duration());
       goal = Goal{place, stop.heading, stop.gain};
     }
     step.status = ExplorationStatus::kFly;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "explorer_state.hpp"
+#include "glances.hpp"
 #include "ray_walk.hpp"
 #include "shaped_trajectory.hpp"
 
@@ -52,6 +53,18 @@ void Explorer::State::count_looks(const Point& from, int heading, double share, 
   if (hopeless.empty()) return;
   frontiers.ignore(hopeless);
   frontiers.update(roadmap);
+}
+
+/// Until it has to look as its next stop does, at a time, the robot may look elsewhere: that takes
+/// no time of the flight.
+void Explorer::State::look_on_the_way(Trajectory& trajectory, double until) const {
+  const Trajectory local = detail::moved(trajectory, to_local(roadmap->esdf, Point::Zero()));
+  const double from = trajectory.at(0.0).yaw, to = trajectory.at(until).yaw;
+  const std::vector<detail::Glance> glances =
+      detail::glances_along(local, until, views, places, config.spacing);
+  if (const std::optional<double> yaw = detail::yaw_between(views, config.headings, glances, from,
+                                                            to, until, config.limits.max_yaw_rate))
+    detail::turn_by_way_of(trajectory, *yaw, until, config.limits.max_yaw_rate);
 }
 
 /// In flight a look counts where the robot is elsewhere, or turned, since the last one.

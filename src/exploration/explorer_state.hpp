@@ -62,6 +62,7 @@ struct Explorer::State {
   bool look_around(const Point& here, bool thorough);
   void count_looks(const Point& from, int heading, double share, int weight,
                    const detail::Place* standing);
+  void look_on_the_way(Trajectory& trajectory, double until) const;
   void look_in_flight(const FlightState& state);
   std::vector<TourStop> cover(const detail::WaysFrom& ways, double least_gain) const;
   void keep_best(std::vector<TourStop>& stops, const FlightState& state) const;

@@ -89,6 +89,24 @@ void turn_to(Trajectory& trajectory, double from_yaw, double to_yaw, double max_
   trajectory.segments = std::move(pieces);
 }
 
+void turn_by_way_of(Trajectory& trajectory, double yaw_between, double until, double max_rate) {
+  const double from = trajectory.at(0.0).yaw, to = trajectory.at(until).yaw;
+  const double between = from + turn_between(from, yaw_between);
+  const double back = turn_between(between, to);
+  const double leave = std::max(until - std::abs(back) / max_rate, 0.0);
+  Trajectory result = head_of(trajectory, leave);
+  turn_to(result, from, between, max_rate);
+  Trajectory rest = tail_of(trajectory, leave);
+  Trajectory turning = head_of(rest, until - leave), after;
+  if (until < trajectory.duration()) after = tail_of(trajectory, until);
+  turn_to(turning, between, to, max_rate);
+  const double shift = between + back - to;  // whole turns
+  for (TrajectorySegment& segment : after.segments) segment.coefficients(3, 0) += shift;
+  for (const Trajectory* part : {&turning, &after})
+    result.segments.insert(result.segments.end(), part->segments.begin(), part->segments.end());
+  trajectory = std::move(result);
+}
+
 double turn_between(double from_yaw, double to_yaw) {
   return std::remainder(to_yaw - from_yaw, 2.0 * std::numbers::pi);
 }

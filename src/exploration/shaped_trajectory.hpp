@@ -16,6 +16,11 @@ Trajectory head_of(const Trajectory& trajectory, double until);
 /// from its beginning on; a stand at the end is added where turning takes longer.
 void turn_to(Trajectory& trajectory, double from_yaw, double to_yaw, double max_rate);
 
+/// Gives a trajectory's beginning, up to a time, another yaw: it turns from its first angle to one
+/// on the way, stays there, and has turned to what it was then in time. Angles in radians, the time
+/// and the rate such that there is time for both turns.
+void turn_by_way_of(Trajectory& trajectory, double yaw_between, double until, double max_rate);
+
 /// From one angle to another the short way, in (-pi, pi].
 double turn_between(double from_yaw, double to_yaw);
 

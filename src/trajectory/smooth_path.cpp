@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "common/clock.hpp"
+#include "initial_spline.hpp"
 #include "obstacle_field.hpp"
 #include "optimise_spline.hpp"
 #include "ridgeway/trajectory/plan_trajectory.hpp"
@@ -20,6 +23,9 @@ constexpr double kSpacing = 0.75;            // of v^2 / a: between knots, at mo
 constexpr double kLeastSpacing = 2.0;        // radii
 constexpr double kMarginOfRadius = 1.0 / 3;  // in which the collision cost pushes,
 constexpr double kLeastMargin = 2.0;         // at least voxels
+
+constexpr double kSlow = 1.25;  // times the likely duration: a trajectory that is worth another try
+constexpr int kMostTries = 3;   // at a quicker one
 
 struct Try {
   TrajectoryStep step;
@@ -105,7 +111,9 @@ std::optional<Trajectory> SmoothPath::run(std::span<const Point> path, const Sta
   }
   auto found = path.size() > 1 ? smooth_or_stop(path, start) : std::nullopt;
   if (!found && start.is_rest()) return Trajectory{};  // one point: it stands
-  return found ? found : brake_first(path, start);
+  if (!found) return brake_first(path, start);
+  return start.is_rest() || !is_slow(*found, path, start) ? found
+                                                          : brake_if_quicker(*found, path, start);
 }
 
 /// A smooth trajectory along the path, or smooth ones between stops at corners.
@@ -153,10 +161,30 @@ SmoothPath::Attempt SmoothPath::smooth(std::span<const Point> path, const StartS
     }
     attempt = optimise(spline, cost);
     if (!attempt.holds()) continue;
+    if (!start.is_rest()) quicken(path, start, cost, spline, attempt);
     note(t.step);
     break;
   }
   return attempt;
+}
+
+/// From a motion a curve that is not optimal yet may have to be stretched to several times its
+/// duration to keep the limits: then it is optimised further.
+void SmoothPath::quicken(std::span<const Point> path, const StartState& start,
+                         const SplineCostConfig& cost, SpaceSpline& spline, Attempt& attempt) {
+  for (int more = 0; more < kMostTries && is_slow(attempt.trajectory, path, start); ++more) {
+    Attempt again = optimise(spline, cost);
+    if (again.holds() && again.trajectory.duration() < attempt.trajectory.duration())
+      attempt = std::move(again);
+  }
+}
+
+/// Whether a trajectory from a motion takes far longer than speeds at the corners make likely.
+bool SmoothPath::is_slow(const Trajectory& trajectory, std::span<const Point> path,
+                         const StartState& start) const {
+  const SpaceSpline likely = initial_spline(place_knots(path, knot_spacing(config_)), start, cost_);
+  const double seconds = std::accumulate(likely.durations.begin(), likely.durations.end(), 0.0);
+  return trajectory.duration() > kSlow * seconds;
 }
 
 SmoothPath::Attempt SmoothPath::optimise(SpaceSpline& spline, const SplineCostConfig& cost) {
@@ -209,6 +237,19 @@ std::optional<Trajectory> SmoothPath::brake_first(std::span<const Point> path,
       config_.stop_and_go ? stop_and_go(rest) : smooth_or_stop(rest, {}).value();
   append(*braking, onward.segments);
   return braking;
+}
+
+/// Braking and starting anew, where that takes less time than a trajectory without a halt.
+Trajectory SmoothPath::brake_if_quicker(const Trajectory& found, std::span<const Point> path,
+                                        const StartState& start) {
+  const TrajectoryStep step = std::exchange(result_.step, TrajectoryStep::kSmooth);
+  const int stops = std::exchange(result_.stops, 0);
+  auto braking = brake_first(path, start);
+  if (braking && braking->duration() < found.duration() && holds(*braking)) return *braking;
+  result_.step = step;
+  result_.stops = stops;
+  result_.braked = false;
+  return found;
 }
 
 /// The smoothest way to rest, wherever that is, in as short a time as the limits allow.

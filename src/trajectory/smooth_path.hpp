@@ -41,8 +41,14 @@ class SmoothPath {
   std::optional<Trajectory> smooth_or_stop(std::span<const Point> path, const StartState& start);
   Attempt smooth(std::span<const Point> path, const StartState& start);
   Attempt optimise(SpaceSpline& spline, const SplineCostConfig& cost);
+  void quicken(std::span<const Point> path, const StartState& start, const SplineCostConfig& cost,
+               SpaceSpline& spline, Attempt& attempt);
+  bool is_slow(const Trajectory& trajectory, std::span<const Point> path,
+               const StartState& start) const;
   Attempt verify(Trajectory trajectory);
   std::optional<Trajectory> brake_first(std::span<const Point> path, const StartState& start);
+  Trajectory brake_if_quicker(const Trajectory& found, std::span<const Point> path,
+                              const StartState& start);
   std::optional<Trajectory> brake(const Point& from, const StartState& start) const;
   void note(TrajectoryStep step);
 

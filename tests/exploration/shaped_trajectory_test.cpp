@@ -63,5 +63,28 @@ TEST(ShapedTrajectory, TurnsAtTheLimitAndLeavesPlacesAlone) {
   }
 }
 
+TEST(ShapedTrajectory, TurnsByWayOfAnotherYawAndIsBackInTime) {
+  constexpr double kRate = 8.0, kUntil = 1.6;
+  for (const double between : {-2.5, 0.3, 2.0, 3.1}) {
+    Trajectory before = some_trajectory();
+    detail::turn_to(before, 1.0, -2.9, kRate);
+    Trajectory turned = before;
+    detail::turn_by_way_of(turned, between, kUntil, kRate);
+    EXPECT_NEAR(turned.duration(), before.duration(), 1e-12);
+    const double there = std::abs(detail::turn_between(1.0, between)) / kRate;
+    const double back = std::abs(detail::turn_between(between, -2.9)) / kRate;
+    double last = 1.0;
+    for (double t = 0.01; t < turned.duration(); t += 0.01) {
+      const TrajectoryState state = turned.at(t);
+      EXPECT_LT((state.position - before.at(t).position).norm(), 1e-9);
+      EXPECT_LE(std::abs(state.yaw - last), 0.01 * kRate + 1e-9) << "a jump at " << t;
+      last = state.yaw;
+      if (t > there && t < kUntil - back)
+        EXPECT_NEAR(detail::turn_between(state.yaw, between), 0.0, 1e-9);
+      if (t >= kUntil) EXPECT_NEAR(detail::turn_between(state.yaw, before.at(t).yaw), 0.0, 1e-9);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ridgeway

@@ -281,6 +281,28 @@ TEST(PlanTrajectory, StartsFromAMotion) {
   EXPECT_LT(braked, 10);
 }
 
+/// Stretching every piece of a long way for one that is beyond the limits would have the robot
+/// crawl all along.
+TEST(PlanTrajectory, DoesNotCrawlFromAMotion) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> part(-1.0, 1.0);
+  const std::vector<Point> path{{4, 6, 2},   {7, 6.5, 2}, {8, 12, 1}, {12, 17, 2},
+                                {16, 16, 2}, {17, 10, 2}, {14, 4, 2}, {17, 2, 1}};
+  TrajectoryConfig config;
+  config.most_evaluations = 30;
+  const double from_rest = plan_trajectory(esdf(), path, config).duration;
+  double slowest = 0.0;
+  for (int i = 0; i < 60; ++i) {
+    SCOPED_TRACE(i);
+    const double yaw = 3.14 * part(random);
+    config.start_velocity = (1.6 + 0.38 * part(random)) * Point(std::cos(yaw), std::sin(yaw), 0.0);
+    const TrajectoryResult result = plan_trajectory(esdf(), path, config);
+    expect_flown(result, path, config);
+    slowest = std::max(slowest, result.duration / from_rest);
+  }
+  EXPECT_LT(slowest, 1.3);
+}
+
 TEST(PlanTrajectory, BrakesWhereItCannotFollowAndSaysWhereItCannotStop) {
   TrajectoryConfig config;
   config.start_velocity = {2.0, 0.0, 0.0};
