@@ -9,10 +9,10 @@
 namespace ridgeway::detail {
 namespace {
 
-constexpr double kGlanceStep = 0.25;   // seconds between places at which the robot looks
-constexpr double kShortestGlance = 0.25;   // seconds that a look on the way takes at least
-constexpr double kWorthATurn = 1.1;   // times what is seen else: less is not worth a turn
-constexpr double kGlanceFading = 0.5;  // of a gain, where it is seen at the very end
+constexpr double kGlanceStep = 0.25;      // seconds between places at which the robot looks
+constexpr double kShortestGlance = 0.25;  // seconds that a look on the way takes at least
+constexpr double kWorthATurn = 1.1;       // times what is seen else: less is not worth a turn
+constexpr double kGlanceFading = 0.5;     // of a gain, where it is seen at the very end
 constexpr double kGlanceRounding = 1e-9;
 
 /// From one yaw to another by way of a third, as late from there as there is time for.
@@ -67,8 +67,8 @@ std::vector<Glance> glances_along(const Trajectory& trajectory, double until, co
 
 std::optional<double> yaw_between(const Views& views, int headings, std::span<const Glance> glances,
                                   double from_yaw, double to_yaw, double until, double max_rate) {
-  double best =
-      kWorthATurn * value_of(views, glances, until, [](const Glance& glance) { return glance.heading; });
+  double best = kWorthATurn * value_of(views, glances, until,
+                                       [](const Glance& glance) { return glance.heading; });
   std::optional<double> best_yaw;
   for (int heading = 0; heading < headings; ++heading) {
     const TwoTurns turns = {from_yaw, views.yaw_of(heading), to_yaw, until, max_rate};

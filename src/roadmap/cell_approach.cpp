@@ -103,8 +103,8 @@ bool CellApproach::sees(Join& join) const {
   } else if (join.has_walk) {
     join.sight = Sight::kWalk;
     const double before = (point_of_voxel(voxel_) - place_).norm();
-    join.length = length_of_walk(walk_to(join.cell), 0) +
-                  static_cast<float>(before / cells_.esdf.voxel_size);
+    join.length =
+        length_of_walk(walk_to(join.cell), 0) + static_cast<float>(before / cells_.esdf.voxel_size);
   } else {
     join.sight = Sight::kNo;
   }
