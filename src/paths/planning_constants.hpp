@@ -24,7 +24,7 @@ struct PlanningConstants {
   /// One after the other; a straight search finds what is nearly as short as what a wide one finds.
   std::array<CellEffort, 3> cell_efforts{{{1.35, 400, 1.05}, {2.0, 800, 1.05}, {1.2, 1500, 1.12}}};
   /// Where those gave up and the graph's is long: straighter than the last, so that it gets there.
-  CellEffort last_cell_effort{1.35, 8000, 1.15};
+  CellEffort last_cell_effort{1.35, 16000, 1.15};
   double landmark_share = 0.93;  ///< of lengths by landmarks that paths are hardly shorter than
 
   // What a query tries (planning/answering.cpp). Lengths over what a path may be expected to have.
