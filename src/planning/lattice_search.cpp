@@ -63,7 +63,8 @@ class SearchMemory {
   std::vector<std::unique_ptr<Block>> blocks_;
 };
 
-/// Set beside a voxel's direction once all moves from it were found free.
+/// Set beside a voxel's direction once it was expanded and each neighbour could be moved to, or had
+/// been reached as cheaply before.
 constexpr std::uint8_t kOpen = 32;
 
 /// By the direction back to a parent: the neighbours that are none of the parent's.
@@ -124,8 +125,8 @@ class LatticeSearch {
     open_.push(estimate, {arrival.cost, id});
   }
 
-  /// Neighbours that a voxel may be the way to. Where all moves from its parent are free, those of
-  /// the parent's are reached from there, and as cheaply.
+  /// Neighbours that a voxel may be the way to. Where its parent is open, the parent's neighbours
+  /// have been reached, and as cheaply.
   Cube27 worth_a_look(VoxelId id) {
     const std::uint8_t from = memory_.from(id) & ~kOpen;
     if (from == kCentre) return kCells26;
