@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 The Ridgeway authors
 
-# ridgeway_test(<name> [SOURCES <file>...] [DEPENDS <target>...] [DEFINITIONS <definition>...])
+# ridgeway_test(<name> [COMPUTES] [SOURCES <file>...] [DEPENDS <target>...] [DEFINITIONS <definition>...])
 #
-# One test executable, <name>_tests, its cases registered with ctest. Skipped without sources.
+# One test executable, <name>_tests, its cases registered with ctest. Skipped without sources. What is
+# tested is optimised; of the tests' own code that would cost a minute of a first build, so it is only
+# where that code computes for long (brute force): COMPUTES.
 # Tests find the files of data/ by the macro RIDGEWAY_DATA_DIR.
 function(ridgeway_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS;DEFINITIONS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "COMPUTES" "" "SOURCES;DEPENDS;DEFINITIONS")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "ridgeway_test(${name}): what is '${arg_UNPARSED_ARGUMENTS}'?")
   endif()
@@ -21,8 +23,15 @@ function(ridgeway_test name)
   # it passes over in headers of the system.
   target_compile_options(
     ${name}_tests PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds -Wno-dangling-else>)
+  set(group computing_tests)
+  if(NOT arg_COMPUTES)
+    set(group tests)
+    set(level $<$<CONFIG:Release>:-Og>)
+  endif()
+  target_compile_options(${name}_tests PRIVATE ${level})
   ridgeway_precompile(
-    ${name}_tests tests HEADERS ${ridgeway_common_headers} <gtest/gtest.h> DEPENDS Eigen3::Eigen TBB::tbb GTest::gtest)
+    ${name}_tests ${group} HEADERS ${ridgeway_common_headers} <gtest/gtest.h> DEPENDS Eigen3::Eigen TBB::tbb GTest::gtest)
+  target_compile_options(ridgeway_precompiled_${group} PRIVATE ${level})
   target_include_directories(${name}_tests PRIVATE "${PROJECT_SOURCE_DIR}/tests"
                                                     "${PROJECT_SOURCE_DIR}/src")
   target_link_libraries(${name}_tests PRIVATE ${arg_DEPENDS} GTest::gtest_main)
