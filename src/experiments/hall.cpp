@@ -7,8 +7,8 @@
 #include <span>
 
 #include "common/clock.hpp"
-#include "common/number_text.hpp"
 #include "common/random.hpp"
+#include "common/require.hpp"
 #include "memory_traffic.hpp"
 #include "process_memory.hpp"
 #include "ridgeway/common/error.hpp"
@@ -187,9 +187,7 @@ double HallRow::bandwidth_fraction(double StageNumbers::*stage) const {
 
 void HallExperimentConfig::validate() const {
   hall.validate();
-  const auto require = [](bool holds, const char* field, double value, const char* remedy) {
-    if (!holds) throw InputError(field, "holds " + number_text(value), remedy);
-  };
+  using detail::require;
   if (voxel_sizes.empty()) throw InputError("voxel_sizes", "is empty", "give at least one");
   for (const double voxel_size : voxel_sizes)
     require(voxel_size > 0.0 && std::isfinite(voxel_size), "voxel_sizes", voxel_size,
@@ -199,8 +197,8 @@ void HallExperimentConfig::validate() const {
   if (threads.empty()) throw InputError("threads", "is empty", "give at least one number");
   for (const int count : threads) require(count >= 1, "threads", count, "give 1 or more");
   require(repeat >= 1, "repeat", repeat, "give 1 or more");
-  require(queries >= 1, "queries", static_cast<double>(queries), "give 1 or more");
-  require(copy_bytes >= 1, "copy_bytes", static_cast<double>(copy_bytes), "give 1 or more");
+  require(queries >= 1, "queries", queries, "give 1 or more");
+  require(copy_bytes >= 1, "copy_bytes", copy_bytes, "give 1 or more");
 }
 
 std::vector<HallRow> run_hall(const HallExperimentConfig& config,

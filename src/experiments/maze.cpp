@@ -8,8 +8,8 @@
 
 #include "common/asking.hpp"
 #include "common/clock.hpp"
-#include "common/number_text.hpp"
 #include "common/random.hpp"
+#include "common/require.hpp"
 #include "exploration_flight.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
@@ -193,16 +193,14 @@ MazeRow row_of(const Contender& contender, const Trials& trials,
 
 void MazeExperimentConfig::validate() const {
   maze.validate();
-  const auto require = [](bool holds, const char* field, double value, const char* remedy) {
-    if (!holds) throw InputError(field, "is " + number_text(value), remedy);
-  };
+  using detail::require;
   require(voxel_size > 0.0 && std::isfinite(voxel_size), "voxel_size", voxel_size,
           "give metres, above 0");
   require(2.0 * (min_clearance + voxel_size) < std::min(maze.cell - maze.wall, maze.height),
           "min_clearance", min_clearance, "give a radius that fits into the maze's corridors");
   require(min_clearance > 0.0, "min_clearance", min_clearance, "give metres, above 0");
   require(time_limit > 0.0, "time_limit", time_limit, "give seconds, above 0");
-  require(repeat >= 1, "repeat", static_cast<double>(repeat), "give 1 or more");
+  require(repeat >= 1, "repeat", repeat, "give 1 or more");
 }
 
 MazeResult run_maze(const MazeExperimentConfig& config, const Progress& progress) {

@@ -10,6 +10,7 @@
 #include "common/clock.hpp"
 #include "common/name_table.hpp"
 #include "common/number_text.hpp"
+#include "common/require.hpp"
 #include "common/rounding.hpp"
 #include "initial_spline.hpp"
 #include "ridgeway/common/error.hpp"
@@ -89,14 +90,12 @@ std::string_view name_of(TrajectoryStep step) {
 }
 
 void MotionLimits::validate() const {
-  const auto require = [](const char* name, double value, bool may_be_infinite) {
-    if (value > 0.0 && (may_be_infinite || std::isfinite(value))) return;
-    throw InputError(name, "is " + number_text(value), "give a limit above 0");
-  };
-  require("max_speed", max_speed, false);
-  require("max_acceleration", max_acceleration, false);
-  require("max_jerk", max_jerk, true);
-  require("max_yaw_rate", max_yaw_rate, true);
+  const char* const remedy = "give a limit above 0";
+  const auto is_finite_limit = [](double limit) { return limit > 0.0 && std::isfinite(limit); };
+  detail::require(is_finite_limit(max_speed), "max_speed", max_speed, remedy);
+  detail::require(is_finite_limit(max_acceleration), "max_acceleration", max_acceleration, remedy);
+  detail::require(max_jerk > 0.0, "max_jerk", max_jerk, remedy);
+  detail::require(max_yaw_rate > 0.0, "max_yaw_rate", max_yaw_rate, remedy);
 }
 
 void TrajectoryConfig::validate() const {
