@@ -12,23 +12,31 @@ import numpy as np
 from ridgeway import FREE, OCCUPIED
 
 
+def _heights_of(roadmap, states):
+    """Of where a robot may be, metres: of the graph's vertices, without any of all free voxels."""
+    if len(roadmap.graph.vertices):
+        return roadmap.graph.vertices[:, 2]
+    return states.origin[2] + states.voxel_size * (np.nonzero(states.values == FREE)[2] + 0.5)
+
+
 def floor_plan(roadmap, *paths, height=None, graph=True, axes=None):
-    """Draws a roadmap from above, and paths on it; returns matplotlib's Axes.
+    """Draws a roadmap from above, and paths on it, from a disc to a square; returns matplotlib's Axes.
 
     `paths`: PlanResult, or arrays (N, 3), metres, world. `height`: of the layer whose walls are
-    shown, metres; None: that with the most free voxels. `graph`: draw the sparse graph too.
-    `axes`: to draw on; None: those of a new figure.
+    shown, metres; None: the median of the paths', or without any of the graph's vertices'. `graph`:
+    draw the sparse graph too. `axes`: to draw on; None: those of a new figure.
     """
     import matplotlib.pyplot as plt
 
     states = roadmap.esdf.states()
     size, low = states.voxel_size, np.array(states.origin)
+    ways = [np.reshape(getattr(path, "waypoints", path), (-1, 3)) for path in paths]
     if height is None:
-        layer = int((states.values == FREE).sum((0, 1)).argmax())
-    else:
-        layer = int(np.floor((height - low[2]) / size))
-        if not 0 <= layer < states.values.shape[2]:
-            raise ValueError(f"height: expected metres within the map, got {height}")
+        heights = np.concatenate([way[:, 2] for way in ways] + [[]])
+        height = np.median(heights if len(heights) else _heights_of(roadmap, states))
+    layer = int(np.floor((height - low[2]) / size))
+    if not 0 <= layer < states.values.shape[2]:
+        raise ValueError(f"height: expected metres within the map, got {height}")
     shown = states.values[:, :, layer]
     # Unknown pale, free white, obstacles dark.
     shades = np.full(shown.shape + (3,), 0.85)
@@ -46,13 +54,14 @@ def floor_plan(roadmap, *paths, height=None, graph=True, axes=None):
 
         ends = roadmap.graph.vertices[:, :2][roadmap.graph.edges]
         axes.add_collection(LineCollection(ends, colors="tab:blue", linewidths=0.8, zorder=2))
-    for number, path in enumerate(paths):
-        points = np.asarray(getattr(path, "waypoints", path))
+    for number, points in enumerate(ways):
         if len(points):
             length = np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
             axes.plot(
                 points[:, 0], points[:, 1], color=f"C{number + 3}", label=f"{length:.1f} m", zorder=3
             )
+            axes.plot(*points[0, :2], "o", color=f"C{number + 3}", zorder=4)
+            axes.plot(*points[-1, :2], "s", color=f"C{number + 3}", zorder=4)
     if axes.get_legend_handles_labels()[0]:
         axes.legend()
     axes.set_xlim(low[0], high[0])

@@ -24,6 +24,13 @@ MapFace from_numpy(py::handle states, py::handle voxel_size, py::handle origin,
       {number_from(free_below, "free_below"), number_from(occupied_above, "occupied_above")}));
 }
 
+/// A UserWarning for each of what a person should be told.
+void warn_of(const LoadNotes& notes, const std::string& name) {
+  for (const std::string& note : notes.notes)
+    if (PyErr_WarnEx(PyExc_UserWarning, (name + ": " + note).c_str(), 1) != 0)
+      throw py::error_already_set();
+}
+
 MapFace from_points(py::handle points, py::handle voxel_size, py::handle bounds,
                     py::handle transform) {
   const Doubles array = doubles_from(points, "points", "an (N, 3) array of numbers, metres");
@@ -35,13 +42,18 @@ MapFace from_points(py::handle points, py::handle voxel_size, py::handle bounds,
   validate_voxel_size(config.voxel_size, "voxel_size");
   config.bounds = box_from(bounds, "bounds");
   read(transform, "transform", config.T_map_cloud);
-  const py::gil_scoped_release release;
-  cloud.points.reserve(static_cast<std::size_t>(array.shape(0)));
-  for (py::ssize_t i = 0; i < array.shape(0); ++i) {
-    const double* p = array.data() + 3 * i;
-    cloud.add(p[0], p[1], p[2]);
-  }
-  return face_of(map_from_points(cloud, config, "points"));
+  LoadNotes notes;
+  MapFace face = [&] {
+    const py::gil_scoped_release release;
+    cloud.points.reserve(static_cast<std::size_t>(array.shape(0)));
+    for (py::ssize_t i = 0; i < array.shape(0); ++i) {
+      const double* p = array.data() + 3 * i;
+      cloud.add(p[0], p[1], p[2]);
+    }
+    return face_of(map_from_points(cloud, config, "points", &notes));
+  }();
+  warn_of(notes, "points");
+  return face;
 }
 
 py::object bounds_of(const MapFace& face) {
@@ -193,9 +205,7 @@ MapFace load_face(const std::filesystem::path& path, const LoadConfig& config) {
   LoadNotes notes;
   MapFace face =
       run_stage([&] { return face_of(load_map(path, config, &notes), path.filename().string()); });
-  for (const std::string& note : notes.notes)
-    if (PyErr_WarnEx(PyExc_UserWarning, (path.string() + ": " + note).c_str(), 1) != 0)
-      throw py::error_already_set();
+  warn_of(notes, path.string());
   return face;
 }
 
@@ -221,8 +231,9 @@ void add_maps(py::module_& module) {
                   py::arg("bounds"), py::arg("transform") = py::none(),
                   "from_points(points, voxel_size, bounds, transform=None)\n--\n\n"
                   "The map of a cloud, (N, 3), metres: voxels that hold a point are occupied, the "
-                  "others wholly inside\n`bounds` free. Points that are not finite are passed "
-                  "over. `transform`: (4, 4) from cloud to world.");
+                  "others wholly inside\n`bounds` free. Points that are not finite, or "
+                  "outside of `bounds`, are left out,\nwith a UserWarning. `transform`: (4, 4) "
+                  "from cloud to world.");
   type.def("to_numpy", &to_numpy, py::arg("bounds") = py::none(),
            "to_numpy(self, bounds=None)\n--\n\n"
            "States as a Grid of uint8, (nx, ny, nz): of all that is known, or in "

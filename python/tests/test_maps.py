@@ -198,9 +198,12 @@ def test_state_at_points_and_edits(rooms):
 
 def test_points_make_a_map():
     points = np.array([[0.05, 0.05, 0.05], [0.95, 0.95, 0.95], [np.nan, 0, 0]])
-    grid = OccupancyMap.from_points(points, 0.1, ((0, 0, 0), (1, 1, 1)))
+    with pytest.warns(UserWarning, match="points: 1 of 3 points were skipped"):
+        grid = OccupancyMap.from_points(points, 0.1, ((0, 0, 0), (1, 1, 1)))
     assert grid.counts == {"free": 998, "occupied": 2, "unknown": grid.counts["unknown"]}
     assert "voxel_size=0.1" in repr(grid)
+    with pytest.warns(UserWarning, match="points: 1 of 2 points lie outside of the bounds"):
+        OccupancyMap.from_points([[0.5, 0.5, 0.5], [500, 500, 500]], 0.1, ((0, 0, 0), (1, 1, 1)))
 
 
 def test_wrong_calls_are_told_in_words_of_python(roadmap):

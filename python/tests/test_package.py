@@ -82,9 +82,12 @@ def test_floor_plans_are_drawn(roadmap, tmp_path):
     axes = ridgeway.plot.floor_plan(roadmap, roadmap.plan(START, GOAL), height=1.0)
     axes.figure.savefig(tmp_path / "plan.png")
     assert (tmp_path / "plan.png").stat().st_size > 5000
-    assert axes.get_xlim() == (0.0, pytest.approx(6.4)) and len(axes.lines) == 1
+    assert axes.get_xlim() == (0.0, pytest.approx(6.4)) and len(axes.lines) == 3
     shades = axes.images[0].get_array()
     assert shades.shape[:2] == (44, 64) and shades[10, 30].tolist() != shades[10, 31].tolist()
+    # Unless told, at a height where the robot flies, not in the floor.
+    assert ridgeway.plot.floor_plan(roadmap, [[1, 1, 0.9], [2, 1, 1.1]]).get_title().endswith("at 1.05 m")
+    assert 0.3 < float(ridgeway.plot.floor_plan(roadmap).get_title().split()[-2]) < 2.1
     with pytest.raises(ValueError, match="height"):
         ridgeway.plot.floor_plan(roadmap, height=99)
 

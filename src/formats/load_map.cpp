@@ -112,18 +112,18 @@ OccupancyMap load_cloud(const PointCloud& cloud, const LoadConfig& config, const
                      "record or write the cloud again");
   }
   const std::string span = "its points span " + describe(extent(cloud, config.transform));
+  if (!config.voxel_size && !config.bounds)
+    throw InputError(
+        name,
+        "is a point cloud, which has no voxel size, and in which the free space is not "
+        "recorded",
+        std::string("give voxel_size and bounds; ").append(span));
   if (!config.voxel_size)
     throw InputError(name, "is a point cloud, which has no voxel size",
                      std::string("give voxel_size; ").append(span));
-  if (!config.bounds) {
+  if (!config.bounds)
     throw InputError(name, "is a point cloud, in which the free space is not recorded",
                      std::string("give bounds; ").append(span));
-  }
-  if (cloud.skipped > 0) {
-    tell(notes, std::to_string(cloud.skipped) + " of " +
-                    std::to_string(cloud.skipped + cloud.points.size()) +
-                    " points were skipped: a coordinate is not finite");
-  }
   tell(notes,
        "the cloud does not record free space: everything within bounds that is not occupied is "
        "taken as free");
@@ -132,7 +132,7 @@ OccupancyMap load_cloud(const PointCloud& cloud, const LoadConfig& config, const
                                       .bounds = *config.bounds,
                                       .margin = config.isolated_below,
                                       .T_map_cloud = config.transform},
-                                     name);
+                                     name, notes);
   return finished(std::move(map), config, name, notes);
 }
 

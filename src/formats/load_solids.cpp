@@ -81,22 +81,39 @@ void tell_of_voxels(const LoadConfig& config, LoadNotes* notes) {
   if (!config.voxel_size) tell(notes, "voxels of 0.1 m are taken (option voxel_size)");
 }
 
+/// What is said of a mesh that no map can be made of: one that names no unit is most often in
+/// millimetres.
+[[noreturn]] void refuse_again(const InputError& error, const TriangleSoup& mesh) {
+  Box box{mesh.vertices.front(), mesh.vertices.front()};
+  for (const Point& v : mesh.vertices) box = {box.min.cwiseMin(v), box.max.cwiseMax(v)};
+  throw InputError(error.where(), error.problem(),
+                   "it names no unit, and spans " + size_text(box) +
+                       " if that is metres: give units if it is not; else " + error.remedy());
+}
+
 }  // namespace
 
 OccupancyMap load_mesh_map(const std::filesystem::path& file, std::string_view bytes,
                            const std::string& format, const LoadConfig& config, LoadNotes* notes) {
   const std::string name = file.string();
   TriangleSoup mesh = read_mesh(file, bytes, format, {config.units, config.up});
-  tell_of_frame(mesh_frame(format, bytes), config, notes);
+  const MeshFrame own = mesh_frame(format, bytes);
+  tell_of_frame(own, config, notes);
   for (Point& v : mesh.vertices) v = config.transform * v;
   tell_of_voxels(config, notes);
   MeshMapReport report;
-  OccupancyMap map = map_from_mesh(mesh,
-                                   {.voxel_size = config.voxel_size.value_or(kUsualVoxelSize),
-                                    .bounds = config.bounds,
-                                    .inside = config.inside,
-                                    .margin = config.isolated_below},
-                                   name, &report);
+  OccupancyMap map;
+  try {
+    map = map_from_mesh(mesh,
+                        {.voxel_size = config.voxel_size.value_or(kUsualVoxelSize),
+                         .bounds = config.bounds,
+                         .inside = config.inside,
+                         .margin = config.isolated_below},
+                        name, &report);
+  } catch (const InputError& error) {
+    if (own.unit || config.units || error.where() != name || mesh.vertices.empty()) throw;
+    refuse_again(error, mesh);
+  }
   tell_of_space(report, config, notes);
   return finished(std::move(map), config, name, notes);
 }

@@ -97,16 +97,14 @@ MapServerFile read_keys(const Keys& keys) {
 }  // namespace
 
 bool is_map_server(std::string_view text) {
-  bool has_image = false, has_resolution = false;
   std::string_view head = text.substr(0, 16384);
   while (!head.empty()) {
     const std::size_t end = std::min(head.find('\n'), head.size());
     const std::string_view line = head.substr(0, end);
-    has_image |= line.starts_with("image:");
-    has_resolution |= line.starts_with("resolution:");
+    if (line.starts_with("image:")) return true;  // no world has one
     head.remove_prefix(std::min(end + 1, head.size()));
   }
-  return has_image && has_resolution;
+  return false;
 }
 
 MapServerFile read_map_server(std::string_view text, const std::string& name) {

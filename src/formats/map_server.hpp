@@ -24,7 +24,7 @@ struct MapServerFile {
   Mode mode = Mode::kTrinary;
 };
 
-/// Does a text look like such a file: keys `image` and `resolution` at the beginning of lines?
+/// Does a text look like such a file: a key `image` at the beginning of a line?
 bool is_map_server(std::string_view text);
 
 /// Throws InputError, with the line, for keys that are missing or hold no such value.

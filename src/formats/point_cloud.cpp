@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/number_text.hpp"
+#include "load_steps.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/mapping/map_edits.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
@@ -77,15 +78,42 @@ Box extent(const PointCloud& cloud, const Eigen::Isometry3d& T_map_cloud) {
   return {box.min(), box.max()};
 }
 
+namespace {
+
+bool is_beside(const Box& box, const Point& point) {
+  constexpr double kRounding = 1e-9;
+  const Point slack = kRounding * (box.max - box.min);
+  return ((point - box.min + slack).array() < 0.0).any() ||
+         ((box.max - point + slack).array() < 0.0).any();
+}
+
+/// Obstacles that are left out would be free space, so nobody may overlook that.
+void tell_of_points_left_out(const PointCloud& cloud, std::size_t outside, const Box& span,
+                             LoadNotes* notes) {
+  const std::size_t count = cloud.points.size();
+  if (cloud.skipped > 0)
+    tell(notes, std::to_string(cloud.skipped) + " of " + std::to_string(cloud.skipped + count) +
+                    " points were skipped: a coordinate is not finite");
+  if (outside == 0) return;
+  const bool are_most = 2 * outside > count;
+  tell(notes, std::to_string(outside) + " of " + std::to_string(count) +
+                  " points lie outside of the bounds and are left out" +
+                  (are_most ? "; all points span " + describe(span) +
+                                  ": are the bounds in metres, and the points too?"
+                            : ""));
+}
+
+}  // namespace
+
 OccupancyMap map_from_points(const PointCloud& cloud, const CloudMapConfig& config,
-                             const std::string& name) {
+                             const std::string& name, LoadNotes* notes) {
   validate_voxel_size(config.voxel_size, "voxel_size");
   const VoxelRange known = checked_range(config.bounds, config.voxel_size);
   OccupancyBuilder builder(config.voxel_size, {.clip = grown(known, config.margin), .name = name});
   builder.fill(known, VoxelState::kFree);
   const double reach = kMaxVoxelIndex * config.voxel_size;
   const CloudVoxels voxels(config.T_map_cloud, config.voxel_size);
-  std::size_t inside = 0;
+  std::size_t inside = 0, outside = 0;
   for (const Point& point_cloud : cloud.points) {
     const Point point = config.T_map_cloud * point_cloud;
     if (!(point.cwiseAbs().maxCoeff() < reach && point_cloud.cwiseAbs().maxCoeff() < reach)) {
@@ -94,12 +122,14 @@ OccupancyMap map_from_points(const PointCloud& cloud, const CloudMapConfig& conf
     }
     const VoxelIndex voxel = voxels.find(point_cloud, point);
     inside += known.contains(voxel) ? 1 : 0;
+    outside += is_beside(config.bounds, point) ? 1 : 0;
     builder.set(voxel, VoxelState::kOccupied);
   }
   if (inside == 0) {
     throw InputError(name, "has no point within the bounds " + describe(config.bounds),
                      "its points span " + describe(extent(cloud, config.T_map_cloud)));
   }
+  tell_of_points_left_out(cloud, outside, extent(cloud, config.T_map_cloud), notes);
   return std::move(builder).finish();
 }
 

@@ -84,7 +84,7 @@ TEST_F(CliBadInput, OctomapWithoutFreeSpace) {
 TEST_F(CliBadInput, CloudWithoutBoundsOrVoxelSize) {
   const std::string cloud = two_rooms();
   expect_build_refused(cloud, {"--voxel-size", "0.1"}, {"rooms.xyz", "--bounds"});
-  expect_build_refused(cloud, {}, {"rooms.xyz", "--voxel-size"});
+  expect_build_refused(cloud, {}, {"rooms.xyz", "--voxel-size", "--bounds"});
 }
 
 TEST_F(CliBadInput, PointsThatAreNotFiniteAreSkippedAndCounted) {

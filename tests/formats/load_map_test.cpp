@@ -67,7 +67,12 @@ TEST(LoadMap, CloudsNeedVoxelSizeAndBoundsAndSayWhereTheyAre) {
   const TemporaryFolder folder;
   const auto file = folder / "cloud.xyz";
   write_whole(file, "0 0 0\n1 2 3\n");
-  EXPECT_TRUE(contains(refusal([&] { load_map(file); }), "give voxel_size"));
+  EXPECT_TRUE(contains(refusal([&] { load_map(file); }),
+                       "give voxel_size and bounds; its points span 0,0,0"));
+  EXPECT_TRUE(contains(refusal([&] {
+                         load_map(file, {.bounds = Box{{0, 0, 0}, {2, 2, 2}}});
+                       }),
+                       "give voxel_size;"));
   const std::string unbounded = refusal([&] { load_map(file, {.voxel_size = 0.1}); });
   EXPECT_TRUE(contains(unbounded, "give bounds; its points span 0,0,0 to 1,2,3")) << unbounded;
   const std::string elsewhere = refusal([&] {
@@ -143,6 +148,10 @@ TEST(LoadMap, MeshesThatAreDamagedAreRefusedByName) {
   EXPECT_TRUE(contains(says("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 1\nf 1 2 3\n"), "nan.obj"));
   EXPECT_TRUE(contains(says("empty.stl", "solid a\nfacet\nendsolid\n"), "empty.stl"));
   EXPECT_TRUE(contains(says("cut.glb", "glTF\2"), "cut.glb"));
+  // In millimetres, most likely.
+  EXPECT_TRUE(
+      contains(says("mm.obj", "v 0 0 0\nv 90000 0 0\nv 0 90000 90000\nf 1 2 3\n"),
+               "names no unit, and spans 9e+04 x 9e+04 x 9e+04 m if that is metres: give units"));
   const std::string cycle =
       "<?xml version='1.0'?><COLLADA version='1.4.1'><library_nodes><node id='a'><instance_node "
       "url='#b'/></node><node id='b'><instance_node url='#a'/></node></library_nodes>"

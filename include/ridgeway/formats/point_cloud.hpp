@@ -12,6 +12,8 @@
 
 namespace ridgeway {
 
+struct LoadNotes;
+
 /// Points of a file, in its own frame, metres.
 struct PointCloud {
   std::vector<Point> points;  ///< all finite
@@ -38,9 +40,10 @@ struct CloudMapConfig {
 
 /// Voxels that hold a point are occupied; of the others, those wholly inside the bounds are free:
 /// a cloud does not say where it saw nothing. Throws InputError naming `name` where no point lies
-/// within the bounds, they hold no voxel, or a point lies beyond 1e9 voxels.
+/// within the bounds, they hold no voxel, or a point lies beyond 1e9 voxels. `notes`: of points
+/// that are left out, as they lie outside of the bounds or were skipped.
 OccupancyMap map_from_points(const PointCloud& cloud, const CloudMapConfig& config,
-                             const std::string& name);
+                             const std::string& name, LoadNotes* notes = nullptr);
 
 /// Throws InputError where a cloud is the vertices of a mesh: between them are walls that it does
 /// not show. `name` is its file.
