@@ -150,7 +150,7 @@ struct EsdfMap {
   VoxelField<SiteOffset> site;        ///< from each to its nearest obstacle
   VoxelMask obstacle;                 ///< those that are obstacles
 
-  /// Whether the robot's centre may be in a voxel, kNoVoxel among them.
+  /// Whether the robot's centre may be in a voxel; never in kNoVoxel.
   bool is_open(VoxelId id) const { return id != kNoVoxel && ridgeway::is_open(state[id], unknown); }
   /// Whether a voxel is an obstacle, kNoVoxel being unknown.
   bool is_obstacle(VoxelId id) const {

@@ -51,9 +51,9 @@ class FreeSpace {
   bool is_narrowed() const {
     return !is_for_sphere() || (limits_ != nullptr && !(*limits_ == esdf_.limits));
   }
-  /// Radius of the largest sphere that is in the robot, and of the smallest that it is in, both
-  /// around its centre: what is not free for the one is not for the robot, what is free for the
-  /// other is.
+  /// Radius, metres, of the largest sphere that is in the robot, and of the smallest that it is in,
+  /// both around its centre: what is not free for the one is not for the robot, what is free for
+  /// the other is.
   double inner_radius(double radius) const {
     return is_for_sphere() ? radius : std::min(radius, half_height(radius));
   }
@@ -88,10 +88,12 @@ class FreeSpace {
   }
 
   /// D at a point, metres; 0 in an obstacle, max_distance where all obstacles are farther than
-  /// that (infinite where there is none at all).
+  /// that (infinite where there is none at all). Where the map has no block and unknown space is no
+  /// obstacle, D is found only if there is a max_distance: otherwise it is infinite, though nothing
+  /// is free there.
   double distance(const Point& p) const;
 
-  /// Smallest D along a segment, metres.
+  /// Smallest D along a segment, metres; for one outside the map's blocks as distance().
   double clearance(const Point& a, const Point& b) const;
 
   /// Smallest D along a path of straight segments (at least one point), metres, or `at_most` where
