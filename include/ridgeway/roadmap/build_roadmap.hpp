@@ -36,10 +36,10 @@ struct BuildSeconds {
   double gvd = 0.0;       ///< ridges of the distances
   double edges = 0.0;     ///< where ridges meet
   double thin = 0.0;      ///< those to a width of one voxel
-  double kernel = 0.0;    ///< basins, kernel and diagram
+  double kernel = 0.0;    ///< basins, kernel and diagram; beside them the cell graph
   double graph = 0.0;     ///< sparse graph, clearance tree, landmarks
   double attach = 0.0;    ///< the way of every voxel to the graph
-  double tangents = 0.0;  ///< cell graph and tangent graph
+  double tangents = 0.0;  ///< tangent graph
   double total = 0.0;     ///< the sum of these
 };
 
@@ -64,10 +64,11 @@ struct BuildResult {
 };
 
 /// The whole pipeline: ESDF, GVD, edges, thinning, kernel, diagram, graph, clearance tree, attach
-/// field, tangent graph. Consumes the map. Under UnknownPolicy::kIgnore free pockets smaller than
-/// the robot are taken as unknown. Same map and configuration give the same bytes for any number of
-/// threads (set by with_threads, common/parallel.hpp). `progress` can cancel it anywhere, within
-/// the stages too (with_progress). Throws InputError where nothing is free, or memory would not do.
+/// field, cell graph, tangent graph. Consumes the map. Under UnknownPolicy::kIgnore free pockets
+/// smaller than the robot are taken as unknown. Same map and configuration give the same bytes for
+/// any number of threads (set by with_threads, common/parallel.hpp). `progress` can cancel it
+/// anywhere, within the stages too (with_progress). Throws InputError naming the bad field, and
+/// where nothing is free or traversable, or memory would not do.
 BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config = {},
                           const Progress& progress = {});
 

@@ -39,7 +39,7 @@ struct ClearanceTree {
 /// straight segments between the places of neighbouring cells. Where space is open it knows the
 /// sides on which obstacles can be passed, at any radius, which curves through the middle of space
 /// do not. Narrow places may be missing: what it does not connect, the sparse graph does.
-/// Not in the file: found when a roadmap is built or loaded.
+/// Not in the file: found when a roadmap is built or loaded. Empty for a planar map.
 struct CellGraph {
   static constexpr int kSide = 4;                   ///< of a cell, voxels
   static constexpr int kPerBlock = 8;               ///< cells
@@ -80,8 +80,8 @@ struct CellGraph {
   std::vector<Bend> bends;  ///< by ascending `from`, then `to`
 
   /// Lengths of ways from landmarks to each block, voxels, about: the way between two blocks is
-  /// hardly shorter than the difference. By block in order; no number where no
-  /// way leads. Empty where no cells of two blocks are linked.
+  /// hardly shorter than the difference. By block in order; NaN where no way leads. Empty where no
+  /// cells of two blocks are linked.
   static constexpr std::size_t kLandmarks = 3;
   /// Of one block: from each landmark.
   using Lengths = std::vector<std::array<float, kLandmarks>>;
@@ -89,7 +89,8 @@ struct CellGraph {
   Lengths lengths_wide;  ///< over those of the widest robots
 };
 
-/// Every segment is verified by the free-space predicate. Deterministic.
+/// For robots of a radius of `min_clearance` metres and more. Every segment is verified by the
+/// free-space predicate. Deterministic.
 CellGraph build_cell_graph(const EsdfMap& esdf, double min_clearance);
 
 /// Everything a query needs, in the local frame of `esdf`; to_world(esdf, point) and to_local lead
