@@ -79,7 +79,7 @@ struct Basins {
   }
 };
 
-/// `traversable`: the voxels free at `radius`; only moves that are free at it count.
+/// `traversable`: the voxels free at `radius` (metres); only moves that are free at it count.
 Basins find_basins(const EsdfMap& esdf, const VoxelMask& traversable, double radius);
 
 }  // namespace ridgeway

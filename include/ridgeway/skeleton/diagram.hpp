@@ -38,7 +38,8 @@ VoxelMask significant_peaks(const EsdfMap& esdf, const Basins& basins);
 /// needed by the legal moves.
 ///
 /// Redirects `basins.next` on the way: afterwards each voxel's way leads to the diagram, widest
-/// first (a diagram voxel's own entry still climbs on).
+/// first (a diagram voxel's own entry still climbs on). `min_clearance`: the smallest radius,
+/// metres; that of the basins.
 VoxelMask join_diagram(const EsdfMap& esdf, const VoxelMask& edges, const VoxelMask& kernel,
                        double min_clearance, Basins& basins);
 

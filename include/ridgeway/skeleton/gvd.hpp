@@ -18,7 +18,8 @@ struct GvdConfig {
   void validate() const;
 };
 
-/// Free voxels at least `radius` metres from every obstacle (inclusive).
+/// Free voxels at least `radius` metres from every obstacle (inclusive). `within_limits`: only
+/// those within the map's flight limits.
 VoxelMask traversable_voxels(const EsdfMap& esdf, double radius, bool within_limits = true);
 
 /// Voxels on the generalized Voronoi diagram (paper: GVD Generation): those with a free
