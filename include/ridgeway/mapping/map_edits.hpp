@@ -19,21 +19,24 @@ namespace ridgeway {
 OccupancyMap resample(OccupancyMap map, double voxel_size);
 
 /// What lies inside a box (the flight volume): voxels that are not wholly inside, with a slack of
-/// 1e-6 voxels, become unknown. Infinite coordinates mean no limit.
+/// 1e-6 voxels, become unknown. Infinite coordinates mean no limit. The map is normalised. Throws
+/// InputError for a box that validate_box refuses.
 OccupancyMap crop(OccupancyMap map, const Box& box);
 
 /// Makes every voxel that shares volume with one of the boxes occupied, unknown ones too. Boxes
 /// reach no farther than one block (8 voxels) beyond the known bounds. A box without extent along
-/// an axis closes the voxel layer that holds it.
+/// an axis closes the voxel layer that holds it. The map is normalised if there are boxes. Throws
+/// InputError for a box that validate_box refuses, or where memory would not do.
 OccupancyMap add_no_fly(OccupancyMap map, std::span<const Box> boxes);
 
 /// Filter for noisy maps, in which a speck closes a doorway: every 26-connected cluster of fewer
 /// than `min_cluster` occupied voxels becomes free. 0 and 1 change nothing. It removes small real
-/// obstacles (a wire, a lamp) just as well, so nothing uses it unless asked to.
+/// obstacles (a wire, a lamp) just as well, so nothing uses it unless asked to. Throws InputError
+/// below 0.
 OccupancyMap remove_isolated(OccupancyMap map, int min_cluster);
 
 /// Every 26-connected cluster of free voxels of less than `min_volume` cubic metres becomes
-/// unknown: what a stray measurement opens behind a wall holds no robot.
+/// unknown: what a stray measurement opens behind a wall holds no robot. Throws InputError below 0.
 OccupancyMap remove_pockets(OccupancyMap map, double min_volume);
 
 /// The map of a robot that stays in a plane, one layer of voxels: a column is occupied where it
@@ -64,7 +67,8 @@ std::optional<LatticeTransform> find_lattice_transform(const Eigen::Isometry3d& 
 /// obstacle: a voxel of the result is occupied where its cube shares volume with the moved cube of
 /// an occupied voxel, else unknown where with that of an unknown one, else free. Obstacles and the
 /// unknown thus grow by up to a voxel's diagonal: exact motions (find_lattice_transform) do not
-/// pay that.
+/// pay that. Throws InputError for a finer voxel size (metres), for a transform that
+/// validate_transform refuses, and for one by more than 1e9 voxels.
 OccupancyMap transform_map(const OccupancyMap& map, const Eigen::Isometry3d& T_target_source,
                            double voxel_size);
 
