@@ -47,12 +47,13 @@ struct LoadNotes {
   std::vector<std::string> notes;  ///< a sentence each, in the order in which they came up
 };
 
-/// Reads OctoMap .bt and .ot, point clouds .pcd, .ply and .xyz, meshes .dae, .glb, .obj, .stl and
-/// .ply (with faces), voxblox layers, simulated worlds .yaml, MovingAI .3dmap, and fused maps
-/// (`.ridge` files of save_tsdf), by what the file's bytes say and, but for .obj, not by its name.
-/// In this order: read, transform, resample, isolated filter, crop, no-fly boxes. Obstacles of
-/// meshes and worlds are all voxels that they touch. Throws InputError naming the file (or the bad
-/// option) and the remedy; a map that does not fit into memory is refused before it is taken.
+/// Reads OctoMap .bt and .ot, point clouds .pcd, .ply and .xyz, meshes .dae, .glb, .gltf, .obj,
+/// .stl and .ply (with faces), voxblox layers, simulated worlds .yaml, ROS maps .yaml (planar),
+/// MovingAI .3dmap, and fused maps (`.ridge` files of save_tsdf), by what the file's bytes say; its
+/// name counts where they say little: .obj, .gltf, worlds and text. In this order: read, transform,
+/// resample, isolated filter, crop, no-fly boxes. Obstacles of meshes and worlds are all voxels
+/// that they touch. Throws InputError naming the file (or the bad option) and the remedy; a map
+/// that does not fit into memory is refused before it is taken.
 OccupancyMap load_map(const std::filesystem::path& file, const LoadConfig& config = {},
                       LoadNotes* notes = nullptr);
 
