@@ -98,7 +98,7 @@ struct TangentConfig {
 TangentGraph build_tangent_graph(const Roadmap& roadmap, const TangentConfig& config = {});
 
 /// The corners of a tangent graph for robots of 1.25, 1.5 and 2 times its radius; none where the
-/// map does not know distances as far.
+/// map does not know distances as far, or the tangent graph has more than 50,000 labels of hubs.
 std::vector<TangentGraph::Wider> widen_corners(const EsdfMap& esdf, const TangentGraph& tangents);
 
 /// Numbers the cells of a layout, in the order of their first blocks.
