@@ -20,13 +20,16 @@ struct VoxelSource {
   std::function<OccupancyMap(const VoxelPlacement&)> read;
 };
 
+/// Adds a note, where someone wants notes.
 void tell(LoadNotes* notes, std::string_view note);
 
-/// The edits that every kind of file ends with.
+/// The edits that every kind of file ends with: isolated filter, crop, no-fly boxes. Throws
+/// InputError, naming `name`, where nothing free is left.
 OccupancyMap finished(OccupancyMap map, const LoadConfig& config, const std::string& name,
                       LoadNotes* notes);
 
-/// Only what can come to lie within the bounds is read: large files with small bounds fit.
+/// Reads the voxels, moves them, makes them coarser, and ends as `finished`. Only what can come to
+/// lie within the bounds is read: large files with small bounds fit.
 OccupancyMap load_voxels(const VoxelSource& source, const LoadConfig& config,
                          const std::string& name, LoadNotes* notes);
 

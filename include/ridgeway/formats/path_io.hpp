@@ -11,9 +11,10 @@
 
 namespace ridgeway {
 
-/// A plan as a JSON object: answered_by, status, length, clearance, unknown {policy}, waypoints (a
-/// list of [x, y, z]), seconds {attach, search, shorten, total}. Metres and seconds; numbers
-/// read back as they were; an infinite clearance is null. Where the first or last segment is an
+/// A plan as a JSON object: answered_by, status, length, within (where there is a path), clearance,
+/// unknown {policy}, waypoints (a list of [x, y, z]), seconds {attach, search, shorten, total}.
+/// Metres and seconds, world frame; numbers read back as they were; an infinite clearance is null.
+/// Where the first or last segment is an
 /// escape also escape_start or escape_goal {length, clearance}; where start or goal was moved also
 /// moved_start or moved_goal {distance, place}.
 std::string plan_json(const PlanResult& result);

@@ -99,7 +99,8 @@ class TsdfFusion {
   void integrate(const DepthImage& image, const PinholeCamera& camera,
                  const Eigen::Isometry3d& T_world_camera);
 
-  /// Points in the sensor's frame, its origin at 0; those not finite are passed over.
+  /// Points in the sensor's frame, metres, its origin at 0; those not finite are passed over.
+  /// Throws InputError where the pose is no rotation and translation, or memory runs out, as above.
   void integrate(std::span<const Point> points, const Eigen::Isometry3d& T_world_sensor);
 
   /// All that was fused so far.

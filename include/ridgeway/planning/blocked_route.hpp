@@ -39,8 +39,9 @@ class RouteBlocks {
  public:
   explicit RouteBlocks(const Roadmap& roadmap);  ///< Finds the basins of all free space.
 
-  /// Between points of the world. Nothing where start or goal have no place at the radius: then
-  /// plan() says which and why. `limits`: as in PlanConfig.
+  /// Between points of the world, for a sphere of a radius in metres. Nothing where start or goal
+  /// have no place at the radius: then plan() says which and why. `limits`: as in PlanConfig.
+  /// Throws InputError where they are bad.
   std::optional<BlockedRoute> between(const Point& start, const Point& goal, double radius,
                                       const FlightLimits& limits = {}) const;
 

@@ -33,8 +33,8 @@ struct RidgeSection {
 
 /// What a `.ridge` file says of itself, read without its content.
 struct RidgeInfo {
-  std::uint32_t version = 0;  ///< of the format
-  std::string header;         ///< JSON text: content, voxel_size, origin, policy, config, counts
+  std::uint32_t version = 0;           ///< of the format
+  std::string header;                  ///< JSON text: its keys are in docs/ridge-format.md
   std::vector<RidgeSection> sections;  ///< in the order of the file
 };
 
