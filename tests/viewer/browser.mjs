@@ -13,7 +13,7 @@ export const axe_source = require("axe-core").source;
 const program = process.env.RIDGEWAY_CHROMIUM ?? "/usr/bin/chromium";
 
 /** Skips all tests (77) where there is no Chromium, or its driver. */
-export function launch() {
+export function launch(more = []) {
   if (!existsSync(program)) process.exit(77);
   return chromium.launch({
     executablePath: program,
@@ -27,6 +27,7 @@ export function launch() {
       "--disable-background-networking",
       "--disable-component-update",
       "--disable-sync",
+      ...more,
     ],
   });
 }

@@ -212,6 +212,44 @@ test("a step of a drag is one frame: words change with the picture, which hides 
   assert.equal(await page.evaluate(() => window.ridgeway.stage.renderer.getContext().getContextAttributes().alpha), false);
 });
 
+test("where frames are slow, a drag is of fewer pixels, for which the map is not drawn anew, nor after it", async () => {
+  const state = () => page.evaluate(() => { const { stage } = window.ridgeway; return { stills: stage.stills, width: stage.renderer.getContext().drawingBufferWidth }; });
+  const settled = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  const set_frame_time = (time) => page.evaluate((time) => Object.assign(window.ridgeway.stage, { frame_time: time }), time);
+  const at = await page.evaluate(() => { const { app, stage } = window.ridgeway; return stage.on_canvas(app.routes.goal.position); });
+  const whole = await pixels(page);
+  const first = await state();
+  await set_frame_time(1000);
+  await page.mouse.move(at.x, at.y);
+  await page.mouse.down();
+  await settled();
+  const begun = await state();
+  const few = await pixels(page);
+  await planned(page, () => page.mouse.move(at.x, at.y + 4));
+  await planned(page, () => page.mouse.up());
+  await settled();
+  const ended = await state();
+  await set_frame_time(0);
+  assert.deepEqual([begun.width, ended.width], [first.width / 2, first.width]);
+  assert.deepEqual([begun.stills, ended.stills], [first.stills, first.stills]);
+  assert.ok(Math.abs(few.drawn - whole.drawn) < 0.02, `${few.drawn} of the canvas is drawn, not ${whole.drawn}`);
+});
+
+test("no line is an instance: software draws those one by one", async () => {
+  const instances = await page.evaluate(() => {
+    const { stage } = window.ridgeway;
+    let lines = 0, instances = 0;
+    for (const scene of [stage.scene, stage.overlay])
+      scene.traverse(({ isLineSegments2, geometry }) => {
+        lines += Boolean(isLineSegments2 && geometry.getAttribute("instanceStart"));
+        instances += Boolean(geometry?.isInstancedBufferGeometry && geometry.getAttribute("instanceStart"));
+      });
+    return { lines, instances };
+  });
+  assert.ok(instances.lines >= 5, `${instances.lines} layers of lines`); // graph, route and flight, what is hidden of these two
+  assert.equal(instances.instances, 0);
+});
+
 test("what moves over the map is hidden by it as if all were drawn at once", async () => {
   await planned(page, () => set("alternatives", "1"));
   await page.locator("#orbit").click();

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 import * as THREE from "three";
-import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
-import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
-import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
+import type { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { colour_at, component_colour, css_of, kClearances, type Rgb } from "./colours";
+import { set_thin_lines, set_wide_lines, thin_lines, wide_lines } from "./lines";
 import { kNotKnown, type Cloud, type Net, type Slice } from "./layers";
 
 export type ColourBy = "clearance" | "component";
@@ -19,38 +18,6 @@ export class ClearanceScale {
 
 export function three_colour(rgb: Rgb): THREE.Color {
   return new THREE.Color().setRGB(...rgb, THREE.LinearSRGBColorSpace);
-}
-
-/**
- * Lines so many pixels wide. Their geometry changes, their material stays: three.js would compile its
- * shaders again for a new one.
- */
-function wide_lines(width: number): LineSegments2 {
-  const lines = new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ linewidth: width, vertexColors: true }));
-  lines.frustumCulled = false;
-  return lines;
-}
-
-function set_lines(lines: LineSegments2, positions: Float32Array, colours: Float32Array): void {
-  lines.geometry.dispose();
-  const geometry = new LineSegmentsGeometry();
-  lines.visible = positions.length > 0;
-  if (lines.visible) geometry.setPositions(positions).setColors(colours);
-  lines.geometry = geometry;
-}
-
-/** Lines one pixel wide. Wide ones are drawn instance by instance, which takes software seconds for thousands. */
-function thin_lines(): THREE.LineSegments {
-  const lines = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ vertexColors: true }));
-  lines.frustumCulled = false;
-  return lines;
-}
-
-function set_thin_lines(lines: THREE.LineSegments, positions: Float32Array, colours: Float32Array): void {
-  lines.geometry.dispose();
-  lines.geometry = new THREE.BufferGeometry();
-  lines.geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
-  lines.geometry.setAttribute("color", new THREE.BufferAttribute(colours, 3));
 }
 
 /** A diagram or a graph: lines between places, and places as points. */
@@ -100,8 +67,8 @@ export class NetDrawing {
       const narrowest = net.pair_clearance?.[i >> 1];
       colours.set(what === "clearance" && narrowest !== undefined ? scale.colour(narrowest) : place_colour(net.pairs[i]!), 3 * i);
     }
-    if (this.lines instanceof LineSegments2) set_lines(this.lines, at, colours);
-    else set_thin_lines(this.lines, at, colours);
+    if (this.lines instanceof THREE.LineSegments) set_thin_lines(this.lines, at, colours);
+    else set_wide_lines(this.lines, at, colours);
     if (!this.points) return;
     const points = new Float32Array(net.positions.length);
     for (let v = 0; v < net.clearance.length; ++v) points.set(place_colour(v), 3 * v);
@@ -180,7 +147,7 @@ export class PathDrawing {
       path[i + 1]!.toArray(at, 6 * i + 3);
       colours.set([...this.colour, ...this.colour], 6 * i);
     }
-    for (const lines of this.lines) set_lines(lines, at, colours);
+    for (const lines of this.lines) set_wide_lines(lines, at, colours);
     return this;
   }
 }

@@ -178,13 +178,14 @@ export class Stage {
     return performance.now();
   }
 
-  /** Setting a size empties the canvas, so it is set only where it is another. */
+  /** Setting a size empties the canvas, so it is set only where it is another. What stands is drawn anew for more pixels only. */
   private fit_canvas(width: number, height: number): void {
     const has_few_pixels = this.coarse || (this.is_moving_over && this.is_slow);
     const ratio = has_few_pixels ? 0.5 : Math.min(devicePixelRatio, 2);
     const now = this.renderer.getSize(new THREE.Vector2());
-    if (this.renderer.getPixelRatio() === ratio && now.x === width && now.y === height) return;
-    this.is_still_old = true;
+    const is_as_large = now.x === width && now.y === height;
+    if (this.renderer.getPixelRatio() === ratio && is_as_large) return;
+    if (!is_as_large || Math.floor(ratio * width) > this.still.width) this.is_still_old = true;
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(width, height, false);
     this.perspective.aspect = width / height;
