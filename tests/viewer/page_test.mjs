@@ -269,6 +269,37 @@ test("what moves over the map is hidden by it as if all were drawn at once", asy
   assert.ok(difference(over, at_once) < 1e-4 * over.words.length, `${difference(over, at_once)} pixels differ`);
 });
 
+test("marks are of the robot's size, and can be seen from afar", async () => {
+  const marks = (farther) => page.evaluate((farther) => {
+    const { app, stage } = window.ridgeway;
+    stage.turn(0, 0, farther);
+    stage.draw();
+    return [app.routes.goal.scale.x, stage.css_pixels_of(app.routes.goal.scale.x)];
+  }, farther);
+  const [metres] = await marks(1);
+  assert.equal(metres, 0.3);
+  const [, pixels] = await marks(50);
+  assert.ok(Math.abs(pixels - 5) < 1e-6, `${pixels} pixels`);
+  assert.equal((await marks(1 / 50))[0], 0.3);
+});
+
+test("ceilings are cut off, and nothing where there are none", async () => {
+  const cuts = await page.evaluate(() => {
+    const { THREE, surface } = window.ridgeway;
+    /** A floor of 20 x 20 cells, and what looks down at two heights, so many cells across. */
+    const cut = (sides) => {
+      const faces = [[0, 0, 0, 5, 20, 20], ...sides.map((side, i) => [0, 0, 20 + 10 * i, 4, side, side])];
+      const cells = new Uint16Array(faces.flatMap((face) => face.slice(0, 4)));
+      const sizes = new Uint8Array(faces.flatMap(([, , , , width, height]) => [width, height, 0, 0]));
+      const made = new surface.constructor({ origin: [0, 0, 0], cell: 0.1, cell_voxels: 1, count: faces.length, cells, sizes }, new THREE.Vector3(), 4);
+      return made.height_below_ceilings();
+    };
+    return [cut([0, 20]), cut([4, 5]), cut([0, 0])];
+  });
+  assert.ok(Math.abs(cuts[0] - 2.9) < 1e-9, String(cuts));
+  assert.deepEqual(cuts.slice(1), [4, 4]);
+});
+
 test("measures what is clicked", async () => {
   await page.locator("#top").click();
   await page.keyboard.press("m");

@@ -6,6 +6,9 @@ import { ball, drone, PathDrawing } from "./drawings";
 import type { Flight, Route, Sample, Vector } from "./layers";
 import type { Stage } from "./stage";
 
+/** Pixels: marks are drawn no smaller, however far they are. */
+const kLeastRadius = 5;
+
 /** Start, goal, the routes between them and the flight along the shortest, as they are drawn. */
 export class RouteDrawing {
   readonly start = ball(kStart, 0.3);
@@ -16,11 +19,13 @@ export class RouteDrawing {
   private readonly line = new PathDrawing(kFlight, 3);
   private readonly drawings: PathDrawing[] = [];
   private samples: Sample[] = [];
+  private radius = 0.3;
 
   constructor(private readonly stage: Stage, private readonly base: THREE.Vector3) {
     this.start.visible = this.goal.visible = this.flight_group.visible = false;
     this.flight_group.add(this.robot, this.line.group);
     stage.overlay.add(this.start, this.goal, this.paths, this.flight_group);
+    stage.before_frame.push(() => this.scale_marks());
   }
 
   get has_flight(): boolean {
@@ -35,8 +40,14 @@ export class RouteDrawing {
   }
 
   set_radius(radius: number): void {
-    for (const part of [this.start, this.goal, this.robot]) part.scale.setScalar(radius);
+    this.radius = radius;
+    this.scale_marks();
     this.stage.changed_over();
+  }
+
+  private scale_marks(): void {
+    const radius = Math.max(this.radius, kLeastRadius / this.stage.css_pixels_of(1));
+    for (const part of [this.start, this.goal, this.robot]) part.scale.setScalar(radius);
   }
 
   /** `awaits_route`: one from or to there will be shown soon. */

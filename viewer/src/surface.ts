@@ -51,6 +51,9 @@ void main() {
 /** Pixels that a rectangle is drawn larger by, to each side: some of the 256 parts of a pixel that corners are rounded to. */
 const kLarger = 0.02;
 
+/** Of the ground plan, that what is taken for ceilings covers at least: of indoor maps it covers 0.2 and more, of a campus and of rocks in space 0.07 and less. */
+const kLeastCeilings = 0.1;
+
 export interface Hit {
   distance: number;
   place: THREE.Vector3;
@@ -208,22 +211,30 @@ export class SurfaceMesh {
     return is_coarse && this.coarse !== this.fine;
   }
 
-  /** Just below most ceilings, so that rooms can be looked into: half the faces that look down are higher. */
+  /** Just below most ceilings, so that rooms can be looked into: half the faces that look down are higher. The top where there are hardly any ceilings. */
   height_below_ceilings(): number {
     const { surface, origin } = this.coarse;
     const { cells, sizes, count, cell } = surface;
     const areas = new Map<number, number>();
+    const plan = new THREE.Box2();
+    const corner = new THREE.Vector2();
     let total = 0;
     for (let i = 0; i < count; ++i) {
-      if (cells[4 * i + 3] !== 4) continue;
+      const side = cells[4 * i + 3]!;
+      plan.expandByPoint(corner.fromArray(cells, 4 * i));
+      if (side >= 4) plan.expandByPoint(corner.set(cells[4 * i]! + sizes[4 * i]!, cells[4 * i + 1]! + sizes[4 * i + 1]!));
+      if (side !== 4) continue;
       const area = sizes[4 * i]! * sizes[4 * i + 1]!;
       areas.set(cells[4 * i + 2]!, (areas.get(cells[4 * i + 2]!) ?? 0) + area);
       total += area;
     }
+    const { x, y } = plan.getSize(corner);
     let above = 0;
     for (const z of [...areas.keys()].sort((a, b) => b - a)) {
       above += areas.get(z)!;
-      if (above >= 0.5 * total) return Math.max(this.low + 0.3 * (this.high - this.low), origin.z + (z - 1) * cell);
+      if (above < 0.5 * total) continue;
+      if (above < kLeastCeilings * x * y) break;
+      return Math.max(this.low + 0.3 * (this.high - this.low), origin.z + (z - 1) * cell);
     }
     return this.high;
   }
