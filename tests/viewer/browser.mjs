@@ -12,22 +12,23 @@ export const axe_source = require("axe-core").source;
 
 const program = process.env.RIDGEWAY_CHROMIUM ?? "/usr/bin/chromium";
 
+/** All graphics by software, wherever the tests run; the page is put together by the software WebGL, too. */
+const kSoftware = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+
 /** Skips all tests (77) where there is no Chromium, or its driver. */
-export function launch(more = []) {
+export function launch(graphics = kSoftware) {
   if (!existsSync(program)) process.exit(77);
   return chromium.launch({
     executablePath: program,
     headless: true,
     args: [
       "--no-sandbox",
-      "--use-angle=swiftshader",
-      "--enable-unsafe-swiftshader",
+      ...graphics,
       "--disable-quic",
       "--no-first-run",
       "--disable-background-networking",
       "--disable-component-update",
       "--disable-sync",
-      ...more,
     ],
   });
 }

@@ -2,16 +2,20 @@
 // Copyright (c) 2026 The Ridgeway authors
 
 // What a step of a dragged goal takes in Chromium, from the pointer's event to the picture:
-//   node viewer/bench/drag.mjs [--moves N] [--page MAP.html] [--script PAGE.js] [--flag=--CHROMIUM-FLAG]..
-// RIDGEWAY_PROGRAM and RIDGEWAY_DATA as in tests/viewer. `--page`: a page of one file in place of a
-// server of fr_079; `--script`: another page.js than the program's.
+//   node viewer/bench/drag.mjs [--moves N] [--map MAP.ridge | --page MAP.html] [--flag=--CHROMIUM-FLAG]..
+// RIDGEWAY_PROGRAM and RIDGEWAY_DATA as in tests/viewer. Without a map it is fr_079, from Ridgeway's
+// own server; `--script PAGE.js`: with another script than the program's; `--trace FILE` keeps Chromium's.
+// Without a flag Chromium does its graphics as it does for everybody on such a machine: where there is
+// no GPU, WebGL by SwiftShader, and the page put together by software of its own. With
+// `--flag=--use-angle=swiftshader` that is done by SwiftShader, too, as in the tests.
 //
 // A step is one move of the pointer by Playwright, the next one a random time after its picture was
 // shown. Times are from the event's own timestamp, which the browser gives it when it comes in,
-//   answer  until the page has the plan,
-//   drawn   until the page has given the commands of the picture with its path,
-//   shown   until the browser has put the page with that picture together and shown it: the end of
-//           the frame of its compositor (a PipelineReporter of Chromium's trace).
+//   handled    until the page hears of it,
+//   answer     until the page has the plan,
+//   drawn      until the page has given the commands of the picture with its path,
+//   submitted  until the frame of the page with that picture goes to Chromium's compositor,
+//   shown      until that has put it together and shown it (PipelineReporter in Chromium's trace).
 import { writeFileSync } from "node:fs";
 import { loadavg } from "node:os";
 import { pathToFileURL } from "node:url";
