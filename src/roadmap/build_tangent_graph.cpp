@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 #include <algorithm>
+#include <iterator>
 
 #include "bounded_hub_labels.hpp"
 #include "cell_parts.hpp"
@@ -17,8 +18,10 @@ namespace ridgeway {
 namespace {
 
 using detail::Corner;
+using detail::kPlanning;
 using detail::MergedCorners;
 using detail::SampledPath;
+using detail::SampledRoutes;
 
 /// The widest traversable voxel of every cell, the first of equally wide ones, or kNoVoxel.
 std::vector<VoxelId> widest_of_cells(const Roadmap& roadmap, const BlockCells& cells) {
@@ -40,7 +43,7 @@ std::vector<VertexId> look_around(const FreeSpace& space, double radius,
                                   const std::vector<Corner>& corners, const Point& place) {
   std::vector<VertexId> seen;
   for (const std::uint32_t i : detail::nearest_corners(
-           corners, place, detail::kPlanning.looked_at,
+           corners, place, kPlanning.looked_at,
            [&](std::uint32_t j) { return detail::may_turn(corners[j], place); })) {
     if (!space.is_free(place, corners[i].place, radius)) continue;
     seen.push_back(VertexId{i});
@@ -60,16 +63,14 @@ class Learning {
   }
 
   TangentGraph run(std::size_t most_pairs) {
-    std::size_t more = detail::kPlanning.first_pairs;
-    while (pairs_ + more + detail::kPlanning.asked_pairs <= most_pairs) {
-      learn(sample(more));
+    std::size_t enough = kPlanning.first_pairs;
+    while (enough + kPlanning.asked_pairs <= most_pairs) {
+      learn(sample(enough - pairs_, SampledRoutes::kBoth));
       if (!link()) break;
-      const std::vector<SampledPath> unseen = sample(detail::kPlanning.asked_pairs);
-      const double known = share_known(unseen);
-      if (known < detail::kPlanning.hopeless) break;
-      learn(unseen);
-      more = pairs_;
-      if (known < detail::kPlanning.known) continue;
+      const double known = ask_and_learn();
+      if (known < kPlanning.hopeless) break;
+      enough = 2 * pairs_;
+      if (known < kPlanning.known) continue;
       if (!link()) break;
       auto hubs = detail::label_hubs_within(tangent_.graph);
       if (!hubs) break;
@@ -82,13 +83,43 @@ class Learning {
   }
 
  private:
-  std::vector<SampledPath> sample(std::size_t pairs) {
+  std::vector<SampledPath> sample(std::size_t pairs, SampledRoutes routes) {
     pairs_ += pairs;
-    return detail::sample_paths(roadmap_, pairs_ - pairs, pairs);
+    return detail::sample_paths(roadmap_, pairs_ - pairs, pairs, routes);
   }
 
   void learn(const std::vector<SampledPath>& paths) {
     for (const SampledPath& path : paths) merging_.add(path);
+  }
+
+  /// Of the shorter paths between new pairs of places, the share for which there is a route about
+  /// as short, and learns all paths between them. Where that is hopeless it learns none, and stops
+  /// asking once that is certain. Nothing is known where there are next to no paths.
+  double ask_and_learn() {
+    constexpr std::size_t kAtOnce = 20;  // pairs, for all threads
+    const std::size_t first = pairs_, end = first + kPlanning.asked_pairs;
+    std::vector<SampledPath> shortest;
+    std::size_t unknown = 0;
+    while (pairs_ < end) {
+      std::vector<SampledPath> some =
+          sample(std::min(kAtOnce, end - pairs_), SampledRoutes::kShortest);
+      unknown += count_unknown(some);
+      if (static_cast<double>(unknown) > (1.0 - kPlanning.hopeless) * kPlanning.asked_pairs)
+        return 0.0;
+      std::move(some.begin(), some.end(), std::back_inserter(shortest));
+    }
+    if (5 * shortest.size() < kPlanning.asked_pairs) return 0.0;
+    const double known =
+        static_cast<double>(shortest.size() - unknown) / static_cast<double>(shortest.size());
+    if (known < kPlanning.hopeless) return known;
+    const std::vector<SampledPath> other =
+        detail::sample_paths(roadmap_, first, kPlanning.asked_pairs, SampledRoutes::kOther);
+    std::vector<SampledPath> both;
+    std::merge(shortest.begin(), shortest.end(), other.begin(), other.end(),
+               std::back_inserter(both),
+               [](const SampledPath& a, const SampledPath& b) { return a.pair < b.pair; });
+    learn(both);
+    return known;
   }
 
   /// False where there are too many.
@@ -100,22 +131,15 @@ class Learning {
     return true;
   }
 
-  /// Of the shorter paths between two places, the share for which there is a route about as short.
-  /// Nothing is known where there are next to none.
-  double share_known(const std::vector<SampledPath>& paths) const {
-    std::vector<const SampledPath*> asked;
-    for (const SampledPath& path : paths)
-      if (asked.empty() || asked.back()->from != path.from) asked.push_back(&path);
-    if (5 * asked.size() < detail::kPlanning.asked_pairs) return 0.0;
-    std::vector<char> is_known(asked.size());
-    parallel_for_each_index(asked.size(), [&](std::size_t i) { is_known[i] = knows(*asked[i]); });
-    return static_cast<double>(std::count(is_known.begin(), is_known.end(), 1)) /
-           static_cast<double>(asked.size());
+  std::size_t count_unknown(const std::vector<SampledPath>& paths) const {
+    std::vector<char> is_known(paths.size());
+    parallel_for_each_index(paths.size(), [&](std::size_t i) { is_known[i] = knows(paths[i]); });
+    return static_cast<std::size_t>(std::count(is_known.begin(), is_known.end(), 0));
   }
 
   /// Whether there is a route about as short as a path.
   bool knows(const SampledPath& path) const {
-    const double enough = detail::kPlanning.as_found * length_of(path.waypoints);
+    const double enough = kPlanning.as_found * length_of(path.waypoints);
     const Point &start = path.waypoints.front(), &goal = path.waypoints.back();
     const double radius = roadmap_.min_clearance;
     Sources first;

@@ -14,7 +14,6 @@
 namespace ridgeway::detail {
 namespace {
 
-constexpr int kRoutes = 2;    // between two places
 constexpr int kTries = 1000;  // to meet a traversable voxel
 
 VoxelId random_voxel(const Roadmap& roadmap, Random& random) {
@@ -35,7 +34,8 @@ VoxelId random_vertex(const Roadmap& roadmap, Random& random) {
 
 /// Paths over the graph between two voxels, pulled tight.
 std::vector<SampledPath> tight_paths(const Roadmap& roadmap, const GraphComponents& parts,
-                                     const FreeSpace& space, VoxelId from, VoxelId to) {
+                                     const FreeSpace& space, VoxelId from, VoxelId to,
+                                     SampledRoutes routes) {
   const EsdfMap& esdf = roadmap.esdf;
   const double radius = roadmap.min_clearance;
   const auto centre = [&](VoxelId id) {
@@ -47,21 +47,23 @@ std::vector<SampledPath> tight_paths(const Roadmap& roadmap, const GraphComponen
   if (!start.reached() || !goal.reached()) return {};
   std::vector<SampledPath> paths;
   std::vector<float> penalty(roadmap.graph.edges.size(), 1.0f);
-  for (int k = 0; k < kRoutes; ++k) {
+  for (const SampledRoutes route : {SampledRoutes::kShortest, SampledRoutes::kOther}) {
     const std::vector<VertexId> vertices =
         search_graph(roadmap.graph, roadmap.landmarks, start.vertex, goal.vertex, radius, &penalty);
     if (vertices.empty()) break;
-    std::vector<Point> path;
-    for (const VoxelId id : start.voxels) path.push_back(centre(id));
-    for (std::size_t i = 1; i < vertices.size(); ++i) {
-      path.push_back(roadmap.graph.vertices[number(vertices[i])].position);
+    for (std::size_t i = 1; i < vertices.size(); ++i)
       penalty[number(edge_between(roadmap.graph, vertices[i - 1], vertices[i]))] =
           kPlanning.shunning;
-    }
+    if (routes != route && routes != SampledRoutes::kBoth) continue;
+    std::vector<Point> path;
+    for (const VoxelId id : start.voxels) path.push_back(centre(id));
+    for (std::size_t i = 1; i < vertices.size(); ++i)
+      path.push_back(roadmap.graph.vertices[number(vertices[i])].position);
     for (auto id = goal.voxels.rbegin() + 1; id < goal.voxels.rend(); ++id)
       path.push_back(centre(*id));
-    paths.push_back({from, to, parts.label[number(start.vertex)],
+    paths.push_back({0, from, to, parts.label[number(start.vertex)],
                      shorten(space, std::move(path), radius, Deadline::never())});
+    if (routes == SampledRoutes::kShortest) break;
   }
   return paths;
 }
@@ -69,7 +71,7 @@ std::vector<SampledPath> tight_paths(const Roadmap& roadmap, const GraphComponen
 }  // namespace
 
 std::vector<SampledPath> sample_paths(const Roadmap& roadmap, std::size_t first_pair,
-                                      std::size_t pairs) {
+                                      std::size_t pairs, SampledRoutes routes) {
   const FreeSpace space(roadmap.esdf);
   const GraphComponents parts = connected_components(roadmap.graph);
   std::vector<std::vector<SampledPath>> by_pair(pairs);
@@ -79,7 +81,8 @@ std::vector<SampledPath> sample_paths(const Roadmap& roadmap, std::size_t first_
     const VoxelId from = random_voxel(roadmap, random);
     const VoxelId to = i % 2 == 0 ? random_voxel(roadmap, random) : random_vertex(roadmap, random);
     if (from != kNoVoxel && to != kNoVoxel)
-      by_pair[i] = tight_paths(roadmap, parts, space, from, to);
+      by_pair[i] = tight_paths(roadmap, parts, space, from, to, routes);
+    for (SampledPath& path : by_pair[i]) path.pair = first_pair + i;
   });
   std::vector<SampledPath> paths;
   for (std::vector<SampledPath>& some : by_pair)
