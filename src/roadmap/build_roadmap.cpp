@@ -145,12 +145,10 @@ Peeled peel(const RememberedSpace& space, VoxelMask traversable, Watershed water
     else
       join_background(esdf, traversable, not_simple);  // to have fewer voxels of it
   });
-  basins.not_simple_at_first_turn = std::move(not_simple);
   VoxelMask peaks = significant_peaks(esdf, basins);
-  VoxelMask kernel =
-      memory != nullptr
-          ? memory->peeling.peel(esdf, traversable, basins.not_simple_at_first_turn, peaks)
-          : peel_levels(esdf, traversable, basins.not_simple_at_first_turn, peaks);
+  VoxelMask kernel = memory != nullptr
+                         ? memory->peeling.peel(esdf, traversable, not_simple, peaks)
+                         : peel_levels(esdf, traversable, std::move(not_simple), peaks);
   return {std::move(basins), std::move(peaks), std::move(kernel)};
 }
 
@@ -192,6 +190,9 @@ void build_on_watershed(VoxelMask traversable, const EdgesOf& edges_of, Watershe
 
   clock.begin("graph");
   if (config.paper_diagram) diagram = std::move(edges);
+  edges = {};  // what is not needed any more makes room
+  kernel = {};
+  peeled.peaks = {};
   require_memory_for(diagram, kGraphBytesPerDiagramVoxel);
   const DiagramCurves curves = index_diagram(esdf, diagram, config.min_clearance, segments);
   roadmap.graph = detail::build_graph(esdf, curves, graph_config(config), segments);

@@ -70,8 +70,11 @@ BasinNumbers::InBlock basins_in_block(const VoxelMask& traversable, std::uint32_
     if (same == found.basins.end()) found.basins.push_back(basin);
   });
   if (found.basins.size() < 2) return found;
-  found.place.resize(kBlockVoxels);
-  for (std::size_t i = 0; i < kBlockVoxels; ++i) found.place[i] = place_of_end[end[i]];
+  constexpr std::size_t kPlaces = kBlockVoxels;
+  const std::size_t bytes = found.basins.size() > 256 ? 2 : 1;  // of a place
+  found.place.resize(bytes * kPlaces);
+  for (std::size_t i = 0; i < bytes * kPlaces; ++i)
+    found.place[i] = static_cast<std::uint8_t>(place_of_end[end[i % kPlaces]] >> 8 * (i / kPlaces));
   return found;
 }
 

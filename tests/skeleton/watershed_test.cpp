@@ -61,6 +61,22 @@ void expect_to_be_what_every_voxel_sees(const EsdfMap& esdf, const VoxelMask& tr
   ASSERT_EQ(watershed.basins.peaks, peaks);
 }
 
+/// Every voxel a peak: far more basins than any map's block has.
+TEST(Watershed, NumbersAsManyBasinsAsABlockHasVoxels) {
+  for (const VoxelId count : {1u, 2u, 256u, 257u, 512u}) {
+    const BlockLayout layout({{0, 0, 0}});
+    VoxelMask traversable(layout);
+    for (VoxelId id = 0; id < count; ++id) traversable.set(id);
+    const std::vector<Direction> next(kBlockVoxels, kCentre);
+    BasinNumbers::InBlock found = detail::basins_in_block(traversable, 0, next.data(),
+                                                          [](VoxelId id) { return 1000 + 3 * id; });
+    ASSERT_EQ(found.basins.size(), count);
+    if (count == 1) continue;  // one for the whole block
+    const BasinNumbers numbers{{BasinNumbers::kSeveral}, {std::move(found)}};
+    for (VoxelId id = 0; id < count; ++id) ASSERT_EQ(numbers[id], 1000 + 3 * id) << count;
+  }
+}
+
 TEST(Watershed, OfBlocksIsWhatEveryVoxelSeesOfItsNeighbours) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);

@@ -42,7 +42,16 @@ struct BasinNumbers {
   /// The basins of a block in which several meet.
   struct InBlock {
     std::vector<std::uint32_t> basins;  ///< that meet in the block
-    std::vector<std::uint16_t> place;   ///< among those, by voxel
+    /// Among those, by voxel: a byte for each, and behind them all, if there are more than 256
+    /// basins, the higher byte for each.
+    std::vector<std::uint8_t> place;
+
+    /// The number of the basin at a place in the block.
+    std::uint32_t at(VoxelId voxel) const {
+      constexpr std::size_t kPlaces = kBlockVoxels;
+      const std::uint32_t high = place.size() > kPlaces ? place[kPlaces + voxel] : 0;
+      return basins[place[voxel] | high << 8];
+    }
 
     friend bool operator==(const InBlock&, const InBlock&) = default;  ///< Equal in every field.
   };
@@ -54,7 +63,7 @@ struct BasinNumbers {
   std::uint32_t operator[](VoxelId id) const {
     const std::uint32_t slot = id / kBlockVoxels;
     if (whole[slot] != kSeveral) return whole[slot];
-    return several[slot].basins[several[slot].place[id % kBlockVoxels]];
+    return several[slot].at(id % kBlockVoxels);
   }
 };
 
