@@ -102,16 +102,18 @@ bool VertexMerging::may_merge(Number from, Number to) const {
       (graph_.length(from, to) > graph_.clearance(to) ||
        std::pair(graph_.clearance(from), to) > std::pair(graph_.clearance(to), from)))
     return false;
-  for (const auto& [other, link] : here) {
-    if (other == to) continue;
-    const double needed = width_needed(from, to, link);
+  for (const auto& [other, link] : here) {  // what takes no look first
     const auto known = there.find(other);
-    if (known != there.end() ? known->second.clearance < needed
-                             : !space_.is_free(graph_.at(to), graph_.at(other), needed))
+    if (known != there.end() && known->second.clearance < width_needed(from, to, link))
       return false;
-    if (!sweeps(graph_.at(to), graph_.at(from), graph_.at(other))) return false;
   }
-  return true;
+  for (const auto& [other, link] : here)
+    if (other != to && !there.contains(other) &&
+        !space_.is_free(graph_.at(to), graph_.at(other), width_needed(from, to, link)))
+      return false;
+  return std::all_of(here.begin(), here.end(), [&](const auto& link) {
+    return link.first == to || sweeps(graph_.at(to), graph_.at(from), graph_.at(link.first));
+  });
 }
 
 /// Whether the triangle of a point and a segment can be swept by the segment between them.
