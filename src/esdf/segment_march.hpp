@@ -17,7 +17,10 @@ namespace ridgeway::detail {
 using Vector = Eigen::Vector3d;
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-inline VoxelIndex voxel_holding(const Vector& p) { return voxel_at(p, 1.0); }
+/// voxel_at() of a point in voxels, without its divisions.
+inline VoxelIndex voxel_holding(const Vector& p) {
+  return {floor_to_int(p.x()), floor_to_int(p.y()), floor_to_int(p.z())};
+}
 
 /// Squared distance (voxel units) that a voxel's stored value stands for; a voxel without a site
 /// is at least `far` from everything.

@@ -37,14 +37,27 @@ int axis_of(const VoxelIndex& step) { return step.x != 0 ? 0 : step.y != 0 ? 1 :
 
 CellMask fitting_voxels(const FreeSpace& space, CellId cell, SquaredHalves threshold) {
   const EsdfMap& esdf = space.map();
+  const double least = std::ceil(threshold.value);
+  if (least > kNoSite) return 0;
+  const auto enough = static_cast<std::uint32_t>(least);
   const std::uint32_t slot = esdf.layout.slot_at(cell / CellGraph::kPerBlock);
-  const VoxelId first = slot * kBlockVoxels + local_voxel(cell, 0);
+  const std::uint32_t* const squared = esdf.squared.block(slot);
+  const VoxelState* const state = esdf.state.block(slot);
   CellMask fitting = 0;
-  for (unsigned row = 0; row < 16; ++row)
-    for (unsigned x = 0; x < 4; ++x) {
-      const VoxelId id = first + (row & 3) * kBlockSide + (row >> 2) * kBlockSide * kBlockSide + x;
-      if (esdf.squared[id] >= threshold && esdf.is_open(id) && space.is_within_limits(id))
-        fitting |= CellMask{1} << (4 * row + x);
+  for (std::uint32_t row = 0; row < 16; ++row) {
+    const std::uint32_t first = local_voxel(cell, 4 * row);
+    unsigned fits = 0;  // without a branch
+    for (std::uint32_t x = 0; x < 4; ++x)
+      fits |= static_cast<unsigned>(is_open(state[first + x], esdf.unknown) &
+                                    (squared[first + x] >= enough))
+              << x;
+    fitting |= CellMask{fits} << 4 * row;
+  }
+  if (space.limits() != nullptr)
+    for (CellMask left = fitting; left != 0; left &= left - 1) {
+      const auto place = static_cast<std::uint32_t>(std::countr_zero(left));
+      if (!space.is_within_limits(slot * kBlockVoxels + local_voxel(cell, place)))
+        fitting &= ~(left & (~left + 1));
     }
   return fitting;
 }
