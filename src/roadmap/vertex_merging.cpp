@@ -11,6 +11,8 @@ namespace {
 /// Pairs that are asked ahead of their turn. What is asked takes milliseconds, and merging few of
 /// them leaves the answers for the others right.
 constexpr std::size_t kAhead = 512;
+/// Where there is a memory, which knows most answers, and remembers what is asked in vain.
+constexpr std::size_t kAheadRemembered = 64;
 
 }  // namespace
 
@@ -20,8 +22,7 @@ constexpr std::size_t kAhead = 512;
 bool VertexMerging::run() {
   bool changed = false;
   std::vector<char> fresh(graph_.size(), true);  // may be worth another look
-  // What is asked in vain would be remembered, where there is a memory that knows most answers.
-  const std::size_t ahead = space_.memory() == nullptr ? kAhead : 1;
+  const std::size_t ahead = space_.memory() == nullptr ? kAhead : kAheadRemembered;
   std::vector<Answer> answers(ahead);
   for (bool again = true; again; changed |= again) {
     again = false;

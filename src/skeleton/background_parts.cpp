@@ -76,7 +76,8 @@ bool touches_side(const Block& part, Direction direction) {
 }  // namespace
 
 BackgroundParts::BackgroundParts(const BlockLayout& layout, const VoxelMask& voxels)
-    : layout_(layout), parts_(layout.block_count()) {
+    : layout_(layout) {
+  find_blocks(voxels);
   find_gaps();
   find_parts(voxels);
   const std::uint32_t count = first_part_.back();
@@ -87,9 +88,19 @@ BackgroundParts::BackgroundParts(const BlockLayout& layout, const VoxelMask& vox
   for (std::uint32_t i = 0; i < count; ++i) is_one_ &= sets_.find(i) == around;
 }
 
-void BackgroundParts::find_gaps() {
+void BackgroundParts::find_blocks(const VoxelMask& voxels) {
+  place_of_.assign(layout_.block_count(), BlockLayout::kNoBlock);
   for (std::uint32_t rank = 0; rank < layout_.block_count(); ++rank) {
-    const BlockIndex& b = layout_.block(layout_.slot_at(rank));
+    const std::uint32_t slot = layout_.slot_at(rank);
+    if (voxels.block(slot) == Block{}) continue;
+    place_of_[slot] = static_cast<std::uint32_t>(slots_.size());
+    slots_.push_back(slot);
+  }
+}
+
+void BackgroundParts::find_gaps() {
+  for (const std::uint32_t slot : slots_) {
+    const BlockIndex& b = layout_.block(slot);
     if (rows_.empty() || rows_.back().y != b.y || rows_.back().z != b.z)
       rows_.push_back({b.y, b.z, b.x, b.x, static_cast<std::uint32_t>(gaps_.size()), 0});
     Row& row = rows_.back();
@@ -119,12 +130,13 @@ void BackgroundParts::join_gaps() {
 }
 
 void BackgroundParts::find_parts(const VoxelMask& voxels) {
+  parts_.resize(slots_.size());
   parallel_for_each_index(
-      layout_.block_count(),
-      [&](std::size_t slot) {
-        Block background = voxels.block(static_cast<std::uint32_t>(slot));
+      slots_.size(),
+      [&](std::size_t place) {
+        Block background = voxels.block(slots_[place]);
         for (std::uint64_t& layer : background) layer = ~layer;
-        parts_[slot] = parts_of_block(background);
+        parts_[place] = parts_of_block(background);
       },
       16);
   first_part_.push_back(static_cast<std::uint32_t>(gaps_.size()) + 1);
@@ -133,19 +145,20 @@ void BackgroundParts::find_parts(const VoxelMask& voxels) {
 }
 
 void BackgroundParts::join_parts() {
-  for (std::uint32_t slot = 0; slot < layout_.block_count(); ++slot)
+  for (std::uint32_t place = 0; place < slots_.size(); ++place)
     for (const Direction d : kFaceDirections) {
       const VoxelIndex o = offset_of(d);
-      const std::uint32_t beside = layout_.neighbour_block(slot, d);
-      for (std::uint32_t i = 0; i < parts_[slot].size(); ++i) {
-        const std::uint32_t own = first_part_[slot] + i;
+      const std::uint32_t beside = place_of(layout_.neighbour_block(slots_[place], d));
+      for (std::uint32_t i = 0; i < parts_[place].size(); ++i) {
+        const std::uint32_t own = first_part_[place] + i;
         if (beside == BlockLayout::kNoBlock) {
-          if (touches_side(parts_[slot][i], d))
-            sets_.join(own, number_outside(layout_.block(slot) + BlockIndex{o.x, o.y, o.z}));
+          if (touches_side(parts_[place][i], d))
+            sets_.join(own,
+                       number_outside(layout_.block(slots_[place]) + BlockIndex{o.x, o.y, o.z}));
         } else if (d > kCentre) {
           const int axis = o.x != 0 ? 0 : o.y != 0 ? 1 : 2;
           for (std::uint32_t k = 0; k < parts_[beside].size(); ++k)
-            if (touch(parts_[slot][i], parts_[beside][k], axis))
+            if (touch(parts_[place][i], parts_[beside][k], axis))
               sets_.join(own, first_part_[beside] + k);
         }
       }
@@ -169,12 +182,12 @@ std::uint32_t BackgroundParts::number_outside(const BlockIndex& block) const {
 }
 
 std::uint32_t BackgroundParts::number_of(const VoxelIndex& voxel) const {
-  const std::uint32_t slot = layout_.find_block(block_of(voxel));
-  if (slot == BlockLayout::kNoBlock) return number_outside(block_of(voxel));
-  const int place = local_of(voxel);
+  const std::uint32_t place = place_of(layout_.find_block(block_of(voxel)));
+  if (place == BlockLayout::kNoBlock) return number_outside(block_of(voxel));
+  const int local = local_of(voxel);
   std::uint32_t i = 0;
-  while ((parts_[slot][i][static_cast<std::size_t>(place / 64)] >> (place % 64) & 1) == 0) ++i;
-  return first_part_[slot] + i;
+  while ((parts_[place][i][static_cast<std::size_t>(local / 64)] >> (local % 64) & 1) == 0) ++i;
+  return first_part_[place] + i;
 }
 
 }  // namespace ridgeway::detail
