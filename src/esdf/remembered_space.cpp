@@ -54,6 +54,7 @@ void SegmentMemory::change(const BlockLayout& layout, std::span<const std::uint3
   most_answers_ = kAnswersABlock * layout.block_count() / kShards + 1;
   sums_.clear();
   extent_ = {};
+  is_all_changed_ = false;
   if (changed.empty()) return;
   BlockIndex high = low_ = layout.block(changed.front());
   for (const std::uint32_t slot : changed) {
@@ -63,7 +64,8 @@ void SegmentMemory::change(const BlockLayout& layout, std::span<const std::uint3
   }
   const double places = (high.x - low_.x + 1.0) * (high.y - low_.y + 1.0) * (high.z - low_.z + 1.0);
   constexpr double kMostPlaces = 1e7;
-  if (places > kMostPlaces) return forget();  // changes far apart
+  is_all_changed_ = places > kMostPlaces;
+  if (is_all_changed_) return forget();  // changes far apart
   extent_ = high - low_ + BlockIndex{1, 1, 1};
   sums_.assign(static_cast<std::size_t>(places), 0);
   const auto sum = [&](int x, int y, int z) -> std::uint32_t& {
@@ -97,7 +99,7 @@ std::uint32_t SegmentMemory::sum_up_to(int x, int y, int z) const {
 }
 
 bool SegmentMemory::touches_change(const Point& low, const Point& high) const {
-  if (sums_.empty()) return false;
+  if (sums_.empty()) return is_all_changed_;
   const auto clamped = [](double voxel, int from, int extent) {
     return static_cast<int>(
                std::clamp(std::floor(voxel / kBlockSide), from - 1.0, from + 0.0 + extent)) -

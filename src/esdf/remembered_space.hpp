@@ -86,6 +86,7 @@ class SegmentMemory {
   // How many changed blocks there are up to each one of the box around them.
   BlockIndex low_{}, extent_{};
   std::vector<std::uint32_t> sums_;
+  bool is_all_changed_ = false;  // they are too far apart for sums
 };
 
 /// FreeSpace, with a memory or without. `moves`: those that have been measured already.

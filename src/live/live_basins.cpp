@@ -5,6 +5,8 @@
 #include <queue>
 #include <utility>
 
+#include "voxel/mask_sets.hpp"
+
 namespace ridgeway::detail {
 namespace {
 
@@ -174,16 +176,19 @@ void update_basins(LiveBasins& basins, BasinNumbers& numbers, const LiveField& f
   find_saddles_beside(layout, numbers, touched, basins);
 }
 
-Watershed watershed_of(const LiveBasins& basins, BasinNumbers numbers, const LiveField& field) {
+Watershed watershed_of(const LiveBasins& basins, BasinNumbers numbers, VoxelField<Direction> next,
+                       const LiveField& field, const VoxelMask& among) {
   Watershed watershed;
-  watershed.basins.next = basins.ways.next;
-  watershed.basins.not_simple_at_first_turn = basins.ways.not_simple_at_first_turn;
+  watershed.basins.next = std::move(next);
+  watershed.basins.not_simple_at_first_turn =
+      common_members(basins.ways.not_simple_at_first_turn, among);
   watershed.basins.basin = std::move(numbers);
   watershed.basins.peaks = basins.peaks;
-  for (std::uint32_t rank = 0; rank < basins.saddles.size(); ++rank) {
-    const std::vector<CriticalVoxel>& saddles = basins.saddles[field.esdf.layout.slot_at(rank)];
-    watershed.critical.insert(watershed.critical.end(), saddles.begin(), saddles.end());
-  }
+  for (VoxelId& peak : watershed.basins.peaks)
+    if (peak != kNoVoxel && !among.test(peak)) peak = kNoVoxel;
+  for (std::uint32_t rank = 0; rank < basins.saddles.size(); ++rank)
+    for (const CriticalVoxel& saddle : basins.saddles[field.esdf.layout.slot_at(rank)])
+      if (among.test(saddle.id)) watershed.critical.push_back(saddle);
   return watershed;
 }
 

@@ -25,8 +25,10 @@ struct LiveBasins {
 void update_basins(LiveBasins& basins, BasinNumbers& numbers, const LiveField& field,
                    const LiveRidges& ridges);
 
-/// As find_watershed of what is traversable, but for the order of the numbers, and of the critical
-/// voxels only those that may join two basins.
-Watershed watershed_of(const LiveBasins& basins, BasinNumbers numbers, const LiveField& field);
+/// As find_watershed of some 26-connected parts of what is traversable, `among`, but for the order
+/// of the numbers, and of the critical voxels only those that may join two basins. `next`: that of
+/// `basins` there.
+Watershed watershed_of(const LiveBasins& basins, BasinNumbers numbers, VoxelField<Direction> next,
+                       const LiveField& field, const VoxelMask& among);
 
 }  // namespace ridgeway::detail

@@ -20,6 +20,7 @@
 #include "roadmap/build_stages.hpp"
 #include "scan_log.hpp"
 #include "shared_memory.hpp"
+#include "touched_space.hpp"
 
 namespace ridgeway {
 namespace detail {
@@ -46,6 +47,7 @@ struct LiveRoadmap::State {
     detail::LiveBasins basins;
     detail::LiveAttach attach;
     std::unique_ptr<detail::BuildMemory> memory;
+    bool is_built = false;  ///< the last snapshot is of these, as they were before the last update
   };
 
   explicit State(const LiveConfig& given);
@@ -87,6 +89,8 @@ struct LiveRoadmap::State {
   void bring_up_to_date(std::span<const VoxelChange> changes, UpdateReport& report);
   Live nothing(const VoxelIndex& origin) const;
   Live remade() const;
+  std::shared_ptr<const Roadmap> last_built_on(Live& live) const;
+  detail::TouchedSpace touched_space_of(Live& live, bool has_last) const;
   std::shared_ptr<const Roadmap> built_on(Live& live, detail::Lap& lap, UpdateReport& report) const;
   std::shared_ptr<const Roadmap> built_in_batch(detail::Lap& lap, UpdateReport& report) const;
   std::shared_ptr<const Roadmap> published(BuildResult result, BuildReport& report) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "kept_parts.hpp"
 #include "live_state.hpp"
 #include "ridgeway/mapping/occupancy_map.hpp"
 #include "roadmap/build_stages.hpp"
@@ -28,6 +29,16 @@ std::vector<std::uint32_t> changed_since(const LiveField& field) {
   for (std::uint32_t slot = field.first_of_last; slot < field.esdf.layout.block_count(); ++slot)
     slots.push_back(slot);
   return slots;
+}
+
+/// What a report counts of a build of some parts, with those that were kept.
+void count_all_parts(const std::vector<VoxelId>& peaks, const detail::BuildMemory& memory,
+                     BuildResult& result) {
+  result.report.traversable_components = 0;
+  for (std::size_t basin = 0; basin < peaks.size(); ++basin)
+    if (peaks[basin] != kNoVoxel) result.report.traversable_components += memory.is_highest[basin];
+  result.report.graph_components = connected_components(result.roadmap.graph).count;
+  result.report.diagram_voxels = result.roadmap.diagram.voxels.count();
 }
 
 }  // namespace
@@ -128,13 +139,13 @@ std::shared_ptr<const Roadmap> LiveRoadmap::State::built_on(Live& live, detail::
   update_traversable(live.ridges, field);
   build.traversable_voxels = live.ridges.traversable_count;
   build.seconds.gvd = lap.seconds();
-  update_basins(live.basins, live.memory->basin, field, live.ridges);
-  build.seconds.kernel = lap.seconds();
   live.memory->segments.change(field.esdf.layout, changed_since(field));
   live.memory->peeling.change(field.esdf.layout, field.changed.voxels, field.changed.slots);
   live.memory->diagram.change(field.esdf.layout, field.changed.voxels, field.changed.slots);
   if (build.traversable_voxels == 0) {
+    live.is_built = false;
     update_edges(live.ridges, field);
+    update_basins(live.basins, live.memory->basin, field, live.ridges);
     return nullptr;
   }
   BuildResult result;
@@ -142,10 +153,10 @@ std::shared_ptr<const Roadmap> LiveRoadmap::State::built_on(Live& live, detail::
   result.roadmap.esdf = share(field);
   result.roadmap.min_clearance = live.ridges.radius;
   report.copy_seconds = lap.seconds();
-  detail::Watershed watershed = watershed_of(live.basins, std::move(live.memory->basin), field);
-  result.report.seconds.kernel += lap.seconds();
   const Progress none;
   detail::StageClock clock(none);
+  const std::shared_ptr<const Roadmap> before = last_built_on(live);
+  detail::TouchedSpace space;
   double edge_seconds = 0.0;
   const auto edges = [&] {
     detail::Lap own;
@@ -153,15 +164,45 @@ std::shared_ptr<const Roadmap> LiveRoadmap::State::built_on(Live& live, detail::
     edge_seconds = own.seconds();
     return live.ridges.edges;
   };
-  detail::build_on_watershed(live.ridges.traversable, edges, std::move(watershed), config.build,
-                             result, clock, live.memory.get());
+  const auto watershed = [&] {
+    space = touched_space_of(live, before != nullptr);
+    live.memory->rest = space.has_rest() ? &space.rest : nullptr;
+    return detail::Space{
+        space.touched,
+        watershed_of(live.basins, std::move(live.memory->basin),
+                     ways_to_build_on(live.attach, field.esdf.layout, live.basins.ways.next, space),
+                     field, space.touched)};
+  };
+  detail::build_on_watershed(edges, watershed, config.build, result, clock, live.memory.get());
+  live.memory->rest = nullptr;
+  if (space.has_rest()) {
+    detail::add_kept_parts(*before, space.rest, result.roadmap);
+    count_all_parts(live.basins.peaks, *live.memory, result);
+  }
   BuildReport& built = result.report;
   built.gvd_voxels = live.ridges.gvd_count;
   built.edge_voxels = live.ridges.thick_count;
   built.seconds.gvd += edge_seconds;  // which are of the kernel's, that was peeled meanwhile
   built.seconds.kernel -= edge_seconds;
   result.roadmap.attach = share(live.attach, field.esdf.layout, result.roadmap.attach);
+  live.is_built = true;
   return published(std::move(result), build);
+}
+
+/// The last snapshot, if it was built on these; from now on it is not, until they are built on
+/// again.
+std::shared_ptr<const Roadmap> LiveRoadmap::State::last_built_on(Live& live) const {
+  if (!std::exchange(live.is_built, false)) return nullptr;
+  const std::lock_guard lock(mutex);
+  return snapshot;
+}
+
+/// Brings the basins up to date, and finds what is to be built on.
+detail::TouchedSpace LiveRoadmap::State::touched_space_of(Live& live, bool has_last) const {
+  update_basins(live.basins, live.memory->basin, live.field, live.ridges);
+  return has_last ? touched_space(live.basins, live.memory->basin, live.field, live.ridges,
+                                  live.memory->segments)
+                  : all_touched(live.field, live.ridges);
 }
 
 /// A roadmap that is complete but for what is learnt.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "ridgeway/common/parallel.hpp"
+#include "voxel/cube_gather.hpp"
 
 namespace ridgeway::detail {
 
@@ -36,13 +37,32 @@ Roadmap in_same_memory(const Roadmap& roadmap) {
   return same;
 }
 
-AttachField share(LiveAttach& attach, const BlockLayout& layout, const AttachField& now) {
+VoxelField<Direction> ways_to_build_on(LiveAttach& attach, const BlockLayout& layout,
+                                       const VoxelField<Direction>& next,
+                                       const TouchedSpace& space) {
   attach.next.grow(layout, AttachField::kNotTraversable);
+  VoxelField<Direction> ways = attach.next.shared();
+  parallel_for_each_index(
+      layout.block_count(),
+      [&](std::size_t i) {
+        const auto slot = static_cast<std::uint32_t>(i);
+        if (space.is_as_before[slot] != 0) return;
+        ways.own_block(slot);
+        std::copy_n(next.block(slot), kBlockVoxels, ways.block(slot));
+        if (!space.has_rest()) return;
+        for_each_member(space.rest, slot, [&](VoxelId id) { ways[id] = attach.next[id]; });
+      },
+      64);
+  return ways;
+}
+
+AttachField share(LiveAttach& attach, const BlockLayout& layout, const AttachField& now) {
   parallel_for_each_index(
       layout.block_count(),
       [&](std::size_t i) {
         const auto slot = static_cast<std::uint32_t>(i);
         const Direction* fresh = now.next.block(slot);
+        if (fresh == attach.next.block(slot)) return;
         if (std::equal(fresh, fresh + kBlockVoxels, attach.next.block(slot))) return;
         attach.next.own_block(slot);
         std::copy_n(fresh, kBlockVoxels, attach.next.block(slot));

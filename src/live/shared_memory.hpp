@@ -3,6 +3,7 @@
 #pragma once
 
 #include "ridgeway/roadmap/roadmap.hpp"
+#include "touched_space.hpp"
 
 /// What snapshots share: the memory of blocks that are the same in several of them.
 namespace ridgeway::detail {
@@ -17,6 +18,12 @@ Roadmap in_same_memory(const Roadmap& roadmap);
 struct LiveAttach {
   VoxelField<Direction> next = {};
 };
+
+/// The ways that the next attach field is made from: those of the last one in parts of space on
+/// which nothing is built again, elsewhere `next`.
+VoxelField<Direction> ways_to_build_on(LiveAttach& attach, const BlockLayout& layout,
+                                       const VoxelField<Direction>& next,
+                                       const TouchedSpace& space);
 
 /// The field for a snapshot: in the memory of the last one where a block is the same.
 AttachField share(LiveAttach& attach, const BlockLayout& layout, const AttachField& now);

@@ -20,6 +20,7 @@
 #include "ridgeway/skeleton/gvd.hpp"
 #include "skeleton/join_diagram.hpp"
 #include "skeleton/level_peeling.hpp"
+#include "voxel/mask_sets.hpp"
 
 namespace ridgeway {
 namespace {
@@ -120,9 +121,11 @@ void build_on_distances(VoxelMask traversable, const BuildConfig& config, BuildR
   clock.begin("kernel");
   Watershed watershed = find_watershed(esdf, traversable);
   clock.end(report.seconds.kernel);
-  build_on_watershed(
-      std::move(traversable), [&] { return std::move(edges); }, std::move(watershed), config,
-      result, clock, nullptr, beside);
+  build_on_watershed([&] { return std::move(edges); },
+                     [&] {
+                       return Space{std::move(traversable), std::move(watershed)};
+                     },
+                     config, result, clock, nullptr, beside);
 }
 
 namespace {
@@ -134,29 +137,36 @@ struct Peeled {
   VoxelMask peaks, kernel;
 };
 
-Peeled peel(const RememberedSpace& space, VoxelMask traversable, Watershed watershed,
-            double min_clearance, BuildMemory* memory) {
+Peeled peel(const RememberedSpace& space, Space parts, double min_clearance, BuildMemory* memory) {
   const EsdfMap& esdf = space.map();
-  VoxelMask not_simple = std::move(watershed.basins.not_simple_at_first_turn);
+  VoxelMask not_simple = std::move(parts.watershed.basins.not_simple_at_first_turn);
   Basins basins;
   parallel_for_each_index(2, [&](std::size_t task) {  // neither of which knows of the other
     if (task == 0)
-      basins = find_passes(space, min_clearance, std::move(watershed));
+      basins = find_passes(space, min_clearance, std::move(parts.watershed));
     else
-      join_background(esdf, traversable, not_simple);  // to have fewer voxels of it
+      join_background(esdf, parts.traversable, not_simple);  // to have fewer voxels of it
   });
   VoxelMask peaks = significant_peaks(esdf, basins);
   VoxelMask kernel = memory != nullptr
-                         ? memory->peeling.peel(esdf, traversable, not_simple, peaks)
-                         : peel_levels(esdf, traversable, std::move(not_simple), peaks);
+                         ? memory->peeling.peel(esdf, std::move(parts.traversable), not_simple,
+                                                peaks, memory->rest)
+                         : peel_levels(esdf, parts.traversable, std::move(not_simple), peaks);
   return {std::move(basins), std::move(peaks), std::move(kernel)};
+}
+
+void note_highest(const Basins& basins, BuildMemory& memory) {
+  memory.is_highest.resize(basins.peaks.size());
+  for (std::size_t basin = 0; basin < basins.peaks.size(); ++basin)
+    if (basins.peaks[basin] != kNoVoxel)
+      memory.is_highest[basin] = std::isinf(basins.dynamics[basin]);
 }
 
 }  // namespace
 
-void build_on_watershed(VoxelMask traversable, const EdgesOf& edges_of, Watershed watershed,
-                        const BuildConfig& config, BuildResult& result, StageClock& clock,
-                        BuildMemory* memory, const Beside& beside) {
+void build_on_watershed(const EdgesOf& edges_of, const SpaceOf& space_of, const BuildConfig& config,
+                        BuildResult& result, StageClock& clock, BuildMemory* memory,
+                        const Beside& beside) {
   Roadmap& roadmap = result.roadmap;
   const EsdfMap& esdf = roadmap.esdf;
   BuildReport& report = result.report;
@@ -171,14 +181,18 @@ void build_on_watershed(VoxelMask traversable, const EdgesOf& edges_of, Watershe
       edges = edges_of();
       require_memory_for(edges, kKernelBytesPerEdgeVoxel);
     } else {
-      peeled =
-          peel(space, std::move(traversable), std::move(watershed), config.min_clearance, memory);
+      peeled = peel(space, space_of(), config.min_clearance, memory);
     }
   });
   Basins& basins = peeled.basins;
   VoxelMask& kernel = peeled.kernel;
   report.traversable_components = basins.components();
   report.kernel_voxels = kernel.count();
+  if (memory != nullptr) {
+    note_highest(basins, *memory);
+    if (memory->rest != nullptr)
+      for (VoxelMask* mask : {&kernel, &edges}) remove_members(*mask, *memory->rest);
+  }
   VoxelMask diagram;
   parallel_for_each_index(beside ? 2 : 1, [&](std::size_t task) {
     if (task == 1) return beside();
@@ -198,8 +212,12 @@ void build_on_watershed(VoxelMask traversable, const EdgesOf& edges_of, Watershe
   roadmap.graph = detail::build_graph(esdf, curves, graph_config(config), segments);
   if (config.simplify)
     roadmap.graph = detail::simplify_graph(esdf, roadmap.graph, simplify_config(config), segments);
-  roadmap.tree = build_clearance_tree(esdf, roadmap.graph, basins);
-  roadmap.landmarks = place_landmarks(roadmap.graph);
+  parallel_for_each_index(2, [&](std::size_t task) {
+    if (task == 0)
+      roadmap.tree = build_clearance_tree(esdf, roadmap.graph, basins);
+    else
+      roadmap.landmarks = place_landmarks(roadmap.graph);
+  });
   report.graph_components = connected_components(roadmap.graph).count;
   clock.end(report.seconds.graph);
 

@@ -2,8 +2,10 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string_view>
+#include <vector>
 
 #include "common/clock.hpp"
 #include "esdf/remembered_space.hpp"
@@ -22,7 +24,11 @@ struct BuildMemory {
   SegmentMemory segments;
   PeelingMemory peeling;
   DiagramMemory diagram;
-  BasinNumbers basin;  ///< of the watershed that was built on last
+  BasinNumbers basin;                    ///< of the watershed that was built on last
+  std::vector<std::uint8_t> is_highest;  ///< by basin: no pass leads to a higher peak
+  /// Whole 26-connected parts of traversable space that are left out of a build, as all about them
+  /// is as it was; null: none are.
+  const VoxelMask* rest = nullptr;
 };
 
 /// Times the stages one after the other and reports each to the caller.
@@ -67,15 +73,21 @@ using Beside = std::function<void()>;
 void build_on_distances(VoxelMask traversable, const BuildConfig& config, BuildResult& result,
                         StageClock& clock, const Beside& beside = {});
 
-/// The thinned edges of the diagram: asked for once, while the kernel is peeled, which does
-/// without.
-using EdgesOf = std::function<VoxelMask()>;
+/// What is traversable, and the watershed of it.
+struct Space {
+  VoxelMask traversable;
+  Watershed watershed;
+};
 
-/// And from these edges and the watershed of what is traversable. `memory`: where the map is one
-/// that changes.
-void build_on_watershed(VoxelMask traversable, const EdgesOf& edges_of, Watershed watershed,
-                        const BuildConfig& config, BuildResult& result, StageClock& clock,
-                        BuildMemory* memory = nullptr, const Beside& beside = {});
+/// Asked for once each, at the same time as one another: the thinned edges of the diagram, and
+/// what the kernel is peeled from, which does without these edges.
+using EdgesOf = std::function<VoxelMask()>;
+using SpaceOf = std::function<Space()>;
+
+/// And from these. `memory`: where the map is one that changes.
+void build_on_watershed(const EdgesOf& edges_of, const SpaceOf& space_of, const BuildConfig& config,
+                        BuildResult& result, StageClock& clock, BuildMemory* memory = nullptr,
+                        const Beside& beside = {});
 
 /// What is learnt of a roadmap that is complete but for this, its cells unless it has them, and the
 /// total of all seconds. Queries do without, slower.

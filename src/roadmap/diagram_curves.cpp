@@ -9,6 +9,7 @@
 
 #include "best_first_search.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "voxel/mask_sets.hpp"
 
 namespace ridgeway::detail {
 
@@ -83,7 +84,7 @@ DiagramCurves index_diagram(const EsdfMap& esdf, const VoxelMask& diagram, doubl
   const RememberedSpace space(esdf, memory);
   DiagramCurves curves;
   curves.layout = &esdf.layout;
-  curves.voxels = diagram.members(esdf.layout);
+  curves.voxels = members_of_sparse(esdf.layout, diagram);
   curves.first_of_block.assign(esdf.layout.block_count() + 1, 0);
   for (const VoxelId id : curves.voxels)
     ++curves.first_of_block[esdf.layout.rank(id / kBlockVoxels) + 1];

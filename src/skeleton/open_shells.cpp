@@ -10,6 +10,7 @@
 #include "ridgeway/skeleton/diagram.hpp"
 #include "shell_memory.hpp"
 #include "simple_point.hpp"
+#include "voxel/mask_sets.hpp"
 
 namespace ridgeway {
 namespace {
@@ -129,7 +130,8 @@ VoxelMask mask_of(const BlockLayout& layout, const std::vector<VoxelId>& ids) {
 
 void open_shells(const EsdfMap& esdf, VoxelMask& voxels, const VoxelMask& keep) {
   detail::ShellScratch scratch(esdf.layout);
-  detail::open_shells_among(esdf, voxels, keep, voxels.members(esdf.layout), scratch);
+  detail::open_shells_among(esdf, voxels, keep, detail::members_of_sparse(esdf.layout, voxels),
+                            scratch);
 }
 
 namespace detail {
@@ -208,9 +210,9 @@ VoxelMask ShellMemory::open(const EsdfMap& esdf, const VoxelMask& voxels, const 
   VoxelMask opened = mask_of(layout, opened_);
   const std::vector<VoxelId> among = touched(layout, voxels, keep, changed, opened, scratch.due);
   open_shells_among(esdf, opened, keep, among, scratch);
-  voxels_ = voxels.members(layout);
-  keep_ = keep.members(layout);
-  opened_ = opened.members(layout);
+  voxels_ = members_of_sparse(layout, voxels);
+  keep_ = members_of_sparse(layout, keep);
+  opened_ = members_of_sparse(layout, opened);
   return opened;
 }
 

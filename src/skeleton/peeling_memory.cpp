@@ -8,6 +8,7 @@
 #include "level_peeling.hpp"
 #include "peeling_replay.hpp"
 #include "voxel/cube_gather.hpp"
+#include "voxel/mask_sets.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -76,15 +77,20 @@ void PeelingMemory::change(const BlockLayout& layout, const VoxelMask& changed,
     for (std::size_t z = 0; z < kBlockSide; ++z) changed_.block(slot)[z] |= changed.block(slot)[z];
 }
 
-const VoxelMask& PeelingMemory::peel(const EsdfMap& esdf, const VoxelMask& traversable,
-                                     const VoxelMask& not_simple, const VoxelMask& keep) {
+const VoxelMask& PeelingMemory::peel(const EsdfMap& esdf, VoxelMask traversable,
+                                     const VoxelMask& not_simple, VoxelMask keep,
+                                     const VoxelMask* rest) {
+  if (rest != nullptr) {
+    add_members(traversable, traversable_, *rest);
+    add_members(keep, keep_, *rest);
+  }
   if (knows_any_)
     peel_again(esdf, traversable, not_simple, keep);
   else
     peel_all(esdf, traversable, not_simple, keep);
   knows_any_ = true;
-  traversable_ = traversable;
-  keep_ = keep;
+  traversable_ = std::move(traversable);
+  keep_ = std::move(keep);
   squared_ = esdf.squared.shared();
   changed_ = VoxelMask(esdf.layout);
   return left_;

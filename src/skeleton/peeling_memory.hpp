@@ -21,9 +21,10 @@ class PeelingMemory {
               std::span<const std::uint32_t> slots);
 
   /// As peel_levels, for the map to which it has been changed. Its levels are kept, in the same
-  /// memory, which nobody may write to from then on.
-  const VoxelMask& peel(const EsdfMap& esdf, const VoxelMask& traversable,
-                        const VoxelMask& not_simple, const VoxelMask& keep);
+  /// memory, which nobody may write to from then on. `rest`: voxels of which nothing is given, as
+  /// they, and those beside them, are as when it was peeled last.
+  const VoxelMask& peel(const EsdfMap& esdf, VoxelMask traversable, const VoxelMask& not_simple,
+                        VoxelMask keep, const VoxelMask* rest = nullptr);
 
  private:
   void peel_all(const EsdfMap& esdf, const VoxelMask& traversable, const VoxelMask& not_simple,

@@ -11,6 +11,7 @@
 #include "common/parallel_sort.hpp"
 #include "parallel_deletion.hpp"
 #include "simple_point.hpp"
+#include "voxel/mask_sets.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -150,7 +151,7 @@ void remove_redundant_voxels(const RememberedSpace& space, SquaredHalves thresho
            can_do_without(space, threshold, id, cube);
   };
   OrderedRound round(esdf, may_go, diagram);
-  for (std::vector<VoxelId> work = diagram.members(esdf.layout); !work.empty();)
+  for (std::vector<VoxelId> work = members_of_sparse(esdf.layout, diagram); !work.empty();)
     work = neighbours_of(esdf.layout, diagram, round.run(work));
 }
 

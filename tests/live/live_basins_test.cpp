@@ -29,7 +29,8 @@ TEST(LiveBasins, AfterRandomChangesAreThoseOfTheField) {
       update_distances(field);
       update_traversable(ridges, field);
       update_basins(basins, numbers, field, ridges);
-      const detail::Watershed live = watershed_of(basins, numbers, field);
+      const detail::Watershed live =
+          watershed_of(basins, numbers, basins.ways.next, field, ridges.traversable);
       detail::Watershed fresh = detail::find_watershed(field.esdf, ridges.traversable);
       std::erase_if(fresh.critical, [&](const detail::CriticalVoxel& voxel) {
         return detail::higher_in_others(field.esdf.layout, fresh.basins.basin, voxel) == 0;

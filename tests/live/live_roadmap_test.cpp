@@ -99,6 +99,42 @@ TEST(LiveRoadmap, KeepsTheLimitsOfFlightsAsABatchBuildDoes) {
   EXPECT_GT(with_roadmap, 15u);
 }
 
+/// Rooms so far apart that nothing in one can be as wide as what is between them.
+TEST(LiveRoadmap, OfRoomsThatChangeInTurnHasTheBytesOfABatchBuild) {
+  const BuildConfig build = small_build(UnknownPolicy::kObstacle, 1.0);
+  constexpr int kRooms = 5, kApart = 60;
+  std::size_t kept = 0;
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    LiveRoadmap live({.build = build});
+    for (int step = 0; step < 16; ++step) {
+      SCOPED_TRACE(step);
+      // Later rooms come in front of those that are there, too.
+      const int room = static_cast<int>(random() % kRooms) - kRooms / 2;
+      const VoxelIndex at{kApart * room, 7 * room, 0};
+      const auto before = live.snapshot();
+      UpdateReport report;
+      with_threads(1 + step % 2, [&] {
+        report = live.set_voxels(testing::random_changes(random, at + VoxelIndex{-12, -9, -11},
+                                                         at + VoxelIndex{14, 12, 9}));
+      });
+      const auto now = live.settled();
+      ASSERT_TRUE(bytes_of(now.get()) == batch_bytes(live.map(), build));
+      if (now == nullptr || report.changed_voxels == 0) continue;
+      const BuildReport whole = build_roadmap(live.map(), build).report;
+      EXPECT_EQ(report.build.traversable_components, whole.traversable_components);
+      EXPECT_EQ(report.build.graph_components, whole.graph_components);
+      EXPECT_EQ(report.build.diagram_voxels, whole.diagram_voxels);
+      EXPECT_EQ(report.build.kernel_voxels, whole.kernel_voxels);
+      if (before == nullptr || report.in_batch) continue;
+      for (const Vertex& vertex : before->graph.vertices)
+        kept += std::abs(vertex.voxel.x - at.x) > kApart / 2 ? 1u : 0u;
+    }
+  }
+  EXPECT_GT(kept, 200u);
+}
+
 TEST(LiveRoadmap, DoesNotDependOnOrderAndGroupingOfChanges) {
   const BuildConfig build = small_build(UnknownPolicy::kObstacle, 1.0);
   std::mt19937 random(3);

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include "ridgeway/roadmap/roadmap.hpp"
+
+namespace ridgeway::detail {
+
+/// Adds to a roadmap that was built on some 26-connected parts of space what the roadmap before has
+/// of the others, `rest`: diagram, graph, clearance tree and landmarks, numbered as one build of
+/// all would number them. Blocks may have come since.
+void add_kept_parts(const Roadmap& before, const VoxelMask& rest, Roadmap& roadmap);
+
+}  // namespace ridgeway::detail
