@@ -92,7 +92,7 @@ const VoxelMask& PeelingMemory::peel(const EsdfMap& esdf, VoxelMask traversable,
   traversable_ = std::move(traversable);
   keep_ = std::move(keep);
   squared_ = esdf.squared.shared();
-  changed_ = VoxelMask(esdf.layout);
+  changed_ = {};
   return left_;
 }
 
@@ -110,6 +110,7 @@ void PeelingMemory::peel_all(const EsdfMap& esdf, const VoxelMask& traversable,
 void PeelingMemory::peel_again(const EsdfMap& esdf, const VoxelMask& traversable,
                                const VoxelMask& not_simple, const VoxelMask& keep) {
   const BlockLayout& layout = esdf.layout;
+  changed_.grow(layout);
   Marked changed{std::move(changed_), {}};
   for (std::uint32_t slot = 0; slot < layout.block_count(); ++slot) {
     VoxelMask::Block& block = changed.voxels.block(slot);
