@@ -13,10 +13,14 @@
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "support/pillars.hpp"
+#include "support/random_limits.hpp"
 #include "support/random_maps.hpp"
 
 namespace ridgeway {
 namespace {
+
+using testing::depth;
+using testing::random_limits;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -36,11 +40,6 @@ Point random_point(std::mt19937& random, double low, double high) {
 Box random_box(std::mt19937& random, double low, double high) {
   const Point a = random_point(random, low, high), b = random_point(random, low, high);
   return {a.cwiseMin(b), a.cwiseMax(b) + Point::Constant(0.02)};
-}
-
-/// How deep a point lies in a box; negative outside.
-double depth(const Box& box, const Point& p) {
-  return std::min((p - box.min).minCoeff(), (box.max - p).minCoeff());
 }
 
 /// How deep at the deepest of many points along a segment.
@@ -115,7 +114,7 @@ class Judge {
       : esdf_(esdf), free_(esdf), threshold_(least_clearance(radius, esdf.voxel_size)) {
     for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
       if (esdf.state[id] == VoxelState::kFree && esdf.squared[id] >= threshold_ &&
-          is_within(limits, esdf.layout.index_of(id)))
+          testing::is_within(limits, esdf.layout.index_of(id), esdf.voxel_size))
         places_.push_back(id);
     for (const VoxelId id : places_) within_.insert(id);
   }
@@ -142,15 +141,6 @@ class Judge {
   }
 
  private:
-  bool is_within(const FlightLimits& limits, const VoxelIndex& v) const {
-    const double s = esdf_.voxel_size;
-    const Point low = Point(v.x, v.y, v.z) * s, high = low + Point::Constant(s);
-    if (depth(limits.keep_in, 0.5 * (low + high)) < -1e-9) return false;
-    for (const Box& box : limits.keep_out)
-      if (((high.cwiseMin(box.max) - low.cwiseMax(box.min)).array() > 1e-7).all()) return false;
-    return true;
-  }
-
   const EsdfMap& esdf_;
   const FreeSpace free_;
   const SquaredHalves threshold_;
@@ -165,23 +155,6 @@ void expect_within(const FlightLimits& limits, const std::vector<Point>& path) {
       ASSERT_GE(depth(limits.keep_in, p), -2e-8);
       for (const Box& box : limits.keep_out) ASSERT_LE(depth(box, p), 2e-8);
     }
-}
-
-/// Limits that leave about half of a map.
-FlightLimits random_limits(std::mt19937& random, const Box& bounds) {
-  const auto share = [&] { return static_cast<double>(random() % 1001) / 1000.0; };
-  const Point extent = bounds.max - bounds.min;
-  FlightLimits limits;
-  const int axis = static_cast<int>(random() % 3);
-  limits.keep_in.min[axis] = bounds.min[axis] + 0.3 * share() * extent[axis];
-  limits.keep_in.max[axis] = bounds.max[axis] - 0.3 * share() * extent[axis];
-  for (unsigned i = 0; i < random() % 3; ++i) {
-    const Point low = bounds.min + Point{share(), share(), share()}.cwiseProduct(extent);
-    limits.keep_out.push_back(
-        {low, low + 0.4 * Point{share(), share(), share() + 0.2}.cwiseProduct(extent) +
-                  Point::Constant(0.01)});
-  }
-  return limits;
 }
 
 struct Answers {

@@ -8,6 +8,7 @@
 #include "roadmap/graph_search.hpp"
 #include "support/dijkstra.hpp"
 #include "support/places.hpp"
+#include "support/random_limits.hpp"
 #include "support/random_maps.hpp"
 
 namespace ridgeway {
@@ -173,6 +174,71 @@ TEST(AStar, KeepsToItsWeightAndToTheLengthOfInterest) {
     }
   }
   EXPECT_GT(routes, 200);
+}
+
+/// The voxels that moves may lead over within limits, by the test's own judgement.
+VoxelMask voxels_within(const EsdfMap& esdf, const FlightLimits& limits) {
+  VoxelMask within(esdf.layout);
+  for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
+    if (testing::is_within(limits, esdf.layout.index_of(id), esdf.voxel_size)) within.set(id);
+  return within;
+}
+
+struct LimitedRoutes {
+  int found = 0, none = 0;
+  int longer = 0;  ///< than without limits
+};
+
+/// From one place to others, and again where only what is no longer than the shortest path counts.
+void expect_equals_dijkstra_within(const EsdfMap& esdf, const FlightLimits& limits, double radius,
+                                   unsigned seed, LimitedRoutes& routes) {
+  const VoxelMask within = voxels_within(esdf, limits);
+  const std::vector<VoxelId> places = testing::traversable_places(esdf, radius, &within);
+  if (places.empty()) return;
+  const FreeSpace space(esdf, limits);
+  const VoxelId start = places[seed * 7919 % places.size()];
+  const auto costs = testing::dijkstra_voxels(esdf, start, radius, &within);
+  for (std::size_t j = 0; j < 12; ++j) {
+    const VoxelId goal = places[(seed * 31 + j * 104729) % places.size()];
+    const auto search = [&](const FreeSpace& free, const detail::LatticeOptions& options) {
+      return detail::search_lattice(free, start, goal, radius, options, kNever);
+    };
+    const LatticePath path = search(space, {});
+    const auto cost = costs.find(goal);
+    ASSERT_EQ(path.status == SearchStatus::kFound, cost != costs.end());
+    ASSERT_EQ(search(space, {.weight = 1.15}).status, path.status);
+    if (path.status != SearchStatus::kFound) {
+      ++routes.none;
+      continue;
+    }
+    ++routes.found;
+    ASSERT_NEAR(path.cost, cost->second, 1e-9);
+    ASSERT_NEAR(lattice_length(esdf, path.voxels), cost->second, 1e-9);
+    for (const VoxelId id : path.voxels) ASSERT_TRUE(within.test(id));
+    ASSERT_NEAR(search(space, {.longest = cost->second + 1e-6}).cost, cost->second, 1e-9);
+    routes.longer += search(FreeSpace(esdf, FlightLimits{}), {}).cost < cost->second - 1e-9;
+  }
+}
+
+TEST(AStar, WithinLimitsOfFlightEqualsDijkstra) {
+  LimitedRoutes routes;
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    const OccupancyMap map = testing::random_map(seed);
+    const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
+    const EsdfMap esdf = compute_esdf(map, {.unknown = policy});
+    std::mt19937 random(seed);
+    FlightLimits limits = testing::random_limits(random, *known_bounds(map));
+    for (int i = 0; i < 4; ++i)  // so many boxes that paths go round them
+      for (const Box& box : testing::random_limits(random, *known_bounds(map)).keep_out)
+        limits.keep_out.push_back(box);
+    for (const double radius : {0.1, 0.15})
+      expect_equals_dijkstra_within(esdf, limits, radius, seed, routes);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(routes.found, 1000);
+  EXPECT_GT(routes.none, 100);
+  EXPECT_GT(routes.longer, 50);
 }
 
 TEST(AStar, StopsAtItsDeadline) {
