@@ -11,6 +11,7 @@
 
 #include "open_buckets.hpp"
 #include "ridgeway/esdf/free_space.hpp"
+#include "voxel/beyond_parent.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -66,13 +67,6 @@ class SearchMemory {
 /// Set beside a voxel's direction once it was expanded and each neighbour could be moved to, or had
 /// been reached as cheaply before.
 constexpr std::uint8_t kOpen = 32;
-
-/// By the direction back to a parent: the neighbours that are none of the parent's.
-constexpr std::array<Cube27, 27> kBeyondParent = [] {
-  std::array<Cube27, 27> beyond{};
-  for (std::size_t d = 0; d < 27; ++d) beyond[d] = kCells26 & ~grow26(Cube27{1} << d);
-  return beyond;
-}();
 
 class LatticeSearch {
  public:

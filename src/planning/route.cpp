@@ -119,8 +119,8 @@ void search_diagram(const Roadmap& roadmap, const FreeSpace& space, const RouteQ
 Attachment attach(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query) {
   RouteQuery sphere = query;
   sphere.radius = space.inner_radius(query.radius);
-  Attachment attachment{follow_attach(roadmap, query.from, sphere.radius),
-                        follow_attach(roadmap, query.to, sphere.radius), Reach::kUnclear};
+  auto [from, to] = follow_attach(roadmap, std::array{query.from, query.to}, sphere.radius);
+  Attachment attachment{std::move(from), std::move(to), Reach::kUnclear};
   attachment.reach = compare_ways(roadmap, sphere, attachment.from, attachment.to);
   return attachment;
 }

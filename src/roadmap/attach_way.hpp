@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct AttachWay {
   bool reached() const { return vertex != kNoVertex; }
 };
 AttachWay follow_attach(const Roadmap& roadmap, VoxelId from, double radius);
+/// Of two voxels, in less time than one after the other.
+std::array<AttachWay, 2> follow_attach(const Roadmap& roadmap, const std::array<VoxelId, 2>& from,
+                                       double radius);
 
 /// The vertex that stands on a voxel, or kNoVertex.
 VertexId vertex_at(const SparseGraph& graph, const VoxelIndex& voxel);

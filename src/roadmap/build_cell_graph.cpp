@@ -59,6 +59,8 @@ class CellGraphBuilder {
         16);
     parallel_for_each_index(
         count, [&](std::size_t i) { link(static_cast<CellId>(i)); }, 64);
+    parallel_for_each_index(
+        count, [&](std::size_t i) { look_all_around(static_cast<CellId>(i)); }, 64);
     detail::add_bends(space_, radius_, graph_);
     number_parts();
     return std::move(graph_);
@@ -108,6 +110,19 @@ class CellGraphBuilder {
       if (other == detail::kNoCell || cells_[other].place == CellGraph::kNoPlace) continue;
       cells_[cell].widths[static_cast<std::size_t>(d - kCentre - 1)] = width_between(cell, other);
     }
+  }
+
+  void look_all_around(CellId cell) {
+    if (cells_[cell].place == CellGraph::kNoPlace) return;
+    auto least = static_cast<std::uint8_t>(kRadiusLevels.size());
+    for (int d = 0; d < 27 && least > 0; ++d) {
+      if (d == kCentre) continue;
+      const CellId other = lattice_.neighbour(cell, d);
+      least = other == detail::kNoCell
+                  ? std::uint8_t{0}
+                  : std::min(least, detail::edge_width(cells_, cell, other, d));
+    }
+    cells_[cell].all_around = least;
   }
 
   /// How many of the levels of radii pass between two places. Only for small robots single

@@ -3,6 +3,7 @@
 #include "cell_search.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <queue>
 
@@ -11,6 +12,7 @@
 #include "cell_neighbours.hpp"
 #include "met_cells.hpp"
 #include "paths/planning_constants.hpp"
+#include "voxel/beyond_parent.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -66,6 +68,7 @@ class CellSearch {
   struct Open {
     float estimate, cost;
     CellId cell;
+    Direction back = kCentre;  ///< to the cell before it, if all 26 edges of that are free
     bool operator<(const Open& other) const {  // the queue's top is the best
       return estimate != other.estimate ? estimate > other.estimate : cell > other.cell;
     }
@@ -87,10 +90,10 @@ class CellSearch {
     return rest;
   }
 
-  void reach(float cost, CellId from, MetCells::Met& met) {
+  void reach(float cost, CellId from, MetCells::Met& met, Direction back = kCentre) {
     met.cost = cost;
     met.from = from;
-    open_.push({cost + static_cast<float>(query_.effort.weight) * met.rest, cost, met.cell});
+    open_.push({cost + static_cast<float>(query_.effort.weight) * met.rest, cost, met.cell, back});
   }
 
   /// The last cell of the best route found, or kNoCell.
@@ -121,16 +124,35 @@ class CellSearch {
     return best_last;
   }
 
+  /// Cells beside one, by direction.
+  using Around = std::array<CellId, 27>;
+
+  /// Finds those in some directions, and has the memory fetch what is known of them: all at once,
+  /// as most of a search is waiting for it.
+  void fetch_around(CellId cell, Cube27 directions, Around& around) const {
+    for (; directions != 0; directions &= directions - 1) {
+      const int d = std::countr_zero(directions);
+      const CellId next = lattice_.neighbour(cell, d);
+      around[static_cast<std::size_t>(d)] = next;
+      if (next == kNoCell) continue;
+      __builtin_prefetch(&cells_[next]);
+      if (!lengths_.empty()) __builtin_prefetch(&lengths_[next / CellGraph::kPerBlock]);
+    }
+  }
+
   /// `best`: length that ways have to stay below, voxels.
   void expand(const Open& here, float best) {
+    const Cube27 directions = kBeyondParent[here.back];
+    Around around;
+    fetch_around(here.cell, directions, around);
     const VoxelIndex first = lattice_.first_voxel(here.cell);
     const Place place = place_in(here.cell, first);
-    for (int d = 0; d < 27; ++d) {
-      if (d == kCentre) continue;
-      const CellId next = lattice_.neighbour(here.cell, d);
+    const bool is_open = !is_beyond_levels_ && cells_[here.cell].all_around >= least_width_;
+    for (Cube27 left = directions; left != 0; left &= left - 1) {
+      const int d = std::countr_zero(left);
+      const CellId next = around[static_cast<std::size_t>(d)];
       if (next == kNoCell) continue;
-      const std::size_t width = edge_width(cells_, here.cell, next, d);
-      if (width < least_width_) continue;
+      if (!is_open && edge_width(cells_, here.cell, next, d) < least_width_) continue;
       const VoxelIndex& o = offset_of(d);
       const Place there =
           place_in(next, first + VoxelIndex{CellGraph::kSide * o.x, CellGraph::kSide * o.y,
@@ -140,7 +162,7 @@ class CellSearch {
       if (cost >= met.cost) continue;  // as most have
       if (met.rest < 0.0f) met.rest = rest_from(next, there);
       if (cost + met.rest < best && (!is_beyond_levels_ || is_free(here.cell, next)))
-        reach(cost, here.cell, met);
+        reach(cost, here.cell, met, is_open ? static_cast<Direction>(opposite(d)) : kCentre);
     }
   }
 

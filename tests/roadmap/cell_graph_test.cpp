@@ -20,6 +20,7 @@
 #include "roadmap/cell_walks.hpp"
 #include "support/pillars.hpp"
 #include "support/places.hpp"
+#include "support/random_maps.hpp"
 
 namespace ridgeway {
 namespace {
@@ -66,13 +67,44 @@ TEST(CellGraph, EveryPlaceAndEdgeKeepsItsClearance) {
   EXPECT_GT(edges, 6000u);
 }
 
+TEST(CellGraph, KnowsWhereAllEdgesAroundACellLetARadiusThrough) {
+  std::size_t open = 0, closed = 0;
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const OccupancyMap map =
+        testing::make_map(0.1, {0, 0, 0}, {47, 47, 47}, [&](const VoxelIndex&) {
+          return random() % 3000 == 0 ? VoxelState::kOccupied : VoxelState::kFree;
+        });
+    const EsdfMap esdf = compute_esdf(map);
+    const CellGraph graph = build_cell_graph(esdf, 0.1);
+    const detail::CellLattice lattice(esdf.layout);
+    const std::vector<CellGraph::Cell>& cells = graph.cells;
+    for (detail::CellId cell = 0; cell < cells.size(); ++cell) {
+      std::size_t least = CellGraph::kLevels;
+      for (int d = 0; d < 27; ++d) {
+        if (d == kCentre) continue;
+        const detail::CellId next = lattice.neighbour(cell, d);
+        const std::size_t width =
+            next == detail::kNoCell ? 0 : detail::edge_width(cells, cell, next, d);
+        least = std::min(least, width);
+      }
+      ASSERT_EQ(cells[cell].all_around, least);
+      least > 0 ? ++open : ++closed;
+    }
+  }
+  EXPECT_GT(open, 1000u);
+  EXPECT_GT(closed, 1000u);
+}
+
 TEST(CellGraph, IsTheSameForAnyNumberOfThreads) {
   const Roadmap roadmap = pillar_roadmap(1);
   const auto run = [&] { return build_cell_graph(roadmap.esdf, kClearance); };
   const CellGraph one = with_threads(1, run), two = with_threads(2, run);
   EXPECT_TRUE(std::equal(one.cells.begin(), one.cells.end(), two.cells.begin(), two.cells.end(),
                          [](const CellGraph::Cell& a, const CellGraph::Cell& b) {
-                           return a.place == b.place && a.widths == b.widths && a.parts == b.parts;
+                           return a.place == b.place && a.widths == b.widths &&
+                                  a.parts == b.parts && a.all_around == b.all_around;
                          }));
   EXPECT_FALSE(one.bends.empty());
   EXPECT_TRUE(std::equal(one.bends.begin(), one.bends.end(), two.bends.begin(), two.bends.end(),

@@ -53,7 +53,8 @@ struct CellGraph {
     /// How many of the radii the edges in the directions 14 to 26 (voxel/neighbourhood.hpp) let
     /// through; 0: no edge. The cell beyond has those of the others.
     std::array<std::uint8_t, 13> widths{};
-    bool has_bends = false;  ///< whether `bends` has some from it
+    bool has_bends = false;       ///< whether `bends` has some from it
+    std::uint8_t all_around = 0;  ///< how many of the radii all 26 edges let through
     /// Connected parts of this graph, of the edges and bends that let each of these radii through.
     std::array<std::uint16_t, kLevels> parts{kNoPart, kNoPart, kNoPart, kNoPart};
   };
