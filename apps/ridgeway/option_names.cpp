@@ -23,6 +23,7 @@ constexpr Naming kNamings[] = {
     {"--derivative", "smoothness", "--derivative"},
     // Fields that are words of the language, too, with those around them.
     {"--bounds", "give bounds", "give --bounds"},
+    {"--units", "give units", "give --units"},
     {"--bounds", "larger bounds", "larger --bounds"},
     {"--bounds", "cut the map down to a smaller box", "smaller --bounds"},
     {"--voxel-size", "use larger voxels", "give a larger --voxel-size"},

@@ -119,7 +119,7 @@ std::optional<OccupancyMap> try_voxels(const std::filesystem::path& file, const 
     for (const std::string& text : notes.notes) note(globals, with_option_names(text));
     return map;
   } catch (const InputError& error) {
-    if (error.remedy().starts_with("give voxel_size")) return std::nullopt;
+    if (error.problem().starts_with("is a point cloud")) return std::nullopt;
     throw;
   }
 }

@@ -117,7 +117,7 @@ OccupancyMap load_cloud(const PointCloud& cloud, const LoadConfig& config, const
         name,
         "is a point cloud, which has no voxel size, and in which the free space is not "
         "recorded",
-        std::string("give voxel_size and bounds; ").append(span));
+        std::string("give bounds and voxel_size; ").append(span));
   if (!config.voxel_size)
     throw InputError(name, "is a point cloud, which has no voxel size",
                      std::string("give voxel_size; ").append(span));

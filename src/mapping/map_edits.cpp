@@ -10,6 +10,7 @@
 
 #include "common/number_text.hpp"
 #include "memory_limit.hpp"
+#include "planar.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
@@ -84,6 +85,7 @@ void change_small_clusters(OccupancyMap& map, VoxelState state, double enough, V
 
 OccupancyMap crop(OccupancyMap map, const Box& box) {
   validate_box(box, "bounds");
+  detail::require_three_dimensions(map);
   const VoxelRange inside = own_voxels(map, voxels_inside(box, map.voxel_size));
   for_each_block(map.layout, [&](std::uint32_t slot, const VoxelRange& block) {
     if (inside.contains(block.min) && inside.contains(block.max)) return;
@@ -99,6 +101,7 @@ OccupancyMap add_no_fly(OccupancyMap map, std::span<const Box> boxes) {
   for (std::size_t i = 0; i < boxes.size(); ++i)
     validate_box(boxes[i], "no-fly box " + std::to_string(i + 1));
   if (boxes.empty()) return map;
+  detail::require_three_dimensions(map);
 
   const VoxelRange reach = grown(known_range(map), kBlockSide);
   std::vector<VoxelRange> closed;
@@ -139,7 +142,9 @@ OccupancyMap remove_isolated(OccupancyMap map, int min_cluster) {
     throw InputError("isolated_below", "is " + std::to_string(min_cluster),
                      "give a number of voxels, 0 to keep all");
   }
-  change_small_clusters(map, VoxelState::kOccupied, min_cluster, VoxelState::kFree);
+  change_small_clusters(map, VoxelState::kOccupied,
+                        static_cast<double>(min_cluster) * detail::copies_of_a_voxel(map),
+                        VoxelState::kFree);
   return map;
 }
 
@@ -148,7 +153,8 @@ OccupancyMap remove_pockets(OccupancyMap map, double min_volume) {
     throw InputError("min_volume", "is " + number_text(min_volume),
                      "give cubic metres, 0 to keep all");
   }
-  change_small_clusters(map, VoxelState::kFree, min_volume / std::pow(map.voxel_size, 3),
+  const double voxels = min_volume / std::pow(map.voxel_size, 3);
+  change_small_clusters(map, VoxelState::kFree, voxels * detail::copies_of_a_voxel(map),
                         VoxelState::kUnknown);
   return map;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "memory_limit.hpp"
+#include "planar.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/mapping/map_edits.hpp"
@@ -168,6 +169,7 @@ OccupancyMap transform_map(const OccupancyMap& map, const Eigen::Isometry3d& T_t
                            double voxel_size) {
   validate_transform(T_target_source);
   validate_voxel_size(voxel_size, "voxel_size");
+  detail::require_three_dimensions(map);
   const double ratio = voxel_size / map.voxel_size;
   if (ratio < 1.0 - 1e-6) {
     std::ostringstream what;

@@ -90,6 +90,7 @@ OccupancyMap normalised(OccupancyMap map) {
   OccupancyMap result;
   result.voxel_size = map.voxel_size;
   result.origin = map.origin + low;
+  result.planar = map.planar;
   result.layout = BlockLayout(std::move(blocks));
   result.state = VoxelField<VoxelState>(result.layout);
   parallel_for_each_index(

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "planar.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/mapping/map_edits.hpp"
@@ -155,6 +156,7 @@ OccupancyMap resample(OccupancyMap map, double voxel_size) {
     throw InputError("voxel_size", what.str(), "leave it out, or give a larger one");
   }
   if (ratio == 1.0) return map;
+  detail::require_three_dimensions(map);
 
   const Overlaps overlaps(ratio, map.origin);
   const std::vector<BlockPair> pairs = overlapping_blocks(map.layout, overlaps);

@@ -68,7 +68,7 @@ TEST(LoadMap, CloudsNeedVoxelSizeAndBoundsAndSayWhereTheyAre) {
   const auto file = folder / "cloud.xyz";
   write_whole(file, "0 0 0\n1 2 3\n");
   EXPECT_TRUE(contains(refusal([&] { load_map(file); }),
-                       "give voxel_size and bounds; its points span 0,0,0"));
+                       "give bounds and voxel_size; its points span 0,0,0"));
   EXPECT_TRUE(contains(refusal([&] {
                          load_map(file, {.bounds = Box{{0, 0, 0}, {2, 2, 2}}});
                        }),

@@ -231,16 +231,17 @@ TEST(MapFromPoints, VoxelsWithPointsAreOccupiedAndTheRestOfTheBoundsFree) {
 
 TEST(MapFromPoints, PointsThatAreLeftOutAreTold) {
   PointCloud cloud;
-  for (const double x : {500.0, 1000.0, 0.5}) cloud.add(x, 1.0, 1.0);  // millimetres, and a speck
+  for (const double x : {500.0, 1000.0, 0.5}) cloud.add(x, 0.5, 0.5);  // millimetres, and a speck
   cloud.add(std::nan(""), 0, 0);
   const CloudMapConfig config{.voxel_size = 0.5, .bounds = {Point::Zero(), Point::Constant(1)}};
   LoadNotes notes;
   map_from_points(cloud, config, "cloud", &notes);
   ASSERT_EQ(notes.notes.size(), 2u);
   EXPECT_EQ(notes.notes[0], "1 of 4 points were skipped: a coordinate is not finite");
-  EXPECT_EQ(notes.notes[1],
-            "2 of 3 points lie outside of the bounds and are left out; all points span 0.5,1,1 to "
-            "1000,1,1: are the bounds in metres, and the points too?");
+  EXPECT_EQ(
+      notes.notes[1],
+      "2 of 3 points lie outside of the bounds and are left out; all points span 0.5,0.5,0.5 to "
+      "1000,0.5,0.5: are the bounds in metres, and the points too?");
   // One on the bounds is not outside of them.
   cloud = {};
   cloud.add(1, 1, 1);

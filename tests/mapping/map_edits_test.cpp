@@ -6,9 +6,11 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "mapping/random_map.hpp"
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
 
 namespace ridgeway {
 namespace {
@@ -110,6 +112,34 @@ TEST(RemovePockets, ForgetsFreeSpaceBelowTheVolumeOnly) {
   EXPECT_EQ(count_voxels(remove_pockets(map, 1.01)).free, 0u);
   EXPECT_EQ(count_voxels(remove_pockets(map, 1.01)).occupied, 100u);
   EXPECT_THROW(remove_pockets(map, std::nan("")), InputError);
+}
+
+/// A floor of 6 x 6 columns with a hole of one, and a column apart.
+OccupancyMap planar_map() {
+  OccupancyBuilder builder(0.5);
+  builder.fill({{0, 0, 0}, {5, 5, 0}}, VoxelState::kFree);
+  builder.fill({{2, 2, 0}, {2, 2, 0}}, VoxelState::kOccupied);
+  builder.fill({{9, 9, 0}, {9, 9, 0}}, VoxelState::kFree);
+  return flatten(std::move(builder).finish(), 0.0, 0.5);
+}
+
+TEST(PlanarMap, ColumnsCountAsVoxels) {
+  EXPECT_EQ(count_voxels(remove_isolated(planar_map(), 1)).occupied, 1u);
+  EXPECT_EQ(count_voxels(remove_isolated(planar_map(), 2)).occupied, 0u);
+  const double one = 0.125;
+  EXPECT_EQ(count_voxels(remove_pockets(planar_map(), one)).free, 36u);
+  EXPECT_EQ(count_voxels(remove_pockets(planar_map(), 1.5 * one)).free, 35u);
+}
+
+TEST(PlanarMap, IsNotTakenApart) {
+  const Box half = {Point::Zero(), Point::Constant(1.0)};
+  const std::vector<Box> boxes{half};
+  EXPECT_THROW(crop(planar_map(), half), InputError);
+  EXPECT_THROW(add_no_fly(planar_map(), boxes), InputError);
+  EXPECT_THROW(resample(planar_map(), 1.0), InputError);
+  EXPECT_THROW(transform_map(planar_map(), Eigen::Isometry3d::Identity(), 0.5), InputError);
+  EXPECT_TRUE(add_no_fly(planar_map(), {}).planar);
+  EXPECT_TRUE(resample(planar_map(), 0.5).planar);
 }
 
 }  // namespace

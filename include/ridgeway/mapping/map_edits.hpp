@@ -11,6 +11,9 @@
 
 namespace ridgeway {
 
+// Edits of maps in three dimensions: one that would take the layers of a planar map (flatten) apart
+// throws InputError.
+
 /// The same space at a coarser voxel size, without ever losing an obstacle: a coarse voxel is
 /// occupied where it shares volume with an occupied voxel, else unknown where it shares volume
 /// with an unknown one, else free. The ratio of the sizes need not be whole; one within 1e-6 of a

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#pragma once
+
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/mapping/occupancy_map.hpp"
+
+namespace ridgeway::detail {
+
+/// Throws InputError where an edit in three dimensions would take the layers of a planar map apart.
+inline void require_three_dimensions(const OccupancyMap& map) {
+  if (map.planar)
+    throw InputError("map", "is planar, which cannot be edited",
+                     "edit it before flatten, or give bounds and no-fly boxes where it is loaded");
+}
+
+/// How many voxels of the layout stand for one of the map.
+inline int copies_of_a_voxel(const OccupancyMap& map) { return map.planar ? kBlockSide : 1; }
+
+}  // namespace ridgeway::detail
