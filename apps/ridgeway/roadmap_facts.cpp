@@ -40,6 +40,18 @@ std::string part_text(const BlockedRoute& blocked, bool is_start) {
          text_of(part.volume) + " m^3";
 }
 
+/// What is in the way where there is no way at any radius.
+std::string shut_text(const BlockedRoute& blocked) {
+  if (blocked.place)
+    return "unknown space lies between them, first at " + point_text(*blocked.place) +
+           ": map what is there";
+  if (blocked.map_end)
+    return "an obstacle lies between them, right across the map; the only other way leads beyond "
+           "where the map ends, at " +
+           point_text(*blocked.map_end) + ": give a map that goes farther";
+  return "obstacles enclose one of them";
+}
+
 std::string explain_endpoint(const Roadmap& roadmap, const Query& query, PlanStatus status,
                              bool escapes) {
   const bool is_start =
@@ -66,6 +78,10 @@ std::string explain_endpoint(const Roadmap& roadmap, const Query& query, PlanSta
     default:
       return text + "cannot be used: " + explain_collision(roadmap, query, place, escapes);
   }
+}
+
+nlohmann::ordered_json or_null(const std::optional<Point>& place) {
+  return place ? json_of(*place) : nlohmann::ordered_json(nullptr);
 }
 
 }  // namespace
@@ -109,10 +125,7 @@ std::string AnswerFacts::explain_no_route(const Query& query) {
                             ", the goal in component " + part_text(*blocked, false) + ")";
   const char* what = blocked->by == Blocker::kUnknown ? "unknown space" : "an obstacle";
   if (blocked->radius == 0.0)
-    return text + ", nor at any other" + parts + ": " +
-           (blocked->place ? "unknown space lies between them, first at " +
-                                 point_text(*blocked->place) + ": map what is there"
-                           : "obstacles enclose one of them");
+    return text + ", nor at any other" + parts + ": " + shut_text(*blocked);
   const std::string most = metres_at_most(blocked->radius);
   return text + parts + ", but they are at " + most + ", where " + what + " is in the way at " +
          point_text(*blocked->place) +
@@ -152,8 +165,9 @@ PathSurroundings AnswerFacts::surroundings(std::span<const Point> path, double r
 nlohmann::ordered_json json_of(const BlockedRoute& blocked) {
   return {{"blocked",
            {{"radius", blocked.radius},
-            {"place", blocked.place ? json_of(*blocked.place) : nlohmann::ordered_json(nullptr)},
-            {"by", std::string(name_of(blocked.by))}}},
+            {"place", or_null(blocked.place)},
+            {"by", std::string(name_of(blocked.by))},
+            {"map_end", or_null(blocked.map_end)}}},
           {"components", {{"start", blocked.start_number}, {"goal", blocked.goal_number}}},
           {"component_volumes",
            {{"start", blocked.start_component.volume}, {"goal", blocked.goal_component.volume}}}};

@@ -119,7 +119,7 @@ RESULTS.update({"TsdfFusion.map": "TsdfMap", "Roadmap.distances": "NDArray[np.fl
                 "DepthSequence.__getitem__": "Tuple[NDArray[np.float32], NDArray[np.float64]]"})
 PROPERTIES = {
     "bounds": "Optional[Tuple[_Triple, _Triple]]", "keep_in": "Tuple[_Triple, _Triple]",
-    "keep_out": "List[Tuple[_Triple, _Triple]]", "place": "Optional[_Triple]",
+    "keep_out": "List[Tuple[_Triple, _Triple]]", "map_end": "Optional[_Triple]", "place": "Optional[_Triple]",
     "counts": "Dict[str, int]", "seconds": "Dict[str, float]", "config": "Dict[str, Any]",
     "report": "Optional[Dict[str, Any]]",
     "vertices points waypoints block_corners distances durations coefficients tour edge_lengths "

@@ -295,6 +295,13 @@ void add_results(py::module_& module) {
           },
           "Where that way is narrowest, (x, y, z), metres; or None.")
       .def_property_readonly(
+          "map_end",
+          [](const BlockedRoute& blocked) -> py::object {
+            return blocked.map_end ? py::object(tuple_of(*blocked.map_end)) : py::none();
+          },
+          "Where obstacles part start and goal right across the map: a place, (x, y, z), at which "
+          "the only other way\nleads beyond where the map ends; or None.")
+      .def_property_readonly(
           "by", [](const BlockedRoute& blocked) { return std::string(name_of(blocked.by)); },
           "What is nearest there: 'obstacle', 'unknown' or 'limits'.")
       .def("__repr__", [](const BlockedRoute& blocked) {

@@ -135,7 +135,7 @@ def test_plans_are_arrays_and_reasons(roadmap):
     wide = roadmap.plan(START, GOAL, radius=0.5)
     assert wide.status == "no_route"
     blocked = roadmap.explain(START, GOAL, radius=0.5)
-    assert 0.35 <= blocked.radius <= 0.4 and blocked.by == "obstacle"
+    assert 0.35 <= blocked.radius <= 0.4 and blocked.by == "obstacle" and blocked.map_end is None
     assert blocked.place[0] == pytest.approx(3.2, abs=0.2)
     assert roadmap.plan((0.25, 0.8, 1.0), GOAL).status == "start_in_collision"
     assert roadmap.plan((0.25, 0.8, 1.0), GOAL, snap=0.5).moved_start > 0
@@ -147,6 +147,16 @@ def test_plans_are_arrays_and_reasons(roadmap):
 def test_points_may_be_anything_of_three_numbers(roadmap, kind):
     assert roadmap.plan(kind(START), kind(GOAL)).length == pytest.approx(
         roadmap.plan(START, GOAL).length, rel=1e-6)
+
+def test_a_wall_across_the_map_is_named_and_where_the_map_ends(rooms):
+    rooms[:] = ridgeway.FREE
+    rooms[31:33] = ridgeway.OCCUPIED
+    cut = ridgeway.build(ridgeway.OccupancyMap.from_numpy(rooms, 0.1), min_clearance=0.25)
+    blocked = cut.explain(START, GOAL)
+    assert blocked.radius == 0 and blocked.by == "obstacle" and blocked.place is None
+    beyond = [not 0 <= c <= size for c, size in zip(blocked.map_end, (6.4, 4.4, 2.4))]
+    assert any(beyond) and blocked.map_end[0] < 3.1
+
 
 
 @pytest.mark.parametrize(

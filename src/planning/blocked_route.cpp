@@ -3,74 +3,29 @@
 #include "ridgeway/planning/blocked_route.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <span>
 #include <vector>
 
+#include "open_inside.hpp"
 #include "query.hpp"
 
 namespace ridgeway {
 namespace {
 
-/// Directions of the neighbours across faces; in a plane there are four.
-std::span<const int> faces_of(const EsdfMap& esdf) {
-  static constexpr std::array kFaces{10, 12, 14, 16, 4, 22};
-  return std::span(kFaces).first(esdf.planar ? 4 : 6);
-}
-
-/// The voxels that face moves over what is not occupied join with one, and whether they reach what
-/// is not allocated, which is all one: unknown.
-struct NotSolid {
-  VoxelMask voxels;
-  bool outside = false;
-};
-
-NotSolid flood_not_solid(const EsdfMap& esdf, VoxelId from) {
-  const BlockLayout& layout = esdf.layout;
-  const std::span<const int> faces = faces_of(esdf);
-  NotSolid reached{VoxelMask(layout)};
-  std::vector<VoxelId> open;
-  const auto reach = [&](VoxelId id) {
-    if (esdf.state[id] == VoxelState::kOccupied || reached.voxels.test(id)) return;
-    reached.voxels.set(id);
-    open.push_back(id);
-  };
-  const auto has_absent_neighbour = [&](VoxelId id) {
-    return std::any_of(faces.begin(), faces.end(),
-                       [&](int d) { return layout.neighbour(id, d) == kNoVoxel; });
-  };
-  for (reach(from); !open.empty();) {
-    const VoxelId id = open.back();
-    open.pop_back();
-    bool leaves = false;
-    for (const int d : faces) {
-      const VoxelId next = layout.neighbour(id, d);
-      leaves |= next == kNoVoxel;
-      if (next != kNoVoxel) reach(next);
-    }
-    if (!leaves || reached.outside) continue;
-    reached.outside = true;
-    for (VoxelId other = 0; other < layout.voxel_count(); ++other)
-      if (has_absent_neighbour(other)) reach(other);
-  }
-  return reached;
-}
-
 /// The first unknown voxel beside the free space around a voxel, by the number of face moves, from
 /// which another place can be reached.
-std::optional<VoxelIndex> nearest_gate(const EsdfMap& esdf, VoxelId from, const NotSolid& beyond) {
+std::optional<VoxelIndex> nearest_gate(const EsdfMap& esdf, VoxelId from,
+                                       const detail::OpenInside& around_goal) {
   const BlockLayout& layout = esdf.layout;
   VoxelMask seen(layout);
   std::vector<VoxelId> queue{from};
   seen.set(from);
   for (std::size_t i = 0; i < queue.size(); ++i)
-    for (const int d : faces_of(esdf)) {
+    for (const int d : detail::faces_of(esdf)) {
       const VoxelId next = layout.neighbour(queue[i], d);
       const bool is_unknown = next == kNoVoxel || esdf.state[next] == VoxelState::kUnknown;
       if (is_unknown) {
-        if (next == kNoVoxel ? beyond.outside : beyond.voxels.test(next))
-          return layout.index_of(queue[i]) + offset_of(d);
+        const VoxelIndex gate = layout.index_of(queue[i]) + offset_of(d);
+        if (around_goal.reaches(gate)) return gate;
       } else if (esdf.state[next] == VoxelState::kFree && !seen.test(next)) {
         seen.set(next);
         queue.push_back(next);
@@ -113,11 +68,15 @@ std::optional<BlockedRoute> RouteBlocks::between(const Point& start, const Point
     return blocked;
   }
   if (esdf_.unknown == UnknownPolicy::kFree) return blocked;  // what is occupied encloses one
-  const NotSolid beyond = flood_not_solid(esdf_, ends.to);
-  if (const auto gate = nearest_gate(esdf_, ends.from, beyond)) {
+  const detail::OpenInside around_goal(esdf_, ends.to);
+  if (const auto gate = nearest_gate(esdf_, ends.from, around_goal)) {
     blocked.place = place_of(*gate);
     blocked.by = Blocker::kUnknown;
+    return blocked;
   }
+  if (!around_goal.way_out()) return blocked;
+  const detail::OpenInside around_start(esdf_, ends.from);
+  if (around_start.way_out()) blocked.map_end = place_of(*around_start.way_out());
   return blocked;
 }
 

@@ -124,6 +124,29 @@ TEST_F(CliPlan, SaysWhyThereIsNoPathAndWhatToDo) {
   }
 }
 
+TEST_F(CliPlan, NamesAWallAcrossTheMapNotTheSpaceBeyondWhereItEnds) {
+  std::string points = "x y z\n";
+  for (int y = -20; y < 20; ++y)
+    for (int z = 0; z < 20; ++z)
+      points +=
+          "0.05 " + std::to_string(0.1 * y + 0.05) + " " + std::to_string(0.1 * z + 0.05) + "\n";
+  write_whole(folder_ / "cut.xyz", points);
+  std::vector<std::string> build = {"build", path("cut.xyz"), "-o", path("cut.ridge")};
+  for (const std::string& option : room_options()) build.push_back(option);
+  ASSERT_EQ(run(build).code, 0);
+  const Json json =
+      run({"plan", path("cut.ridge"), "--from", "-2,0,1", "--to", "2,0,1", "--json"}).json();
+  EXPECT_EQ(json["status"], "no_route");
+  EXPECT_EQ(json["blocked"]["by"], "obstacle");
+  EXPECT_EQ(json["blocked"]["radius"], 0.0);
+  EXPECT_TRUE(json["blocked"]["place"].is_null());
+  EXPECT_EQ(json["blocked"]["map_end"].size(), 3u);
+  const std::string reason = json["reason"];
+  EXPECT_NE(reason.find("an obstacle lies between them"), std::string::npos) << reason;
+  EXPECT_NE(reason.find("where the map ends"), std::string::npos) << reason;
+  EXPECT_EQ(reason.find("unknown"), std::string::npos) << reason;
+}
+
 TEST_F(CliPlan, SaysWhenAPlaceIsUnknown) {
   // The flight volume leaves out a corner of the block that it ends in.
   const std::string map = rooms();

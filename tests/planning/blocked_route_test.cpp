@@ -41,16 +41,11 @@ double bottleneck(const EsdfMap& esdf, VoxelId from, VoxelId to) {
   return 0.0;
 }
 
-/// Whether face moves over all that is not occupied join two voxels; outside the blocks all is
-/// open.
-bool joined_but_for_occupied(const OccupancyMap& map, const VoxelIndex& from,
-                             const VoxelIndex& to) {
-  VoxelIndex low = from, high = from;
-  for (const BlockIndex& b : map.layout.blocks())
-    for (const VoxelIndex& v : {voxel_of(b, 0), voxel_of(b, kBlockVoxels - 1)}) {
-      low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
-      high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
-    }
+/// Whether face moves over all that is not occupied join two voxels: inside the box around all that
+/// is known, or all around it too.
+bool joined_but_for_occupied(const OccupancyMap& map, const VoxelIndex& from, const VoxelIndex& to,
+                             bool is_inside = true) {
+  const VoxelRange reach = grown(known_range(map), is_inside ? 0 : 1);
   std::set<VoxelIndex> seen{from};
   std::vector<VoxelIndex> open{from};
   while (!open.empty()) {
@@ -61,9 +56,7 @@ bool joined_but_for_occupied(const OccupancyMap& map, const VoxelIndex& from,
          {VoxelIndex{1, 0, 0}, VoxelIndex{-1, 0, 0}, VoxelIndex{0, 1, 0}, VoxelIndex{0, -1, 0},
           VoxelIndex{0, 0, 1}, VoxelIndex{0, 0, -1}}) {
       const VoxelIndex next = v + step;
-      if (next.x < low.x - 1 || next.y < low.y - 1 || next.z < low.z - 1 || next.x > high.x + 1 ||
-          next.y > high.y + 1 || next.z > high.z + 1)
-        continue;
+      if (!reach.contains(next)) continue;
       if (map.at(next) != VoxelState::kOccupied && seen.insert(next).second) open.push_back(next);
     }
   }
@@ -71,7 +64,7 @@ bool joined_but_for_occupied(const OccupancyMap& map, const VoxelIndex& from,
 }
 
 struct Tally {
-  int narrow = 0, never = 0, by_unknown = 0, enclosed = 0;
+  int narrow = 0, never = 0, by_unknown = 0, enclosed = 0, beyond = 0;
 };
 
 void expect_explained(const Roadmap& roadmap, const OccupancyMap& map, const RouteBlocks& blocks,
@@ -119,7 +112,14 @@ void expect_explained(const Roadmap& roadmap, const OccupancyMap& map, const Rou
       joined_but_for_occupied(map, esdf.layout.index_of(from), esdf.layout.index_of(to));
   EXPECT_EQ(blocked->by == Blocker::kUnknown, joined);
   EXPECT_EQ(blocked->place.has_value(), joined);
-  tally.enclosed += !joined;
+  const bool joined_beyond =
+      joined_but_for_occupied(map, esdf.layout.index_of(from), esdf.layout.index_of(to), false);
+  EXPECT_EQ(blocked->map_end.has_value(), joined_beyond && !joined);
+  tally.enclosed += !joined_beyond;
+  tally.beyond += joined_beyond && !joined;
+  if (blocked->map_end) {
+    EXPECT_FALSE(known_range(map).contains(voxel_at(*blocked->map_end, kVoxel)));
+  }
   if (!joined) return;
   const VoxelIndex gate = voxel_at(*blocked->place, kVoxel);
   EXPECT_EQ(map.at(gate), VoxelState::kUnknown);
@@ -150,6 +150,7 @@ TEST(BlockedRoute, TellsTheWidestWayByBruteForceAndWhatIsInIt) {
   EXPECT_GT(tally.narrow, 50);
   EXPECT_GT(tally.never, 20);
   EXPECT_GT(tally.by_unknown, 10);
+  EXPECT_GT(tally.beyond, 0);
 }
 
 /// Two rooms with a window in the wall between them, 4 voxels wide and high; `filling`: the wall.
@@ -198,6 +199,37 @@ TEST(BlockedRoute, TellsUnknownSpaceFromWallsWhereNoRadiusHelps) {
       EXPECT_EQ(blocked->by, Blocker::kUnknown);
       EXPECT_NEAR(blocked->place->x(), 3.05, 1e-9);  // the window, from the start's side
       EXPECT_NEAR(blocked->place->y(), 1.2, 0.2);
+    }
+}
+
+/// A box that a wall cuts right through, with nothing known beyond its sides.
+OccupancyMap cut_box(VoxelState corner, const VoxelIndex& low = {0, 0, 0}) {
+  return testing::make_map(kVoxel, low, low + VoxelIndex{41, 21, 21}, [=](const VoxelIndex& at) {
+    const VoxelIndex v = at - low;
+    if (v.y > 18 && v.z > 18) return corner;
+    return v.x == 20 ? VoxelState::kOccupied : VoxelState::kFree;
+  });
+}
+
+TEST(BlockedRoute, NamesTheWallWhereTheOnlyOtherWayLeavesTheMap) {
+  const Point start(1.0, 1.0, 1.0), goal(3.0, 1.0, 1.0);
+  for (const UnknownPolicy policy : {UnknownPolicy::kObstacle, UnknownPolicy::kIgnore})
+    for (const VoxelState corner : {VoxelState::kOccupied, VoxelState::kUnknown}) {
+      const OccupancyMap map = cut_box(corner);
+      const Roadmap roadmap = build_roadmap(map, {.min_clearance = 0.3, .unknown = policy}).roadmap;
+      const auto blocked = RouteBlocks(roadmap).between(start, goal, 0.3);
+      ASSERT_TRUE(blocked.has_value());
+      EXPECT_EQ(blocked->radius, 0.0);
+      const bool passes_inside = corner == VoxelState::kUnknown;
+      EXPECT_EQ(blocked->by, passes_inside ? Blocker::kUnknown : Blocker::kObstacle);
+      ASSERT_EQ(blocked->place.has_value(), passes_inside);
+      ASSERT_EQ(blocked->map_end.has_value(), !passes_inside);
+      if (passes_inside) {
+        EXPECT_TRUE(known_range(map).contains(voxel_at(*blocked->place, kVoxel)));
+      } else {
+        EXPECT_FALSE(known_range(map).contains(voxel_at(*blocked->map_end, kVoxel)));
+        EXPECT_LT(blocked->map_end->x(), 2.0);  // on the start's side
+      }
     }
 }
 

@@ -19,10 +19,15 @@ struct BlockedRoute {
   /// through known-free space for any robot. Limits of the flight count for none of this; where
   /// they are what is in the way it is 0, and there is no place.
   double radius = 0.0;
-  /// Where the widest way is narrowest. Where there is none at all: the nearest unknown voxel, by
-  /// moves from the start, beyond which nothing occupied is known to be in the way; nothing where
-  /// what is occupied encloses one of the two. Metres, world frame.
+  /// Where the widest way is narrowest. Where there is none at all: the nearest unknown voxel of
+  /// the map, by moves from the start, beyond which nothing occupied is known to be in the way;
+  /// nothing where what is occupied parts the two. The map ends at the box around all that is known
+  /// (see known_bounds). Metres, world frame.
   std::optional<Point> place;
+  /// Where what is occupied parts the two, but may not do so beyond the map's end: a place near the
+  /// start at which a way would leave the map. Nothing where what is occupied encloses one of the
+  /// two. Metres, world frame.
+  std::optional<Point> map_end;
   Blocker by = Blocker::kObstacle;  ///< what is nearest there; of equally near ones the obstacle
   // The two parts of traversable space at the asked radius, and their numbers among all parts,
   // largest first:
