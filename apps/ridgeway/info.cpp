@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "commands.hpp"
 #include "console.hpp"
+#include "example_query.hpp"
 #include "json.hpp"
 #include "limit_options.hpp"
 #include "ridgeway/common/error.hpp"
@@ -235,16 +238,41 @@ int run_place(const InfoOptions& options, const Globals& globals) {
   return kExitDone;
 }
 
+/// With all digits that a coordinate needs.
+std::string exact_text(const Json& place) {
+  std::string text;
+  for (const Json& coordinate : place) text += (text.empty() ? "" : ",") + coordinate.dump();
+  return text;
+}
+
+/// As a shell takes it.
+std::string word_text(const std::string& word) {
+  const bool is_plain = std::all_of(word.begin(), word.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 ||
+           std::string_view("/._-+").find(static_cast<char>(c)) != std::string_view::npos;
+  });
+  if (is_plain) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
 int run_roadmap(const InfoOptions& options, const Globals& globals) {
   const Roadmap roadmap = load_roadmap(options.file);
   Json json = roadmap_json(options, roadmap, read_ridge_info(options.file));
   const ComponentReport report = report_components(roadmap);
+  if (const auto query = example_query(roadmap))
+    json["example"] = {{"from", cli::json_of(query->first)}, {"to", cli::json_of(query->second)}};
   if (globals.json) {
     json.update(json_of(report));
     print_json(json);
   } else {
     print_roadmap(json);
     print_components(report);
+    if (json.contains("example"))
+      print_row("for example", "ridgeway plan " + word_text(options.file) + " --from " +
+                                   exact_text(json["example"]["from"]) + " --to " +
+                                   exact_text(json["example"]["to"]));
   }
   return kExitDone;
 }
@@ -273,7 +301,7 @@ void add_info_command(Command& program) {
                 "and what is in the way to the other components");
   command.footer(
       "For a roadmap also its components: how large, how wide, and where a smaller robot would\n"
-      "find them joined.\n"
+      "find them joined; and a start and a goal to try.\n"
       "Example:\n"
       "  ridgeway info office.ridge");
   command.runs(options, run);

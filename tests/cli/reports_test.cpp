@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
+#include <cmath>
+
 #include "program.hpp"
 
 namespace ridgeway {
@@ -60,6 +62,32 @@ TEST_F(CliInfo, TellsWhereASmallerRobotWouldFindPartsJoined) {
   EXPECT_LT(json["joins"][0]["radius"].get<double>(), 0.3);
   EXPECT_NEAR(json["joins"][0]["place"][1].get<double>(), 0.25, 0.06);
   EXPECT_NE(run({"info", path("tight.ridge")}).out.find("would join"), std::string::npos);
+}
+
+TEST_F(CliInfo, GivesAPlanThatCanBeRun) {
+  std::vector<std::string> maps = {rooms()};
+  ASSERT_EQ(build_rooms("a 'tight' one.ridge", {"--exclude", "0,-2,0,0.1,2,2"}).code, 0);
+  maps.push_back(path("a 'tight' one.ridge"));
+  ASSERT_EQ(build_rooms("flat.ridge", {"--planar", "0.5,1.5"}).code, 0);
+  maps.push_back(path("flat.ridge"));
+  for (const std::string& map : maps) {
+    const Outcome told = run({"info", map, "--json"});
+    ASSERT_EQ(told.code, 0) << told.err;
+    const Json example = told.json()["example"];
+    ASSERT_EQ(example["from"].size(), 3u) << map;
+    EXPECT_EQ(run({"info", map, "--json"}).json()["example"], example);
+    double squared = 0.0;
+    for (std::size_t i = 0; i < 3; ++i)
+      squared += std::pow(example["from"][i].get<double>() - example["to"][i].get<double>(), 2);
+    EXPECT_GT(std::sqrt(squared), 1.0) << map;
+    const std::string out = run({"info", map}).out, start = "ridgeway plan ";
+    const std::size_t at = out.find(start);
+    ASSERT_NE(at, std::string::npos) << out;
+    // The shell takes the printed line apart as it is.
+    const std::string line = out.substr(at + start.size(), out.find('\n', at) - at - start.size());
+    const Outcome planned = run({"plan"}, line + " > " + path("planned"));
+    EXPECT_EQ(planned.code, 0) << line << planned.err << read_whole(folder_ / "planned");
+  }
 }
 
 TEST_F(CliInfo, TellsOfMapsWithoutBuilding) {
