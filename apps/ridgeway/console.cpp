@@ -87,6 +87,8 @@ std::string text_of(double value, int decimals) {
 
 double rounded_down(double value) { return std::floor(value * 1000.0 + 1e-6) / 1000.0; }
 
+double rounded_up(double value) { return std::ceil(value * 1000.0 - 1e-6) / 1000.0; }
+
 std::string count_text(std::uint64_t count) {
   std::string text = std::to_string(count);
   for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, 1, ',');

@@ -29,6 +29,7 @@ void warn(const Globals& globals, const std::string& text);
 // Numbers as a person reads them.
 std::string text_of(double value, int decimals = 3);  ///< without trailing zeros
 double rounded_down(double value);                    ///< to three decimals
+double rounded_up(double value);                      ///< likewise
 std::string count_text(std::uint64_t count);          ///< 1,234,567
 std::string bytes_text(std::uint64_t bytes);          ///< 1.2 MB
 std::string seconds_text(double seconds);             ///< 1.23 s, 4.5 ms

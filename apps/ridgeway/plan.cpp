@@ -92,7 +92,7 @@ int run_one(const PlanOptions& options, const Roadmap& roadmap, const Globals& g
                        options.radius.value_or(roadmap.min_clearance)};
   const Answer answer = plan_repeatedly(roadmap, query, options);
   const PlanResult& result = answer.plan;
-  AnswerFacts facts(roadmap, options.escape, limits_of(options.limits));
+  AnswerFacts facts(roadmap, options.escape, limits_of(options.limits), options.robot_height);
   const bool write = result.ok() && !options.output.empty();
   if (write) write_output(options, result, options.output);
   if (globals.json) {
@@ -111,7 +111,7 @@ int run_batch(const PlanOptions& options, const Roadmap& roadmap, const Globals&
   const std::vector<Query> queries =
       read_queries(options.queries, options.radius.value_or(roadmap.min_clearance),
                    largest_radius(roadmap.esdf));
-  AnswerFacts facts(roadmap, options.escape, limits_of(options.limits));
+  AnswerFacts facts(roadmap, options.escape, limits_of(options.limits), options.robot_height);
   Json results = Json::array();
   std::size_t solved = 0;
   for (const Query& query : queries) {

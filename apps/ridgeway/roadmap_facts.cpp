@@ -18,22 +18,6 @@ std::string metres(double value) { return text_of(value) + " m"; }
 /// A radius that fits must fit as it is printed.
 std::string metres_at_most(double value) { return metres(rounded_down(value)); }
 
-std::string explain_collision(const Roadmap& roadmap, const Query& query, const Point& place,
-                              bool escapes) {
-  const double distance = FreeSpace(roadmap.esdf).distance(to_local(roadmap.esdf, place));
-  std::string text = "it is " + metres(distance) + " from the nearest obstacle";
-  if (distance >= query.radius)
-    return text + ", but no voxel beside it can be reached at a radius of " + metres(query.radius) +
-           ": move it a little, or let --snap do so";
-  text += ", less than the radius of " + metres(query.radius) + ": move it, or let --snap do so";
-  if (distance > 0.0)
-    text += escapes ? " (there is no straight way to where the robot fits)"
-                    : ", or give --escape to begin or end there";
-  if (distance >= roadmap.min_clearance)
-    return text + ", or give a --radius of at most " + metres_at_most(distance);
-  return text + ", or build the map for a smaller robot with --min-clearance";
-}
-
 std::string part_text(const BlockedRoute& blocked, bool is_start) {
   const Component& part = is_start ? blocked.start_component : blocked.goal_component;
   return count_text(1 + (is_start ? blocked.start_number : blocked.goal_number)) + ", " +
@@ -50,34 +34,6 @@ std::string shut_text(const BlockedRoute& blocked) {
            "where the map ends, at " +
            point_text(*blocked.map_end) + ": give a map that goes farther";
   return "obstacles enclose one of them";
-}
-
-std::string explain_endpoint(const Roadmap& roadmap, const Query& query, PlanStatus status,
-                             bool escapes) {
-  const bool is_start =
-      status <= PlanStatus::kStartInCollision || status == PlanStatus::kStartOutsideLimits;
-  const Point& place = is_start ? query.start : query.goal;
-  const std::string text =
-      std::string(is_start ? "the start " : "the goal ") + point_text(place) + " ";
-  switch (status) {
-    case PlanStatus::kStartOutsideMap:
-    case PlanStatus::kGoalOutsideMap: {
-      const auto bounds = known_bounds(occupancy_of(roadmap.esdf));
-      if (!bounds) return text + "is outside the map, of which nothing is known";
-      return text + "is outside the map: give one between " + point_text(bounds->min) + " and " +
-             point_text(bounds->max);
-    }
-    case PlanStatus::kStartUnknown:
-    case PlanStatus::kGoalUnknown:
-      return text +
-             "is in space that the map does not know: move it to where the map is free, or let "
-             "--snap do so";
-    case PlanStatus::kStartOutsideLimits:
-    case PlanStatus::kGoalOutsideLimits:
-      return text + "is outside the limits of the flight: move it, or give wider limits";
-    default:
-      return text + "cannot be used: " + explain_collision(roadmap, query, place, escapes);
-  }
 }
 
 nlohmann::ordered_json or_null(const std::optional<Point>& place) {
@@ -115,6 +71,55 @@ PlanResult given_path(const Roadmap& roadmap, std::vector<Point> waypoints,
   return path;
 }
 
+std::string AnswerFacts::explain_collision(const Query& query, const Point& place) const {
+  const double distance = FreeSpace(roadmap_.esdf).distance(to_local(roadmap_.esdf, place));
+  if (distance <= 0.0) {
+    // Farther away it is hardly the place that was meant.
+    const std::optional<double> snap =
+        smallest_snap(roadmap_, query.start, query.goal, 16.0 * query.radius,
+                      {.radius = query.radius, .limits = limits_, .robot_height = robot_height_});
+    const std::string inside = "it lies in an obstacle: move it to where the map is free";
+    return snap ? inside + ", or let --snap " + text_of(rounded_up(*snap)) + " do so" : inside;
+  }
+  std::string text = "it is " + metres(distance) + " from the nearest obstacle";
+  if (distance >= query.radius)
+    return text + ", but no voxel beside it can be reached at a radius of " + metres(query.radius) +
+           ": move it a little, or let --snap do so";
+  text += ", less than the radius of " + metres(query.radius) + ": move it, or let --snap do so";
+  text += escapes_ ? " (there is no straight way to where the robot fits)"
+                   : ", or give --escape to begin or end there";
+  if (distance >= roadmap_.min_clearance)
+    return text + ", or give a --radius of at most " + metres_at_most(distance);
+  return text + ", or build the map for a smaller robot with --min-clearance";
+}
+
+std::string AnswerFacts::explain_endpoint(const Query& query, PlanStatus status) const {
+  const bool is_start =
+      status <= PlanStatus::kStartInCollision || status == PlanStatus::kStartOutsideLimits;
+  const Point& place = is_start ? query.start : query.goal;
+  const std::string text =
+      std::string(is_start ? "the start " : "the goal ") + point_text(place) + " ";
+  switch (status) {
+    case PlanStatus::kStartOutsideMap:
+    case PlanStatus::kGoalOutsideMap: {
+      const auto bounds = known_bounds(occupancy_of(roadmap_.esdf));
+      if (!bounds) return text + "is outside the map, of which nothing is known";
+      return text + "is outside the map: give one between " + point_text(bounds->min) + " and " +
+             point_text(bounds->max);
+    }
+    case PlanStatus::kStartUnknown:
+    case PlanStatus::kGoalUnknown:
+      return text +
+             "is in space that the map does not know: move it to where the map is free, or let "
+             "--snap do so";
+    case PlanStatus::kStartOutsideLimits:
+    case PlanStatus::kGoalOutsideLimits:
+      return text + "is outside the limits of the flight: move it, or give wider limits";
+    default:
+      return text + "cannot be used: " + explain_collision(query, place);
+  }
+}
+
 std::string AnswerFacts::explain_no_route(const Query& query) {
   std::string text = "start and goal are not connected at a radius of " + metres(query.radius);
   const std::optional<BlockedRoute> blocked = this->blocked(query, PlanStatus::kNoRoute);
@@ -147,7 +152,7 @@ std::string AnswerFacts::reason(const Query& query, PlanStatus status) {
     case PlanStatus::kTimeout:
       return "the limit came before a path was found: give a larger --time-limit";
     default:
-      return explain_endpoint(roadmap_, query, status, escapes_);
+      return explain_endpoint(query, status);
   }
 }
 

@@ -30,9 +30,13 @@ PlanResult given_path(const Roadmap& roadmap, std::vector<Point> waypoints,
 class AnswerFacts {
  public:
   /// The roadmap must outlive it. `escapes`: plans were asked for with --escape; `limits`: those
-  /// of the flights (world).
-  AnswerFacts(const Roadmap& roadmap, bool escapes, FlightLimits limits = {})
-      : roadmap_(roadmap), escapes_(escapes), limits_(std::move(limits)) {}
+  /// of the flights (world); `robot_height`: as in PlanConfig.
+  AnswerFacts(const Roadmap& roadmap, bool escapes, FlightLimits limits = {},
+              double robot_height = 0.0)
+      : roadmap_(roadmap),
+        escapes_(escapes),
+        limits_(std::move(limits)),
+        robot_height_(robot_height) {}
 
   // Of a query as it was planned:
 
@@ -46,10 +50,13 @@ class AnswerFacts {
 
  private:
   std::string explain_no_route(const Query& query);
+  std::string explain_endpoint(const Query& query, PlanStatus status) const;
+  std::string explain_collision(const Query& query, const Point& place) const;
 
   const Roadmap& roadmap_;
   const bool escapes_;
   const FlightLimits limits_;
+  const double robot_height_;
   std::optional<RouteBlocks> blocks_;
   std::optional<Surroundings> around_;
 };

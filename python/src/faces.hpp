@@ -10,6 +10,7 @@
 #include <string>
 
 #include "ridgeway/mapping/tsdf_fusion.hpp"
+#include "ridgeway/planning/plan.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 
 /// What Python holds: the library's own values, immutable and shared, so that parts of them can be
@@ -45,6 +46,16 @@ struct GraphFace {
 struct RoadmapFace {
   std::shared_ptr<const Roadmap> roadmap;
   std::optional<BuildReport> report = {};  ///< where it was built here
+};
+
+/// A plan; where an end lies in an obstacle also what was asked, to tell what would help.
+struct PlanFace : PlanResult {
+  struct Question {
+    std::shared_ptr<const Roadmap> roadmap;
+    Point start, goal;
+    PlanConfig config;
+  };
+  std::shared_ptr<const Question> question;
 };
 
 /// The configuration as a roadmap keeps it, JSON text.

@@ -38,9 +38,9 @@ FlightFace fly(const RoadmapFace& face, py::handle path, py::handle radius,
   config.radius = radius.is_none() ? face.roadmap->min_clearance : number_from(radius, "radius");
   config.validate();
   FlightFace flight;
-  const bool is_plan = py::isinstance<PlanResult>(path);
+  const bool is_plan = py::isinstance<PlanFace>(path);
   if (is_plan) {
-    flight.path = path.cast<const PlanResult&>();
+    flight.path = path.cast<const PlanFace&>();
     if (!flight.path.ok())
       throw InputError("path", "is no path: " + std::string(name_of(flight.path.status)),
                        "give a plan that is ok");

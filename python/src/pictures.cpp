@@ -14,8 +14,8 @@ namespace {
 /// The points of a plan or of an array (N, 3); none for None.
 std::vector<Point> waypoints_of(py::handle path, const char* name) {
   if (path.is_none()) return {};
-  if (!py::isinstance<PlanResult>(path)) return points_from(path, name);
-  const auto& plan = path.cast<const PlanResult&>();
+  if (!py::isinstance<PlanFace>(path)) return points_from(path, name);
+  const auto& plan = path.cast<const PlanFace&>();
   if (!plan.ok())
     throw InputError(name, "is no path: " + std::string(name_of(plan.status)),
                      "give a plan that is ok");

@@ -9,6 +9,7 @@
 
 #include "config.hpp"
 #include "long_call.hpp"
+#include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/formats/path_io.hpp"
 #include "ridgeway/planning/alternatives.hpp"
 #include "ridgeway/planning/blocked_route.hpp"
@@ -49,6 +50,34 @@ std::string reason_of(PlanStatus status) {
   return "invalid";
 }
 
+/// Of an end that is too near to an obstacle, where it lies in one: which snap would help.
+std::string reason_of(const PlanFace& plan) {
+  const bool is_start = plan.status == PlanStatus::kStartInCollision;
+  if (!plan.question || !(is_start || plan.status == PlanStatus::kGoalInCollision))
+    return reason_of(plan.status);
+  const auto& [roadmap, start, goal, config] = *plan.question;
+  const EsdfMap& esdf = roadmap->esdf;
+  if (FreeSpace(esdf).distance(to_local(esdf, is_start ? start : goal)) > 0.0)
+    return reason_of(plan.status);
+  const double radius = config.radius.value_or(roadmap->min_clearance);
+  const std::string text =
+      std::string(is_start ? "the start" : "the goal") + " lies in an obstacle";
+  const py::gil_scoped_release release;
+  const std::optional<double> snap = smallest_snap(*roadmap, start, goal, 16.0 * radius, config);
+  if (!snap) return text;
+  return text + " (snap=" + literal(std::ceil(*snap * 1000.0 - 1e-6) / 1000.0) +
+         " moves it to where the robot fits)";
+}
+
+PlanFace face_of(const std::shared_ptr<const Roadmap>& roadmap, const Point& start,
+                 const Point& goal, const PlanConfig& config, PlanResult plan) {
+  PlanFace face{std::move(plan), nullptr};
+  if (face.status == PlanStatus::kStartInCollision || face.status == PlanStatus::kGoalInCollision)
+    face.question = std::make_shared<const PlanFace::Question>(
+        PlanFace::Question{roadmap, start, goal, config});
+  return face;
+}
+
 std::string repr(const PlanResult& plan) {
   if (!plan.ok()) return "PlanResult(status='" + std::string(name_of(plan.status)) + "')";
   return "PlanResult(status='ok', length=" + literal(plan.length) +
@@ -66,12 +95,12 @@ py::dict seconds_of(const PlanResult& plan) {
   return seconds;
 }
 
-PlanResult plan_one(const RoadmapFace& face, py::handle start, py::handle goal,
-                    const py::kwargs& keywords) {
+PlanFace plan_one(const RoadmapFace& face, py::handle start, py::handle goal,
+                  const py::kwargs& keywords) {
   const PlanConfig config = plan_fields().read_all(keywords);
   const Point from = point_from(start, "start"), to = point_from(goal, "goal");
   const py::gil_scoped_release release;
-  return plan(*face.roadmap, from, to, config);
+  return face_of(face.roadmap, from, to, config, plan(*face.roadmap, from, to, config));
 }
 
 /// One place for each of `count` queries.
@@ -100,9 +129,9 @@ void run_many(int threads, std::size_t count, const Work& work) {
   });
 }
 
-py::list list_of(std::vector<PlanResult> plans) {
+py::list list_of(std::vector<PlanFace> plans) {
   py::list list;
-  for (PlanResult& plan : plans) list.append(py::cast(std::move(plan)));
+  for (PlanFace& plan : plans) list.append(py::cast(std::move(plan)));
   return list;
 }
 
@@ -117,9 +146,11 @@ py::list plan_many(const RoadmapFace& face, py::handle starts, py::handle goals,
   int count = 0;
   read(threads, "threads", count);
   const std::size_t queries = from.empty() || to.empty() ? 0 : std::max(from.size(), to.size());
-  std::vector<PlanResult> plans(queries);
-  run_many(count, queries,
-           [&](std::size_t i) { plans[i] = plan(*face.roadmap, at(from, i), at(to, i), config); });
+  std::vector<PlanFace> plans(queries);
+  run_many(count, queries, [&](std::size_t i) {
+    plans[i] = face_of(face.roadmap, at(from, i), at(to, i), config,
+                       plan(*face.roadmap, at(from, i), at(to, i), config));
+  });
   return list_of(std::move(plans));
 }
 
@@ -148,7 +179,7 @@ py::tuple plan_nearest(const RoadmapFace& face, py::handle start, py::handle goa
     nearest = plan_to_nearest(*face.roadmap, from, to, config);
   }
   return py::make_tuple(nearest.goal ? py::cast(*nearest.goal) : py::none(),
-                        py::cast(std::move(nearest.plan)));
+                        py::cast(PlanFace{std::move(nearest.plan), nullptr}));
 }
 
 py::tuple plan_over(const RoadmapFace& face, py::handle places, const py::kwargs& keywords) {
@@ -160,7 +191,7 @@ py::tuple plan_over(const RoadmapFace& face, py::handle places, const py::kwargs
     via = plan_via(*face.roadmap, points, config);
   }
   const py::object leg = via.plan.ok() ? py::none() : py::cast(via.leg);
-  return py::make_tuple(py::cast(std::move(via.plan)), leg);
+  return py::make_tuple(py::cast(PlanFace{std::move(via.plan), nullptr}), leg);
 }
 
 Alternatives alternatives(const RoadmapFace& face, py::handle start, py::handle goal,
@@ -190,55 +221,53 @@ py::object explain(const RoadmapFace& face, py::handle start, py::handle goal, p
 }
 
 void add_results(py::module_& module) {
-  py::class_<PlanResult>(module, "PlanResult",
-                         "A path, or the one reason why there is none: true where there is one.")
+  py::class_<PlanFace>(module, "PlanResult",
+                       "A path, or the one reason why there is none: true where there is one.")
       .def_property_readonly(
-          "status", [](const PlanResult& plan) { return std::string(name_of(plan.status)); },
+          "status", [](const PlanFace& plan) { return std::string(name_of(plan.status)); },
           "'ok', or why there is no path: 'no_route', 'start_in_collision', ...")
       .def_property_readonly(
-          "reason", [](const PlanResult& plan) { return reason_of(plan.status); },
+          "reason", [](const PlanFace& plan) { return reason_of(plan); },
           "The status in words; '' where ok.")
-      .def_property_readonly("ok", &PlanResult::ok, "Whether there is a path.")
-      .def("__bool__", &PlanResult::ok)
+      .def_property_readonly("ok", &PlanFace::ok, "Whether there is a path.")
+      .def("__bool__", &PlanFace::ok)
       .def_property_readonly(
           "waypoints",
-          [](py::object self) { return view_of(self.cast<const PlanResult&>().waypoints, self); },
+          [](py::object self) { return view_of(self.cast<const PlanFace&>().waypoints, self); },
           "Start first, goal last, (N, 3), metres, world; (0, 3) where there is no path. "
           "Read-only.")
-      .def_readonly("length", &PlanResult::length, "Metres.")
-      .def_readonly("clearance", &PlanResult::clearance,
+      .def_readonly("length", &PlanFace::length, "Metres.")
+      .def_readonly("clearance", &PlanFace::clearance,
                     "Smallest distance to an obstacle along the path, metres.")
-      .def_readonly("within", &PlanResult::within,
+      .def_readonly("within", &PlanFace::within,
                     "The path is at most so many times as long as the shortest.")
       .def_property_readonly(
           "answered_by",
-          [](const PlanResult& plan) { return std::string(name_of(plan.answered_by)); },
+          [](const PlanFace& plan) { return std::string(name_of(plan.answered_by)); },
           "'graph', 'diagram', 'esdf' or 'theta'.")
       .def_property_readonly(
-          "unknown", [](const PlanResult& plan) { return std::string(name_of(plan.unknown)); },
+          "unknown", [](const PlanFace& plan) { return std::string(name_of(plan.unknown)); },
           "What unknown space was taken for: 'obstacle', 'ignore' or 'free'.")
       .def_property_readonly("seconds", &seconds_of, "Of attach, search, shorten, and in total.")
       .def_property_readonly(
-          "escape_start", [](const PlanResult& plan) { return plan.escape_start.length; },
+          "escape_start", [](const PlanFace& plan) { return plan.escape_start.length; },
           "Length of the first segment where it leads out of a collision, metres; else 0.")
       .def_property_readonly(
-          "escape_goal", [](const PlanResult& plan) { return plan.escape_goal.length; },
+          "escape_goal", [](const PlanFace& plan) { return plan.escape_goal.length; },
           "Length of the last segment where it leads into one, metres; else 0.")
       .def_property_readonly(
-          "moved_start", [](const PlanResult& plan) { return plan.moved_start.distance; },
+          "moved_start", [](const PlanFace& plan) { return plan.moved_start.distance; },
           "How far the start was moved (snap), metres.")
       .def_property_readonly(
-          "moved_goal", [](const PlanResult& plan) { return plan.moved_goal.distance; },
+          "moved_goal", [](const PlanFace& plan) { return plan.moved_goal.distance; },
           "How far the goal was moved (snap), metres.")
       .def(
           "save",
-          [](const PlanResult& plan, py::handle path) {
-            write_plan(plan, path_from(path, "path"));
-          },
+          [](const PlanFace& plan, py::handle path) { write_plan(plan, path_from(path, "path")); },
           py::arg("path"), "save(self, path)\n--\n\nAs .csv or .json, as the command line does.")
       .def(
           "save_mission",
-          [](const PlanResult& plan, py::handle path, py::handle latitude, py::handle longitude,
+          [](const PlanFace& plan, py::handle path, py::handle latitude, py::handle longitude,
              py::handle altitude, py::handle x_heading) {
             write_mission(plan,
                           {.latitude = number_from(latitude, "latitude"),
@@ -254,7 +283,7 @@ void add_results(py::module_& module) {
           "84), its altitude,\nmetres above the sea, and where its x axis points, degrees "
           "clockwise "
           "from north.")
-      .def("__repr__", &repr);
+      .def("__repr__", [](const PlanFace& plan) { return repr(plan); });
 
   py::class_<Alternatives>(module, "Alternatives",
                            "Routes on other sides of obstacles, shortest first; a sequence of "
@@ -274,7 +303,7 @@ void add_results(py::module_& module) {
             const auto count = static_cast<py::ssize_t>(all.routes.size());
             if (i < 0) i += count;
             if (i < 0 || i >= count) throw py::index_error();
-            return all.routes[static_cast<std::size_t>(i)];
+            return PlanFace{all.routes[static_cast<std::size_t>(i)], nullptr};
           },
           py::arg("index"))
       .def("__repr__", [](const Alternatives& all) {

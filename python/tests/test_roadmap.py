@@ -132,6 +132,12 @@ def test_plans_are_arrays_and_reasons(roadmap):
         plan = roadmap.plan(START, goal)
         assert not plan and plan.status == status and "goal" in plan.reason
         assert plan.waypoints.shape == (0, 3)
+    for wall, other in ((START, (3.2, 0.9, 1.0)), ((3.2, 0.9, 1.0), START)):
+        for plan in (roadmap.plan(wall, other), roadmap.plan_many([wall], [other])[0]):
+            assert "lies in an obstacle" in plan.reason
+            snap = float(plan.reason.split("snap=")[1].split()[0])
+            assert roadmap.plan(wall, other, snap=snap)
+            assert not roadmap.plan(wall, other, snap=snap - 0.002)
     wide = roadmap.plan(START, GOAL, radius=0.5)
     assert wide.status == "no_route"
     blocked = roadmap.explain(START, GOAL, radius=0.5)
@@ -142,12 +148,6 @@ def test_plans_are_arrays_and_reasons(roadmap):
     assert roadmap.plan(START, GOAL, radius=0.1).status == "radius_too_small"
 
 
-@pytest.mark.parametrize("kind", [tuple, list, np.array, lambda p: np.array(p, np.float32),
-                                  lambda p: np.array([p, p])[::-1][0], lambda p: np.float64(p)[::-1][::-1]])
-def test_points_may_be_anything_of_three_numbers(roadmap, kind):
-    assert roadmap.plan(kind(START), kind(GOAL)).length == pytest.approx(
-        roadmap.plan(START, GOAL).length, rel=1e-6)
-
 def test_a_wall_across_the_map_is_named_and_where_the_map_ends(rooms):
     rooms[:] = ridgeway.FREE
     rooms[31:33] = ridgeway.OCCUPIED
@@ -157,6 +157,12 @@ def test_a_wall_across_the_map_is_named_and_where_the_map_ends(rooms):
     beyond = [not 0 <= c <= size for c, size in zip(blocked.map_end, (6.4, 4.4, 2.4))]
     assert any(beyond) and blocked.map_end[0] < 3.1
 
+
+@pytest.mark.parametrize("kind", [tuple, list, np.array, lambda p: np.array(p, np.float32),
+                                  lambda p: np.array([p, p])[::-1][0], lambda p: np.float64(p)[::-1][::-1]])
+def test_points_may_be_anything_of_three_numbers(roadmap, kind):
+    assert roadmap.plan(kind(START), kind(GOAL)).length == pytest.approx(
+        roadmap.plan(START, GOAL).length, rel=1e-6)
 
 
 @pytest.mark.parametrize(

@@ -124,6 +124,27 @@ TEST_F(CliPlan, SaysWhyThereIsNoPathAndWhatToDo) {
   }
 }
 
+TEST_F(CliPlan, SaysWhenAPlaceLiesInAWallAndWhichSnapHelps) {
+  const std::string map = rooms();
+  for (const bool is_start : {true, false}) {
+    std::vector<std::string> query = {"plan", map, "--from", "-2,1,1", "--to", "0.05,-1,1"};
+    if (is_start) std::swap(query[3], query[5]);
+    const Outcome planned = run(query);
+    EXPECT_EQ(planned.code, 2);
+    const std::string& out = planned.out;
+    EXPECT_NE(out.find(is_start ? "the start" : "the goal"), std::string::npos) << out;
+    EXPECT_NE(out.find("it lies in an obstacle"), std::string::npos) << out;
+    EXPECT_EQ(out.find("--min-clearance"), std::string::npos) << out;
+    const std::size_t at = out.find("--snap ");
+    ASSERT_NE(at, std::string::npos) << out;
+    const double snap = std::stod(out.substr(at + 7));
+    query.insert(query.end(), {"--snap", std::to_string(snap)});
+    EXPECT_EQ(run(query).code, 0) << snap;
+    query.back() = std::to_string(snap - 0.002);
+    EXPECT_EQ(run(query).code, 2) << snap;
+  }
+}
+
 TEST_F(CliPlan, NamesAWallAcrossTheMapNotTheSpaceBeyondWhereItEnds) {
   std::string points = "x y z\n";
   for (int y = -20; y < 20; ++y)

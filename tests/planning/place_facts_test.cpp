@@ -52,6 +52,27 @@ TEST(PlaceFacts, TellWhatIsInTheWayToTheOtherComponents) {
   EXPECT_THROW(describe_place(roadmap, Point(std::nan(""), 1, 1)), InputError);
 }
 
+TEST(PlaceFacts, TheSmallestSnapDoesAndALittleLessDoesNot) {
+  const Roadmap roadmap = build_roadmap(three_rooms(), {.min_clearance = 0.3}).roadmap;
+  const Point free(1.5, 1, 1), wall(3.14, 0.3, 1), hull(0.02, 1, 1), other(4.5, 1, 1);
+  EXPECT_EQ(smallest_snap(roadmap, free, Point(1, 1, 1), 5.0), 0.0);
+  EXPECT_FALSE(smallest_snap(roadmap, free, other, 0.5).has_value());
+  EXPECT_FALSE(smallest_snap(roadmap, wall, free, 0.3).has_value());
+  for (const auto& [start, goal] : {std::pair(wall, free),
+                                    {free, wall},
+                                    {hull, wall},
+                                    {wall, hull},
+                                    {wall, other},
+                                    {other, wall}}) {
+    const std::optional<double> snap = smallest_snap(roadmap, start, goal, 5.0);
+    ASSERT_TRUE(snap.has_value());
+    EXPECT_GT(*snap, 0.3);
+    EXPECT_LT(*snap, 0.6);
+    EXPECT_TRUE(plan(roadmap, start, goal, {.snap = *snap}).ok());
+    EXPECT_FALSE(plan(roadmap, start, goal, {.snap = *snap - 1e-6}).ok());
+  }
+}
+
 TEST(PlaceFacts, TheirWaysAreTheWidestByFlooding) {
   int ways = 0;
   for (unsigned seed = 0; seed < 25; ++seed) {

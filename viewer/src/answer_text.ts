@@ -15,6 +15,7 @@ function in_words_of_form(reason: string): string {
   return reason
     .replace(", or give --escape to begin or end there", "")
     .replace("let --snap do so", "let a larger Snap do so")
+    .replace(/let --snap ([\d.]+) do so/, "let a Snap of $1 m do so")
     .replace("a --radius of", "a Radius of");
 }
 

@@ -55,6 +55,12 @@ class RouteBlocks {
   SpaceParts parts_;
 };
 
+/// The smallest PlanConfig::snap with which there is a path, metres, to a billionth; 0 where there
+/// is one without. Nothing where `farthest`, metres, does not do. `config.snap` does not count.
+/// Takes some plans, more the farther it is. Thread-safe; throws what plan() does.
+std::optional<double> smallest_snap(const Roadmap& roadmap, const Point& start, const Point& goal,
+                                    double farthest, PlanConfig config = {});
+
 /// What a robot finds at a place.
 struct PlaceFacts {
   /// kOk, or why the robot cannot be there, as of a start.
