@@ -9,9 +9,9 @@
 
 namespace ridgeway::cli {
 
-/// A start and a goal, world, between which there is a path for the smallest robot: far apart in the
-/// largest part of space, for who has a map and knows no place of it. To the millimetre where that
-/// does. Nothing where the graph is empty.
+/// A start and a goal, world, between which there is a path for the smallest robot: far apart in
+/// the largest part of space, for who has a map and knows no place of it. To the millimetre where
+/// that does. Nothing where the graph is empty.
 std::optional<std::pair<Point, Point>> example_query(const Roadmap& roadmap);
 
 }  // namespace ridgeway::cli

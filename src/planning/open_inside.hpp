@@ -15,9 +15,9 @@ namespace ridgeway::detail {
 /// Directions of the neighbours across faces; in a plane there are four.
 std::span<const int> faces_of(const EsdfMap& esdf);
 
-/// What face moves over all that is not occupied join with a voxel inside the map: in the box around
-/// all that is known. What is not allocated is unknown; where it takes by far most of the box, it
-/// counts as beyond the map's end.
+/// What face moves over all that is not occupied join with a voxel inside the map: in the box
+/// around all that is known. What is not allocated is unknown; where it takes by far most of the
+/// box, it counts as beyond the map's end.
 class OpenInside {
  public:
   OpenInside(const EsdfMap& esdf, VoxelId from);
