@@ -52,7 +52,7 @@ std::string enclosed_text(const MeshMapReport& report) {
                                        " spaces that the mesh encloses are taken as solid, the "
                                        "largest of ";
   return spaces + millimetres_text(report.largest_enclosed) + " m3 (option inside " +
-         point_text(report.in_largest) + " makes that one free)";
+         point_text(report.in_largest) + " takes that one as free, all else as unknown)";
 }
 
 void tell_of_space(const MeshMapReport& report, const LoadConfig& config, LoadNotes* notes) {
@@ -71,7 +71,20 @@ void tell_of_space(const MeshMapReport& report, const LoadConfig& config, LoadNo
     tell(notes, "the space is not closed: it is open to the bounds at " +
                     point_text(report.leak->exit) + "; the widest way there is narrowest, about " +
                     millimetres_text(report.leak->width) + " m, at " +
-                    point_text(report.leak->narrowest));
+                    point_text(report.leak->narrowest) +
+                    "; close it where it is not meant to be open (options exclude, bounds)");
+}
+
+/// A building that lies on its side is wide along z, and thin along y.
+void tell_of_upward_axis(const MeshFrame& own, const Box& box, const LoadConfig& config,
+                         LoadNotes* notes) {
+  if (own.up || config.up) return;
+  constexpr double kThin = 3.0;
+  const Eigen::Vector3d size = box.max - box.min;
+  if (kThin * size.y() < std::min(size.x(), size.z()))
+    tell(notes, "it spans " + size_text(box) +
+                    ": if that lies on its side, y is its upward axis "
+                    "(option up)");
 }
 
 /// Fine enough for the smallest radius that a roadmap is for unless another is given, four voxels.
@@ -114,6 +127,7 @@ OccupancyMap load_mesh_map(const std::filesystem::path& file, std::string_view b
     if (own.unit || config.units || error.where() != name || mesh.vertices.empty()) throw;
     refuse_again(error, mesh);
   }
+  tell_of_upward_axis(own, report.box, config, notes);
   tell_of_space(report, config, notes);
   return finished(std::move(map), config, name, notes);
 }

@@ -47,6 +47,30 @@ Steps steps_to_walls(const OccupancyMap& map, const std::vector<int>& faces) {
   return steps;
 }
 
+/// Are all voxels free in the box between a voxel and its neighbour?
+bool is_open_between(const OccupancyMap& map, VoxelId id, const VoxelIndex& o) {
+  for (int part = 1; part < 8; ++part) {
+    const VoxelIndex step = {part & 1 ? o.x : 0, part & 2 ? o.y : 0, part & 4 ? o.z : 0};
+    const VoxelId n = map.layout.neighbour(id, direction_of(step));
+    if (n == kNoVoxel || map.state[n] != VoxelState::kFree) return false;
+  }
+  return true;
+}
+
+/// Away from walls for as long as each step leads farther: a place that somebody names in a corner
+/// is not where the way out is narrow.
+VoxelId top_above(const OccupancyMap& map, const Steps& steps, VoxelId id) {
+  while (true) {
+    VoxelId top = id;
+    for (int d = 0; d < 27; ++d) {
+      const VoxelId n = map.layout.neighbour(id, d);
+      if (n != kNoVoxel && steps[n] > steps[top] && is_open_between(map, id, offset_of(d))) top = n;
+    }
+    if (top == id) return id;
+    id = top;
+  }
+}
+
 }  // namespace
 
 std::optional<MeshLeak> find_leak(const OccupancyMap& map, std::span<const VoxelIndex> from,
@@ -70,8 +94,9 @@ std::optional<MeshLeak> find_leak(const OccupancyMap& map, std::span<const Voxel
   };
   std::uint16_t width = 0;
   for (const VoxelIndex& voxel : from) {
-    const VoxelId id = map.layout.find(voxel - map.origin);
-    if (id == kNoVoxel) continue;
+    const VoxelId named = map.layout.find(voxel - map.origin);
+    if (named == kNoVoxel) continue;
+    const VoxelId id = top_above(map, steps, named);
     add(id, 0xffff, id);
     width = std::max(width, steps[id]);
   }

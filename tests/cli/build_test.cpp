@@ -36,7 +36,7 @@ TEST_F(CliBuild, NotesOfMeshesNameTheOptionsThatDecide) {
   ASSERT_EQ(built.code, 0) << built.err;
   for (const char* words :
        {"(--units, --up)", "(--voxel-size)", "-2.3,-0.3,-0.002 to 12.8,27.3,2.5 (--bounds)",
-        "(--inside 1.65,16.65,0.15 makes that one free)"})
+        "(--inside 1.65,16.65,0.15 takes that one as free, all else as unknown)"})
     EXPECT_NE(built.err.find(words), std::string::npos) << words << " is not in: " << built.err;
   EXPECT_EQ(built.err.find("(option"), std::string::npos) << built.err;
 }

@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <optional>
 
 #include "formats/benchmark_map.hpp"
 #include "mapping/random_map.hpp"
@@ -159,6 +161,26 @@ TEST(LoadMap, MeshesThatAreDamagedAreRefusedByName) {
       "</visual_scene></library_visual_scenes><scene><instance_visual_scene url='#s'/></scene>"
       "</COLLADA>";
   EXPECT_TRUE(contains(says("cycle.dae", cycle), "cycle.dae"));
+}
+
+TEST(LoadMap, ABuildingThatLiesOnItsSideIsTold) {
+  const TemporaryFolder folder;
+  // A hall of 8 x 7 x 2 m whose height is along y.
+  write_whole(folder / "hall.obj",
+              "v 0 0 0\nv 8 0 0\nv 8 0 7\nv 0 0 7\nv 0 2 0\nv 8 2 0\nv 8 2 7\nv 0 2 7\n"
+              "f 1 2 3 4\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+  const auto told = [&](std::optional<UpAxis> up) {
+    LoadConfig config{.voxel_size = 0.2};
+    config.up = up;
+    LoadNotes notes;
+    load_map(folder / "hall.obj", config, &notes);
+    return std::any_of(notes.notes.begin(), notes.notes.end(), [](const std::string& note) {
+      return contains(note, "y is its upward axis (option up)");
+    });
+  };
+  EXPECT_FALSE(told(UpAxis::kZ));
+  EXPECT_FALSE(told(UpAxis::kY));
+  EXPECT_TRUE(told({}));
 }
 
 TEST(LoadMap, AWorldIsAMap) {

@@ -128,6 +128,12 @@ TEST(MeshMap, ALeakIsReportedWhereItIsNarrowest) {
   EXPECT_NEAR((report.leak->narrowest - Point(3.0, 1.0, 0.5)).norm(), 0.0, 0.3);
   EXPECT_NEAR(report.leak->width, 0.4, 0.21);
   EXPECT_GT((report.leak->exit.cwiseAbs() - Point(4.8, 3.8, 2.8)).maxCoeff(), 0.0);
+  // A seed in a corner, nearer to walls than the window is wide, changes nothing of that.
+  MeshMapConfig corner = around_room();
+  corner.inside = {Point(-2.85, -1.85, -1.35)};
+  map_from_mesh(soup(room), corner, "room", &report);
+  ASSERT_TRUE(report.leak);
+  EXPECT_NEAR((report.leak->narrowest - Point(3.0, 1.0, 0.5)).norm(), 0.0, 0.3);
 }
 
 TEST(MeshMap, WithoutSeedsTheLargerOfInsideAndOutsideIsFree) {
