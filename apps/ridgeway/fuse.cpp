@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 #include <filesystem>
+#include <iomanip>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -60,6 +62,22 @@ void fuse_frame(const std::filesystem::path& frame, Fused& fused, const Integrat
   ++fused.frames;
 }
 
+/// Maps, pictures and heights take the world's z for up; recordings by hand often have another
+/// axis, mostly that of the first image. Cameras are held upright more often than not: y is down.
+void note_upward_axis(const DepthSequence& sequence, const Globals& globals) {
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();
+  for (const DepthFrame& frame : sequence.frames) up -= frame.T_world_camera.linear().col(1);
+  constexpr double kHalf = 0.5;  // the cosine of 60 degrees; of nearly nothing if they look around
+  if (up.norm() < kHalf * static_cast<double>(sequence.frames.size())) return;
+  up.normalize();
+  if (up.z() > kHalf) return;
+  std::ostringstream text;
+  text << std::setprecision(2) << up.x() << ',' << up.y() << ',' << up.z();
+  note(globals, "the cameras are upright along " + text.str() +
+                    " of the world of their poses, not along z, which maps and pictures take for "
+                    "up: `ridgeway build --transform` turns the map");
+}
+
 /// Images that are missing or damaged are passed over, as real recordings have them; not all.
 Fused fuse_images(const FuseOptions& options, const FusionConfig& config, const Globals& globals) {
   const DepthSequence sequence = open_sequence(options.folder, sequence_config(options));
@@ -86,6 +104,7 @@ Fused fuse_images(const FuseOptions& options, const FusionConfig& config, const 
   if (fused.unreadable > 0)
     warn(globals,
          count_text(fused.unreadable) + " images were passed over, the first: " + first_problem);
+  note_upward_axis(sequence, globals);
   fused.map = fusion.map();
   return fused;
 }

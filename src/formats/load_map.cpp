@@ -126,7 +126,7 @@ OccupancyMap load_cloud(const PointCloud& cloud, const LoadConfig& config, const
                      std::string("give bounds; ").append(span));
   tell(notes,
        "the cloud does not record free space: everything within bounds that is not occupied is "
-       "taken as free");
+       "taken as free, behind walls too (scans with their poses, fused, say what is)");
   OccupancyMap map = map_from_points(cloud,
                                      {.voxel_size = *config.voxel_size,
                                       .bounds = *config.bounds,
@@ -233,9 +233,20 @@ void LoadConfig::validate() const {
   }
 }
 
+namespace {
+
+bool is_image(std::string_view bytes) {
+  return bytes.starts_with("P5") || bytes.starts_with("P2") || bytes.starts_with("\x89PNG");
+}
+
+}  // namespace
+
 OccupancyMap load_map(const std::filesystem::path& file, const LoadConfig& config,
                       LoadNotes* notes) {
   config.validate();
+  if (std::error_code error; std::filesystem::is_directory(file, error))
+    throw InputError(file.string(), "is a folder",
+                     "give a file; recordings of cameras and scans are fused to one first");
   if (is_tsdf_file(file)) return load_fused_map(file, config, notes);
   const std::string bytes = read_file(file), name = file.string();
   if (const std::string format = mesh_format(bytes, file); !format.empty())
@@ -256,6 +267,9 @@ OccupancyMap load_map(const std::filesystem::path& file, const LoadConfig& confi
   if (is_pcd(bytes)) return load_cloud(read_pcd(bytes, name), config, name, notes);
   if (is_ply(bytes)) return load_cloud(read_ply(bytes, name), config, name, notes);
   if (is_benchmark_map(bytes)) return load_benchmark_map(bytes, config, name, notes);
+  if (is_image(bytes))
+    throw InputError(name, "is in no map format, but an image",
+                     "give the .yaml of the ROS map that it is of");
   if (looks_like_xyz(bytes) || is_named_as_text(file))
     return load_cloud(read_xyz(bytes, name), config, name, notes);
   throw InputError(

@@ -131,6 +131,26 @@ TEST_F(CliSimulate, FuseTakesRecordingsAsTheyAre) {
                  {"map.ridge", "not a roadmap"});
 }
 
+TEST_F(CliSimulate, FuseTellsWhereTheWorldOfThePosesLiesOnItsSide) {
+  ASSERT_EQ(run({"simulate", house(), "-o", path("run"), "--frames", "2", "--width", "40"}).code,
+            0);
+  const Outcome upright = run({"fuse", path("run"), "-o", path("map.ridge")});
+  EXPECT_EQ(upright.err.find("upright"), std::string::npos) << upright.err;
+  std::istringstream poses(read_whole(folder_ / "run/groundtruth.txt"));
+  std::string line, turned;
+  while (
+      std::getline(poses, line)) {  // time, place, quaternion: that of the first image's own axes
+    std::istringstream row(line);
+    std::string time, x, y, z;
+    if (line.starts_with("#") || !(row >> time >> x >> y >> z)) continue;
+    turned += time + " " + x + " " + y + " " + z + " 0 0 0 1\n";
+  }
+  write_whole(folder_ / "run/groundtruth.txt", turned);
+  const Outcome lying = run({"fuse", path("run"), "-o", path("map.ridge")});
+  EXPECT_NE(lying.err.find("upright along 0,-1,0"), std::string::npos) << lying.err;
+  EXPECT_NE(lying.err.find("--transform"), std::string::npos) << lying.err;
+}
+
 TEST_F(CliSimulate, WidthOfTheImages) {
   ASSERT_EQ(run({"simulate", house(), "-o", path("run"), "--frames", "1", "--width", "81"}).code,
             0);

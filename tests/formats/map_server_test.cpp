@@ -103,6 +103,8 @@ TEST(MapServer, DamagedFilesAreRefusedByName) {
     write_whole(folder / "a.yaml", text);
     return refusal([&] { load_map(folder / "a.yaml"); });
   };
+  write_whole(folder / "b.pgm", pgm());
+  EXPECT_NE(refusal([&] { load_map(folder / "b.pgm"); }).find("give the .yaml"), std::string::npos);
   const std::string good = yaml("a.pgm", "[0, 0, 0]");
   EXPECT_NE(says(yaml("none.pgm", "[0, 0, 0]"), pgm()).find("none.pgm"), std::string::npos);
   EXPECT_NE(says(yaml("a.pgm", "[0, 0]"), pgm()).find("a.yaml line 3"), std::string::npos);
