@@ -39,6 +39,7 @@ struct Fused {
   std::size_t frames = 0, unreadable = 0, without_pose = 0;
   std::optional<PointCounts> points;  // of scans
   double seconds = 0.0;               // of fusing alone
+  std::string upward_axis;            // what a person should be told of it
 };
 
 SequenceConfig sequence_config(const FuseOptions& options) {
@@ -64,18 +65,19 @@ void fuse_frame(const std::filesystem::path& frame, Fused& fused, const Integrat
 
 /// Maps, pictures and heights take the world's z for up; recordings by hand often have another
 /// axis, mostly that of the first image. Cameras are held upright more often than not: y is down.
-void note_upward_axis(const DepthSequence& sequence, const Globals& globals) {
+/// Empty where they are upright in the world.
+std::string told_of_upward_axis(const DepthSequence& sequence) {
   Eigen::Vector3d up = Eigen::Vector3d::Zero();
   for (const DepthFrame& frame : sequence.frames) up -= frame.T_world_camera.linear().col(1);
   constexpr double kHalf = 0.5;  // the cosine of 60 degrees; of nearly nothing if they look around
-  if (up.norm() < kHalf * static_cast<double>(sequence.frames.size())) return;
+  if (up.norm() < kHalf * static_cast<double>(sequence.frames.size())) return {};
   up.normalize();
-  if (up.z() > kHalf) return;
+  if (up.z() > kHalf) return {};
   std::ostringstream text;
   text << std::setprecision(2) << up.x() << ',' << up.y() << ',' << up.z();
-  note(globals, "the cameras are upright along " + text.str() +
-                    " of the world of their poses, not along z, which maps and pictures take for "
-                    "up: `ridgeway build --transform` turns the map");
+  return "the cameras are upright along " + text.str() +
+         " of the world of their poses, not along z, which maps and pictures take for up: "
+         "`ridgeway build --transform` turns the map";
 }
 
 /// Images that are missing or damaged are passed over, as real recordings have them; not all.
@@ -104,7 +106,7 @@ Fused fuse_images(const FuseOptions& options, const FusionConfig& config, const 
   if (fused.unreadable > 0)
     warn(globals,
          count_text(fused.unreadable) + " images were passed over, the first: " + first_problem);
-  note_upward_axis(sequence, globals);
+  fused.upward_axis = told_of_upward_axis(sequence);
   fused.map = fusion.map();
   return fused;
 }
@@ -195,6 +197,7 @@ int run(const FuseOptions& options, const Globals& globals) {
     throw InputError(options.folder, "shows no free space",
                      "check --min-range, --max-range and the scale of the recording");
   save_tsdf(fused.map, options.folder, options.output);
+  if (!fused.upward_axis.empty()) note(globals, fused.upward_axis);
   print(options, fused, voxels, globals);
   return kExitDone;
 }
