@@ -26,9 +26,10 @@ MapFace from_numpy(py::handle states, py::handle voxel_size, py::handle origin,
 
 /// A UserWarning for each of what a person should be told.
 void warn_of(const LoadNotes& notes, const std::string& name) {
-  for (const std::string& note : notes.notes)
-    if (PyErr_WarnEx(PyExc_UserWarning, (name + ": " + note).c_str(), 1) != 0)
-      throw py::error_already_set();
+  for (const std::string& note : notes.notes) {
+    const std::string text = std::string(name).append(": ").append(note);
+    if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
+  }
 }
 
 MapFace from_points(py::handle points, py::handle voxel_size, py::handle bounds,
@@ -258,7 +259,7 @@ void add_maps(py::module_& module) {
       "Low corners of the blocks of 8 x 8 x 8 voxels, (B, 3), metres, world.");
   type.def_property_readonly(
       "block_states",
-      [](py::object self) {
+      [](const py::object& self) {
         return blocks_view<std::uint8_t>(self.cast<const MapFace&>().map->state, self);
       },
       "States by block, (B, 8, 8, 8) uint8 [block, x, y, z]: the map's own memory, read-only.");

@@ -60,8 +60,7 @@ std::string reason_of(const PlanFace& plan) {
   if (FreeSpace(esdf).distance(to_local(esdf, is_start ? start : goal)) > 0.0)
     return reason_of(plan.status);
   const double radius = config.radius.value_or(roadmap->min_clearance);
-  const std::string text =
-      std::string(is_start ? "the start" : "the goal") + " lies in an obstacle";
+  std::string text = std::string(is_start ? "the start" : "the goal") + " lies in an obstacle";
   const py::gil_scoped_release release;
   const std::optional<double> snap = smallest_snap(*roadmap, start, goal, 16.0 * radius, config);
   if (!snap) return text;
@@ -233,7 +232,9 @@ void add_results(py::module_& module) {
       .def("__bool__", &PlanFace::ok)
       .def_property_readonly(
           "waypoints",
-          [](py::object self) { return view_of(self.cast<const PlanFace&>().waypoints, self); },
+          [](const py::object& self) {
+            return view_of(self.cast<const PlanFace&>().waypoints, self);
+          },
           "Start first, goal last, (N, 3), metres, world; (0, 3) where there is no path. "
           "Read-only.")
       .def_readonly("length", &PlanFace::length, "Metres.")
