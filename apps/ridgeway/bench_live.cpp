@@ -114,7 +114,7 @@ Json row_of(const std::string& name, const LiveFlight& flight) {
           {"query_microseconds",
            {{"live", null_if_none(queries.meanwhile, 1e6)},
             {"static", null_if_none(queries.alone, 1e6)}}},
-          {"memory_ratio", flight.memory_ratio}};
+          {"memory_ratio", flight.memory_ratio ? Json(*flight.memory_ratio) : Json()}};
 }
 
 /// All that is flown and replayed, one after the other.

@@ -87,11 +87,12 @@ void LiveFlightConfig::validate() const {
   sensor.validate();
 }
 
-double memory_ratio(const LiveRoadmap& live, const BuildConfig& build, std::uint64_t before) {
+std::optional<double> memory_ratio(const LiveRoadmap& live, const BuildConfig& build,
+                                   std::uint64_t before) {
   const std::uint64_t with_live = detail::allocated_bytes();
   const Roadmap batch = build_roadmap(live.map(), build).roadmap;
   const std::uint64_t with_both = detail::allocated_bytes();
-  if (with_live <= before || with_both <= with_live) return 0.0;
+  if (with_live <= before || with_both <= with_live) return std::nullopt;
   return static_cast<double>(with_live - before) / static_cast<double>(with_both - with_live);
 }
 

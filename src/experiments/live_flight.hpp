@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "live_judge.hpp"
@@ -43,12 +44,13 @@ struct LiveFlight {
   std::vector<LiveScan> scans;
   LiveQueries queries;
   /// Bytes that the live roadmap holds in the end, its snapshot included, over those of a batch
-  /// build of the same map; 0 where nothing tells.
-  double memory_ratio = 0.0;
+  /// build of the same map; nothing where the allocator does not tell, as that of a sanitizer.
+  std::optional<double> memory_ratio;
 };
 
 /// The ratio above. `before`: allocated_bytes() before the live roadmap was made.
-double memory_ratio(const LiveRoadmap& live, const BuildConfig& build, std::uint64_t before);
+std::optional<double> memory_ratio(const LiveRoadmap& live, const BuildConfig& build,
+                                   std::uint64_t before);
 
 /// A forward camera flies between random places of a world, along paths planned on its exact map,
 /// and all it sees goes into a live roadmap. Where it is cancelled the results are those that were

@@ -13,15 +13,8 @@
 #include "ridgeway/formats/graph_export.hpp"
 #include "sensing/test_meshes.hpp"
 #include "support/png_bytes.hpp"
+#include "support/sanitized.hpp"
 #include "support/temporary_folder.hpp"
-
-#if defined(__has_feature)  // clang
-constexpr bool kIsSanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
-#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kIsSanitized = true;
-#else
-constexpr bool kIsSanitized = false;
-#endif
 
 namespace ridgeway {
 namespace {
@@ -288,7 +281,7 @@ TEST(MeshFile, AFileThatPlacesItsPartsWithoutEndIsRefusedWithinItsLimits) {
   text.replace(text.find(place), place.size(),
                "<instance_node url=\"#n0\"/></node></visual_scene>");
   write_whole(folder / "bomb.dae", text);
-  if (kIsSanitized) {  // sanitizers take memory of their own
+  if (testing::kIsSanitized) {  // sanitizers take memory of their own
     EXPECT_THROW(load_mesh(folder / "bomb.dae"), InputError);
     return;
   }
