@@ -53,10 +53,6 @@ VoxelRange reach_before(const Eigen::Isometry3d& T_map_file, const Box& bounds, 
 
 }  // namespace
 
-void tell(LoadNotes* notes, std::string_view note) {
-  if (notes != nullptr) notes->notes.emplace_back(note);
-}
-
 OccupancyMap finished(OccupancyMap map, const LoadConfig& config, const std::string& name,
                       LoadNotes* notes) {
   map = without_specks(std::move(map), config, notes);

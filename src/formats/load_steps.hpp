@@ -21,7 +21,9 @@ struct VoxelSource {
 };
 
 /// Adds a note, where someone wants notes.
-void tell(LoadNotes* notes, std::string_view note);
+inline void tell(LoadNotes* notes, std::string_view note) {
+  if (notes != nullptr) notes->notes.emplace_back(note);
+}
 
 /// The edits that every kind of file ends with: isolated filter, crop, no-fly boxes. Throws
 /// InputError, naming `name`, where nothing free is left.
