@@ -6,7 +6,9 @@
 
 #include "common/random.hpp"
 #include "ridgeway/formats/world_file.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
 #include "sensing/random_worlds.hpp"
+#include "sensing/test_meshes.hpp"
 
 namespace ridgeway {
 namespace {
@@ -34,6 +36,31 @@ TEST(SolidVoxels, NoSolidReachesIntoAFreeVoxelAndOccupiedOnesAreNearOne) {
         const Point p = centre + 0.4999 * voxel_size * testing::random_vector(random, -1.0, 1.0);
         ASSERT_GT(surface_distance(*world, p).distance, 0.0) << p.transpose();
       }
+    }
+  }
+}
+
+TEST(SolidVoxels, NoWayBetweenFreeVoxelsLeadsThroughAMeshOfThinWalls) {
+  testing::TriangleList walls = testing::box_mesh({0.1, 0.2, 0.3}, {2.0, 1.5, 1.0});
+  walls.triangles.resize(walls.triangles.size() - 2);  // open, so that it has no inside
+  World world;
+  Eigen::Isometry3d turned(Eigen::AngleAxisd(0.4, Eigen::Vector3d(1.0, 2.0, 3.0).normalized()));
+  world.meshes.push_back(
+      {std::make_shared<SolidMesh>(walls.vertices, walls.triangles), 1.0, turned, ""});
+  const OccupancyMap map = occupancy_of(world, 0.13, {{-2, -2, -2}, {2, 2, 2}});
+  const auto centre_at = [&](const VoxelIndex& voxel) {
+    return to_world(map, centre_of(voxel, map.voxel_size));
+  };
+  for (VoxelId id = 0; id < map.layout.voxel_count(); ++id) {
+    const Point centre = centre_at(map.layout.index_of(id));
+    if (map.state[id] == VoxelState::kOccupied)
+      ASSERT_LE(surface_distance(world, centre).distance, 0.8661 * map.voxel_size);
+    if (map.state[id] != VoxelState::kFree) continue;
+    for (int d = 0; d < 27; ++d) {
+      const VoxelIndex next = map.layout.index_of(id) + offset_of(d);
+      if (offset_of(d) == VoxelIndex{} || map.at(next) != VoxelState::kFree) continue;
+      const Eigen::Vector3d way = centre_at(next) - centre;
+      ASSERT_GE(cast_ray(world, centre, way.normalized()), way.norm());
     }
   }
 }
