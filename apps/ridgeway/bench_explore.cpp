@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 #include <cmath>
+#include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +15,7 @@
 #include "experiments/exploration_flight.hpp"
 #include "explore_options.hpp"
 #include "interruption.hpp"
+#include "ridgeway/formats/world_file.hpp"
 #include "ridgeway/pictures/picture.hpp"
 #include "sensing/world_generators.hpp"
 
@@ -21,7 +25,10 @@ namespace {
 using Json = BenchTable::Json;
 
 struct BenchExploreOptions {
-  std::vector<std::string> worlds = {"maze", "hall", "house"};
+  std::vector<std::string> worlds;  // none, and no file: the three
+  std::string file;
+  std::optional<Point> start;  // in the file's world
+  std::optional<Box> bounds;   // of it
   std::vector<std::string> planners = {"ridgeway", "frontier", "nbvp", "offline"};
   std::string output;
   int seeds = 5, cells = 10;
@@ -31,6 +38,7 @@ struct BenchExploreOptions {
 struct Place {
   World world;
   Point start;
+  std::optional<Box> bounds = {};
 };
 
 /// The first place with so much room, in metres, along the wall from a corner.
@@ -95,37 +103,73 @@ void draw(const ExplorationFlight& flight, const std::string& folder, const std:
     draw_floor_plan(*flight.roadmap, flight.path, folder + "/" + name + ".png", picture);
 }
 
+/// All flights, one after the other.
+class ExploreBench {
+ public:
+  ExploreBench(const BenchExploreOptions& options, const Globals& globals)
+      : options_(options), bar_(globals) {
+    if (options.file.empty() != !options.start)
+      throw InputError("--start", "goes with --world", "give both or none");
+    if (options.file.empty() && options.bounds)
+      throw InputError("--bounds", "are of a --world", "give one, or no bounds");
+  }
+
+  void run() {
+    std::vector<std::string> worlds = options_.worlds;
+    if (worlds.empty() && options_.file.empty()) worlds = {"maze", "hall", "house"};
+    for (const std::string& name : worlds)
+      for (int seed = 1; seed <= options_.seeds; ++seed)
+        fly(name, seed, [&](double room) {
+          return place_of(name, static_cast<std::uint64_t>(seed), options_.cells, room);
+        });
+    if (options_.file.empty()) return;
+    const Place place = {load_world(options_.file), *options_.start, options_.bounds};
+    for (int seed = 1; seed <= options_.seeds; ++seed)
+      fly(std::filesystem::path(options_.file).stem().string(), seed,
+          [&](double) { return place; });
+  }
+
+  const BenchTable& table() {
+    bar_.clear();
+    return table_;
+  }
+
+ private:
+  /// By all planners. `place_with` gives world and start for the room that the drone needs.
+  void fly(const std::string& name, int seed, const std::function<Place(double)>& place_with) {
+    for (const std::string& planner : options_.planners) {
+      ExploreSettings settings = options_.settings;
+      settings.planner = planner;
+      ExplorationFlightConfig config = settings.flight();
+      const Place place = place_with(config.free_radius());
+      config.start = place.start;
+      config.bounds = place.bounds;
+      config.seed = static_cast<std::uint64_t>(seed);
+      const ExplorationFlight flight = explore(place.world, config, bar_.callback());
+      Json row = {{"world", name}, {"seed", seed}, {"planner", planner}};
+      row.update(row_of(flight));
+      table_.add(row);
+      if (!options_.output.empty())
+        draw(flight, options_.output, picture_name(name, seed, planner));
+    }
+  }
+
+  const BenchExploreOptions& options_;
+  ProgressBar bar_;
+  BenchTable table_;
+};
+
 int run(const BenchExploreOptions& options, const Globals& globals) {
   if (!options.output.empty()) require_folder(options.output);
-  BenchTable table;
-  ProgressBar bar(globals);
-  const bool complete = completes([&] {
-    for (const std::string& name : options.worlds)
-      for (int seed = 1; seed <= options.seeds; ++seed)
-        for (const std::string& planner : options.planners) {
-          ExploreSettings settings = options.settings;
-          settings.planner = planner;
-          ExplorationFlightConfig config = settings.flight();
-          const Place place =
-              place_of(name, static_cast<std::uint64_t>(seed), options.cells, config.free_radius());
-          config.start = place.start;
-          config.seed = static_cast<std::uint64_t>(seed);
-          const ExplorationFlight flight = explore(place.world, config, bar.callback());
-          Json row = {{"world", name}, {"seed", seed}, {"planner", planner}};
-          row.update(row_of(flight));
-          table.add(row);
-          if (!options.output.empty())
-            draw(flight, options.output, picture_name(name, seed, planner));
-        }
-  });
-  bar.clear();
+  ExploreBench bench(options, globals);
+  const bool complete = completes([&] { bench.run(); });
   const ExplorationFlightConfig& config = options.settings.config;
   const Json facts = {{"voxel_size", config.voxel_size},
                       {"radius", config.radius},
                       {"max_speed", config.explorer.limits.max_speed},
                       {"max_acceleration", config.explorer.limits.max_acceleration},
                       {"scan_rate", config.scan_rate}};
-  return table.report(globals, options.output, "explore", facts, complete);
+  return bench.table().report(globals, options.output, "explore", facts, complete);
 }
 
 }  // namespace
@@ -134,7 +178,12 @@ void add_bench_explore(Command& bench) {
   const auto options = std::make_shared<BenchExploreOptions>();
   Command command = bench.add(
       "explore", "A simulated drone maps worlds by itself: time, length and safety by planner");
-  command.choices("--worlds", options->worlds, {"maze", "hall", "house"}, "Worlds to map");
+  command.choices("--worlds", options->worlds, {"maze", "hall", "house"},
+                  "Worlds to map (default: all, unless another is given)");
+  command.path("--world", options->file, "World to map, .yaml; its seeds are of the noise alone");
+  command.point("--start", options->start, "Where the drone is at first in that --world, x,y,z");
+  command.box("--bounds", options->bounds,
+              "What of that --world is to be mapped, x0,y0,z0,x1,y1,z1 (default: its enclosure)");
   command.choices("--planners", options->planners, {"ridgeway", "frontier", "nbvp", "offline"},
                   "Who decides where to fly; offline: a tour by one that knows the world");
   command.whole("--seeds", options->seeds, {1, 1000}, "Of worlds and noise: 1 up to this");

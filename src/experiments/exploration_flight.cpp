@@ -48,14 +48,14 @@ void require_start(const World& world, const ExplorationFlightConfig& config, co
         (config.start.array() <= bounds.max.array()).all()))
     throw InputError(place, "is outside of what is to be mapped", "give a start within the bounds");
   const double room = surface_distance(world_at(world, 0.0), config.start).distance;
+  const std::string metres = number_text(std::round(1e3 * room) / 1e3);
   if (room < config.radius)
-    throw InputError(
-        place,
-        room <= 0.0 ? "is inside an obstacle" : "is " + number_text(room) + " m from an obstacle",
-        "give a start farther from obstacles than the radius");
+    throw InputError(place,
+                     room <= 0.0 ? "is inside an obstacle" : "is " + metres + " m from an obstacle",
+                     "give a start farther from obstacles than the radius");
   if (room < config.free_radius())
     throw InputError(place,
-                     "has " + number_text(room) + " m of free space around it, not the " +
+                     "has " + metres + " m of free space around it, not the " +
                          number_text(config.free_radius()) + " m that are taken for free",
                      "give a start with more room, a smaller start radius or smaller voxels");
 }

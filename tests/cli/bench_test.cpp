@@ -225,6 +225,28 @@ TEST_F(CliBench, LiveHasARowForEveryWorldAndRecording) {
     EXPECT_GT(read_whole(folder_ / "out" / file).size(), 100u) << file;
 }
 
+TEST_F(CliBench, ExploreHasARowForEveryPlannerAndSeedInAWorldOfAFile) {
+  const Outcome outcome =
+      run({"bench", "explore", "--world", room(), "--start", "2,2,1", "--seeds", "2", "--planners",
+           "ridgeway,offline", "--longest", "20", "-o", path("out"), "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto rows = outcome.json()["rows"];
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[2]["world"], "room");
+  EXPECT_EQ(rows[2]["seed"], 2);
+  EXPECT_EQ(rows[3]["planner"], "offline");
+  for (const auto& row : rows) {
+    EXPECT_EQ(row["collisions"], 0);
+    EXPECT_GT(row["coverage"], 0.9);
+    EXPECT_GT(row["decision_milliseconds"]["p95"], 0.0);
+  }
+  for (const char* file : {"explore.json", "explore.csv", "explore_room_2_offline.png"})
+    EXPECT_GT(read_whole(folder_ / "out" / file).size(), 100u) << file;
+  expect_refused({"bench", "explore", "--world", path("room.yaml")}, {"--start", "--world"});
+  expect_refused({"bench", "explore", "--start", "2,2,1"}, {"--start", "--world"});
+  expect_refused({"bench", "explore", "--bounds", "0,0,0,1,1,1"}, {"--bounds", "--world"});
+}
+
 TEST_F(CliBench, TrajectoryHasARowForEveryMapAndNoViolation) {
   const std::string map = std::string(RIDGEWAY_DATA_DIR) + "/fr_079.bt";
   const Outcome outcome = run({"bench", "trajectory", map, "--worlds", "hall", "--voxel-size",
