@@ -2,9 +2,11 @@
 # Copyright (c) 2026 The Ridgeway authors
 
 # Installation, find_package(ridgeway COMPONENTS ...), pkg-config, and the Debian packages ridgeway
-# (the program), ridgeway-dev (headers and static libraries), python3-ridgeway and ridgeway-doc.
+# (the program), libridgeway0.1 (the shared library, by its version), ridgeway-dev (headers and static
+# libraries), python3-ridgeway and ridgeway-doc.
 
 include(CMakePackageConfigHelpers)
+include(RidgewayShared)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/ridgeway")
 
 # Modules that need libraries of their own are components of their own; core is all others, and the
@@ -47,6 +49,15 @@ foreach(component IN LISTS components)
       PATTERN "*.hpp")
   endif()
 endforeach()
+set(library_package libridgeway${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+if(RIDGEWAY_BUILD_SHARED)
+  ridgeway_shared_library(core ${components})
+  install(
+    TARGETS ridgeway_shared
+    EXPORT ridgeway-shared
+    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library NAMELINK_COMPONENT dev)
+  install(EXPORT ridgeway-shared NAMESPACE ridgeway:: DESTINATION "${package_dir}" COMPONENT dev)
+endif()
 install(
   FILES cmake/FindOMPL.cmake cmake/FindLZF.cmake
   DESTINATION "${package_dir}"
@@ -65,8 +76,9 @@ install(
   DESTINATION "${package_dir}"
   COMPONENT dev)
 
-# pkg-config: ridgeway for core, ridgeway-NAME for each other component. The libraries are static, so
-# those that they need are always named, and libraries stand before what they use.
+# pkg-config: ridgeway for core, ridgeway-NAME for each other component; ridgeway-shared for all of
+# them in the shared library. The others are static, so those that they need are always named, and
+# libraries stand before what they use.
 set(pc_needs_ridge ridgeway libzstd)
 set(pc_needs_pictures ridgeway cairo)
 set(pc_needs_sampling ridgeway ompl)
@@ -74,7 +86,11 @@ set(pc_needs_trajectory ridgeway nlopt)
 set(pc_needs_formats ridgeway-ridge ridgeway-trajectory liblzf yaml-cpp)
 set(pc_needs_recordings ridgeway-formats libpng)
 set(pc_needs_core eigen3 tbb)
-foreach(component IN ITEMS core ${components})
+set(pc_needs_shared eigen3 tbb)
+if(RIDGEWAY_BUILD_SHARED)
+  set_property(GLOBAL PROPERTY RIDGEWAY_MODULES_shared ridgeway_shared)
+endif()
+foreach(component IN ITEMS core ${components} shared)
   get_property(modules GLOBAL PROPERTY RIDGEWAY_MODULES_${component})
   if(NOT modules)
     continue()
@@ -88,6 +104,8 @@ foreach(component IN ITEMS core ${components})
     get_target_property(type ${module} TYPE)
     if(type STREQUAL "STATIC_LIBRARY")
       list(PREPEND pc_libraries "-l${module}")
+    elseif(type STREQUAL "SHARED_LIBRARY")
+      list(PREPEND pc_libraries "-lridgeway")
     endif()
   endforeach()
   list(JOIN pc_libraries " " pc_libraries)
@@ -139,6 +157,13 @@ install(
   DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/ridgeway-doc"
   RENAME copyright
   COMPONENT doc)
+if(TARGET ridgeway_shared)
+  install(
+    FILES LICENSE
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${library_package}"
+    RENAME copyright
+    COMPONENT library)
+endif()
 if(TARGET ridgeway_python)
   install(
     FILES LICENSE
@@ -157,6 +182,14 @@ if(PROJECT_IS_TOP_LEVEL)
   if(TARGET ridgeway_python)
     list(APPEND CPACK_COMPONENTS_ALL python)
   endif()
+  if(TARGET ridgeway_shared)
+    list(APPEND CPACK_COMPONENTS_ALL library)
+    set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME ${library_package})
+    set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
+    set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
+    set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS ridgeway)  # which reads meshes
+    set(dev_needs_library ", ${library_package} (= ${PROJECT_VERSION})")
+  endif()
   set(CPACK_DEB_COMPONENT_INSTALL ON)
   set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
   set(CPACK_DEBIAN_PACKAGE_SECTION science)
@@ -164,7 +197,7 @@ if(PROJECT_IS_TOP_LEVEL)
   set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
   set(CPACK_DEBIAN_DEV_PACKAGE_NAME ridgeway-dev)
   set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
-  set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, libtbb-dev")
+  set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, libtbb-dev${dev_needs_library}")
   string(
     JOIN ", " CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS
     libompl-dev

@@ -20,6 +20,14 @@ run("${WORK_DIR}/build/consumer_trajectory")
 run("${WORK_DIR}/build/consumer_ridge")
 run("${WORK_DIR}/build/consumer_recordings")
 run("${WORK_DIR}/build/consumer_sampling")
+run("${WORK_DIR}/build/consumer_shared")
+
+execute_process(
+  COMMAND readelf --dynamic "${WORK_DIR}/build/consumer_shared"
+  OUTPUT_VARIABLE dynamic COMMAND_ERROR_IS_FATAL ANY)
+if(NOT dynamic MATCHES "NEEDED[^\n]*libridgeway\\.so" OR dynamic MATCHES "NEEDED[^\n]*libyaml")
+  message(FATAL_ERROR "a program of the shared library links others, too: ${dynamic}")
+endif()
 
 # A program that loads a roadmap and plans needs oneTBB and zstd (Eigen is headers alone), and what
 # any C++ program needs.

@@ -38,7 +38,7 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n
 python3 -c 'import ridgeway; assert ridgeway.load_world("mesh.yaml").occupancy(0.1, ((-1, -1, -1), (2, 2, 2))).counts["occupied"] > 50'
 echo "== python3 reads meshes by the program of the package"
 
-apt-get install -y --no-install-recommends /root/packages/ridgeway-dev_*.deb /root/packages/ridgeway-doc_*.deb \
+apt-get install -y --no-install-recommends /root/packages/ridgeway-dev_*.deb /root/packages/libridgeway*.deb /root/packages/ridgeway-doc_*.deb \
   g++ cmake make pkg-config libzstd-dev
 for file in docs/how-it-works.md html/index.html html/formats.html; do
   test -s "/usr/share/doc/ridgeway-doc/$file" || grep -q path-exclude /etc/dpkg/dpkg.cfg.d/*
@@ -53,13 +53,20 @@ add_executable(core core.cpp)
 target_link_libraries(core PRIVATE ridgeway::ridgeway)
 add_executable(ridge ridge.cpp)
 target_link_libraries(ridge PRIVATE ridgeway::ridgeway ridgeway::ridge)
+find_package(ridgeway REQUIRED COMPONENTS shared)
+add_executable(shared ridge.cpp)
+target_link_libraries(shared PRIVATE ridgeway::shared)
 END
 cmake -S consumer -B build
 cmake --build build
 version=$(dpkg-query -W -f '${Version}' ridgeway-dev)
 build/core "$version"
 build/ridge
+build/shared
+ldd build/shared | grep -q 'libridgeway.so.* => /'
 echo "== a consumer of find_package builds and runs"
 g++ -std=c++20 consumer/ridge.cpp -o by-pkg-config $(pkg-config --cflags --libs ridgeway-ridge)
 ./by-pkg-config
+g++ -std=c++20 consumer/ridge.cpp -o shared-by-pkg-config $(pkg-config --cflags --libs ridgeway-shared)
+./shared-by-pkg-config
 echo "== and one of pkg-config"
