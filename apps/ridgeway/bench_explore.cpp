@@ -123,7 +123,7 @@ class ExploreBench {
           return place_of(name, static_cast<std::uint64_t>(seed), options_.cells, room);
         });
     if (options_.file.empty()) return;
-    const Place place = {load_world(options_.file), *options_.start, options_.bounds};
+    Place place = {load_world(options_.file), *options_.start, options_.bounds};
     for (int seed = 1; seed <= options_.seeds; ++seed)
       fly(std::filesystem::path(options_.file).stem().string(), seed,
           [&](double) { return place; });
