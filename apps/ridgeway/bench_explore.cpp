@@ -2,7 +2,6 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -48,13 +47,28 @@ Point start_with_room(const World& world, Point start, double room) {
   return start;
 }
 
-Place place_of(const std::string& name, std::uint64_t seed, int cells, double room) {
-  if (name == "maze") return {make_maze({.cells = cells, .seed = seed}), {1.5, 1.5, 1.25}};
-  if (name == "hall") {
+/// A world by its name, or that of the file.
+Place place_of(const BenchExploreOptions& options, const std::string& world, std::uint64_t seed,
+               double room) {
+  if (world == options.file) return {load_world(world), *options.start, options.bounds};
+  if (world == "maze") return {make_maze({.cells = options.cells, .seed = seed}), {1.5, 1.5, 1.25}};
+  if (world == "hall") {
     const World hall = make_hall({.seed = seed});
     return {hall, start_with_room(hall, {1.5, 1.5, 1.5}, room)};
   }
   return {make_house(), {1.2, 1.2, 1.5}};
+}
+
+/// What is flown: names, and the file.
+std::vector<std::string> worlds_of(const BenchExploreOptions& options) {
+  if (options.file.empty() != !options.start)
+    throw InputError("--start", "goes with --world", "give both or none");
+  if (options.file.empty() && options.bounds)
+    throw InputError("--bounds", "are of a --world", "give one, or no bounds");
+  if (options.worlds.empty() && options.file.empty()) return {"maze", "hall", "house"};
+  std::vector<std::string> worlds = options.worlds;
+  if (!options.file.empty()) worlds.push_back(options.file);
+  return worlds;
 }
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
@@ -103,73 +117,40 @@ void draw(const ExplorationFlight& flight, const std::string& folder, const std:
     draw_floor_plan(*flight.roadmap, flight.path, folder + "/" + name + ".png", picture);
 }
 
-/// All flights, one after the other.
-class ExploreBench {
- public:
-  ExploreBench(const BenchExploreOptions& options, const Globals& globals)
-      : options_(options), bar_(globals) {
-    if (options.file.empty() != !options.start)
-      throw InputError("--start", "goes with --world", "give both or none");
-    if (options.file.empty() && options.bounds)
-      throw InputError("--bounds", "are of a --world", "give one, or no bounds");
-  }
-
-  void run() {
-    std::vector<std::string> worlds = options_.worlds;
-    if (worlds.empty() && options_.file.empty()) worlds = {"maze", "hall", "house"};
-    for (const std::string& name : worlds)
-      for (int seed = 1; seed <= options_.seeds; ++seed)
-        fly(name, seed, [&](double room) {
-          return place_of(name, static_cast<std::uint64_t>(seed), options_.cells, room);
-        });
-    if (options_.file.empty()) return;
-    Place place = {load_world(options_.file), *options_.start, options_.bounds};
-    for (int seed = 1; seed <= options_.seeds; ++seed)
-      fly(std::filesystem::path(options_.file).stem().string(), seed,
-          [&](double) { return place; });
-  }
-
-  const BenchTable& table() {
-    bar_.clear();
-    return table_;
-  }
-
- private:
-  /// By all planners. `place_with` gives world and start for the room that the drone needs.
-  void fly(const std::string& name, int seed, const std::function<Place(double)>& place_with) {
-    for (const std::string& planner : options_.planners) {
-      ExploreSettings settings = options_.settings;
-      settings.planner = planner;
-      ExplorationFlightConfig config = settings.flight();
-      const Place place = place_with(config.free_radius());
-      config.start = place.start;
-      config.bounds = place.bounds;
-      config.seed = static_cast<std::uint64_t>(seed);
-      const ExplorationFlight flight = explore(place.world, config, bar_.callback());
-      Json row = {{"world", name}, {"seed", seed}, {"planner", planner}};
-      row.update(row_of(flight));
-      table_.add(row);
-      if (!options_.output.empty())
-        draw(flight, options_.output, picture_name(name, seed, planner));
-    }
-  }
-
-  const BenchExploreOptions& options_;
-  ProgressBar bar_;
-  BenchTable table_;
-};
-
 int run(const BenchExploreOptions& options, const Globals& globals) {
+  const std::vector<std::string> worlds = worlds_of(options);
   if (!options.output.empty()) require_folder(options.output);
-  ExploreBench bench(options, globals);
-  const bool complete = completes([&] { bench.run(); });
+  BenchTable table;
+  ProgressBar bar(globals);
+  const bool complete = completes([&] {
+    for (const std::string& world : worlds)
+      for (int seed = 1; seed <= options.seeds; ++seed)
+        for (const std::string& planner : options.planners) {
+          ExploreSettings settings = options.settings;
+          settings.planner = planner;
+          ExplorationFlightConfig config = settings.flight();
+          const Place place =
+              place_of(options, world, static_cast<std::uint64_t>(seed), config.free_radius());
+          config.start = place.start;
+          config.bounds = place.bounds;
+          config.seed = static_cast<std::uint64_t>(seed);
+          const ExplorationFlight flight = explore(place.world, config, bar.callback());
+          const std::string name = std::filesystem::path(world).stem().string();
+          Json row = {{"world", name}, {"seed", seed}, {"planner", planner}};
+          row.update(row_of(flight));
+          table.add(row);
+          if (!options.output.empty())
+            draw(flight, options.output, picture_name(name, seed, planner));
+        }
+  });
+  bar.clear();
   const ExplorationFlightConfig& config = options.settings.config;
   const Json facts = {{"voxel_size", config.voxel_size},
                       {"radius", config.radius},
                       {"max_speed", config.explorer.limits.max_speed},
                       {"max_acceleration", config.explorer.limits.max_acceleration},
                       {"scan_rate", config.scan_rate}};
-  return bench.table().report(globals, options.output, "explore", facts, complete);
+  return table.report(globals, options.output, "explore", facts, complete);
 }
 
 }  // namespace

@@ -48,15 +48,17 @@ void require_start(const World& world, const ExplorationFlightConfig& config, co
         (config.start.array() <= bounds.max.array()).all()))
     throw InputError(place, "is outside of what is to be mapped", "give a start within the bounds");
   const double room = surface_distance(world_at(world, 0.0), config.start).distance;
-  const std::string metres = number_text(std::round(1e3 * room) / 1e3);
+  const auto metres = [](double length) {
+    return number_text(std::round(1e3 * length) / 1e3) + " m";
+  };
   if (room < config.radius)
-    throw InputError(place,
-                     room <= 0.0 ? "is inside an obstacle" : "is " + metres + " m from an obstacle",
-                     "give a start farther from obstacles than the radius");
+    throw InputError(
+        place, room <= 0.0 ? "is inside an obstacle" : "is " + metres(room) + " from an obstacle",
+        "give a start farther from obstacles than the radius");
   if (room < config.free_radius())
     throw InputError(place,
-                     "has " + metres + " m of free space around it, not the " +
-                         number_text(config.free_radius()) + " m that are taken for free",
+                     "has " + metres(room) + " of free space around it, not the " +
+                         metres(config.free_radius()) + " that are taken for free",
                      "give a start with more room, a smaller start radius or smaller voxels");
 }
 

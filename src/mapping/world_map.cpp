@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -22,14 +21,6 @@ std::vector<BlockIndex> blocks_up_to(const VoxelIndex& end) {
   return blocks;
 }
 
-/// Whether a mesh, which may have no inside, comes near a place.
-bool has_mesh_within(const World& world, const Point& place, double distance) {
-  return std::any_of(world.meshes.begin(), world.meshes.end(), [&](const PlacedMesh& placed) {
-    const Point p = placed.T_world_mesh.inverse() * place / placed.scale;
-    return placed.mesh->distance(p).distance * placed.scale <= distance;
-  });
-}
-
 }  // namespace
 
 OccupancyMap occupancy_of(const World& world, double voxel_size, const Box& bounds) {
@@ -44,6 +35,8 @@ OccupancyMap occupancy_of(const World& world, double voxel_size, const Box& boun
   map.origin = range.min;
   map.layout = BlockLayout(blocks_up_to(range.max - range.min));
   map.state = VoxelField<VoxelState>(map.layout);
+  World meshes;  // alone: walls without an inside are in the way, too
+  meshes.meshes = world.meshes;
   const double half_diagonal = 0.5 * std::sqrt(3.0) * voxel_size;
   parallel_for_each_index(map.layout.block_count(), [&](std::size_t slot) {
     const auto first = static_cast<VoxelId>(slot * kBlockVoxels);
@@ -52,7 +45,7 @@ OccupancyMap occupancy_of(const World& world, double voxel_size, const Box& boun
       if (!range.contains(voxel)) continue;
       const Point centre = centre_of(voxel, voxel_size);
       const bool is_free = surface_distance(world, centre).distance > 0.0 &&
-                           !has_mesh_within(world, centre, half_diagonal);
+                           surface_distance(meshes, centre).distance > half_diagonal;
       map.state[id] = is_free ? VoxelState::kFree : VoxelState::kOccupied;
     }
   });
