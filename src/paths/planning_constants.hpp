@@ -43,7 +43,7 @@ struct PlanningConstants {
   std::size_t detour_stretch = 3;  ///< segments that a way may replace
 
   // Pulling tight (paths/shorten.cpp).
-  int tight_bisections = 6;   ///< of a move
+  int tight_bisections = 5;   ///< of a move
   double tight_gain = 2e-3;   ///< of the path's length: what a move must gain
   double corner_gain = 1e-2;  ///< the same between corners that were learnt tight
   double skip_step = 30.0;    ///< radii between the places that skipping may choose from

@@ -125,13 +125,13 @@ class Answering {
     };
     const bool is_over_graph = config_.planner == Planner::kGraph;
     if (!is_over_graph && config_.planner != Planner::kDiagram) attachment_.emplace();  // unused
-    attachment();
-    lap(result_.seconds.attach);
-    if (wants_short() && is_over_graph && is_connected() && !space_.is_narrowed()) {
+    if (wants_short() && is_over_graph && !space_.is_narrowed()) {
       search_cells(known);
       lap(result_.seconds.shorten);
       if (is_plausible(known) && accept(known, {})) return PlanStatus::kOk;
     }
+    attachment();
+    lap(result_.seconds.attach);
     RouteResult found =
         find_route(roadmap_, space_, query_, attachment(), config_.planner, deadline_);
     lap(result_.seconds.search);
@@ -164,8 +164,17 @@ class Answering {
     known = improve(std::move(known));
   }
   void search_cells(Route& known, const CellEffort& effort) {
-    CellRoute cells = path_over_cells(roadmap_, space_, query_, attachment(), effort,
-                                      known.empty() ? 0.0 : length_of(known), deadline_);
+    const double longest = known.empty() ? 0.0 : length_of(known);
+    CellRoute cells;
+    const auto search = [&](const AttachWay& from, const AttachWay& to) {
+      cells = path_over_cells(roadmap_, space_, query_, from, to, effort, longest, deadline_);
+    };
+    // Most ends see cells that are connected: then their ways into the graph are not needed.
+    if (!attachment_) search({.voxels = {query_.from}}, {.voxels = {query_.to}});
+    if (!cells.is_direct) {
+      if (!is_connected()) return;
+      search(attachment().from, attachment().to);
+    }
     if (cells.gave_up)
       cells_ = Cells::kGaveUp;
     else  // where there is something known, the search was for something shorter

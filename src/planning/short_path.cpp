@@ -16,9 +16,9 @@
 
 namespace ridgeway::detail {
 CellRoute path_over_cells(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query,
-                          const Attachment& attachment, const CellEffort& effort, double known,
-                          const Deadline& deadline) {
-  CellQuery cells{query.start, query.goal, attachment.from, attachment.to, query.radius};
+                          const AttachWay& from, const AttachWay& to, const CellEffort& effort,
+                          double known, const Deadline& deadline) {
+  CellQuery cells{query.start, query.goal, from, to, query.radius};
   if (known > 0.0) cells.longest = kPlanning.as_found * known;
   cells.effort = effort;
   CellRoute route = search_cells(roadmap, space, cells);

@@ -46,7 +46,7 @@ class MetCells {
       if (met.cell != kNoCell) place_of(met.cell) = met;
   }
 
-  std::vector<Met> table_ = std::vector<Met>(512);
+  std::vector<Met> table_ = std::vector<Met>(2048);
   std::size_t count_ = 0;
 };
 
