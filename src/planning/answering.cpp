@@ -13,6 +13,7 @@
 #include "query.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "roadmap/cell_search.hpp"
+#include "roadmap/open_parts.hpp"
 #include "route.hpp"
 #include "short_path.hpp"
 #include "tangent_path.hpp"
@@ -95,6 +96,12 @@ class Answering {
 
   /// Whether they show that moves between voxels lead from end to end.
   bool is_connected() {
+    // Mostly there is no need to follow them to their ends: both come to the same open part of
+    // space.
+    if (!attachment_ && is_as_wide(roadmap_.min_clearance, query_.radius))
+      if (const std::uint32_t part = open_part_of(roadmap_, query_.from);
+          part != CellGraph::kNotOpen && part == open_part_of(roadmap_, query_.to))
+        return true;
     return attachment().reach == Reach::kConnected || attachment().reach == Reach::kJoined;
   }
 
@@ -125,7 +132,8 @@ class Answering {
     };
     const bool is_over_graph = config_.planner == Planner::kGraph;
     if (!is_over_graph && config_.planner != Planner::kDiagram) attachment_.emplace();  // unused
-    if (wants_short() && is_over_graph && !space_.is_narrowed()) {
+    if (wants_short() && is_over_graph && !space_.is_narrowed() && is_connected()) {
+      lap(result_.seconds.attach);
       search_cells(known);
       lap(result_.seconds.shorten);
       if (is_plausible(known) && accept(known, {})) return PlanStatus::kOk;
@@ -169,12 +177,9 @@ class Answering {
     const auto search = [&](const AttachWay& from, const AttachWay& to) {
       cells = path_over_cells(roadmap_, space_, query_, from, to, effort, longest, deadline_);
     };
-    // Most ends see cells that are connected: then their ways into the graph are not needed.
+    // Most ends see cells that are connected: then how they go on into the graph is not needed.
     if (!attachment_) search({.voxels = {query_.from}}, {.voxels = {query_.to}});
-    if (!cells.is_direct) {
-      if (!is_connected()) return;
-      search(attachment().from, attachment().to);
-    }
+    if (!cells.is_direct) search(attachment().from, attachment().to);
     if (cells.gave_up)
       cells_ = Cells::kGaveUp;
     else  // where there is something known, the search was for something shorter

@@ -17,6 +17,7 @@
 namespace ridgeway {
 namespace {
 
+/// Half of the radii are one of these times the smallest, half of them between two.
 constexpr std::array<double, 4> kRadiusFactors{1.0, 1.25, 1.5, 2.0};
 constexpr std::size_t kBatch = 64;  // queries between two reports of progress
 
@@ -56,9 +57,15 @@ std::vector<Query> draw_queries(const Roadmap& roadmap, const CheckConfig& confi
     std::size_t k = random() % places.size();
     if (places[k].empty()) k = 0;
     query.radius = kRadiusFactors[k] * roadmap.min_clearance;
+    if (k + 1 < places.size() && !places[k + 1].empty() && random() % 2 == 0)
+      query.radius += static_cast<double>(random() % 1000) / 1000.0 *
+                      (kRadiusFactors[k + 1] - kRadiusFactors[k]) * roadmap.min_clearance;
+    const SquaredHalves least = least_clearance(space.inner_radius(query.radius), esdf.voxel_size);
     for (Point* point : {&query.start, &query.goal}) {
-      const VoxelIndex v = esdf.layout.index_of(places[k][random() % places[k].size()]);
-      // Off the centre, but not so far that the place might not fit, nor out of the limits.
+      VoxelId place = places[k][random() % places[k].size()];
+      if (esdf.squared[place] < least) place = places[k + 1][random() % places[k + 1].size()];
+      const VoxelIndex v = esdf.layout.index_of(place);
+      // Off the centre, where the robot fits there, and not out of the limits.
       const auto off = [&] { return 0.2 * (static_cast<double>(random() % 1001) / 1000.0 - 0.5); };
       const Point centre = centre_of(v, esdf.voxel_size);
       if (!is_sphere) {
@@ -68,6 +75,7 @@ std::vector<Query> draw_queries(const Roadmap& roadmap, const CheckConfig& confi
       Point shift;  // one by one, as compilers differ in the order of arguments
       for (const int axis : {2, 1, 0}) shift[axis] = off();
       *point = space.nearest_within(centre + shift * esdf.voxel_size);
+      if (!space.is_free(*point, query.radius)) *point = centre;
     }
   }
   return queries;

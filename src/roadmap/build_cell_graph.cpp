@@ -7,6 +7,7 @@
 #include "cell_bends.hpp"
 #include "cell_neighbours.hpp"
 #include "cell_walks.hpp"
+#include "open_parts.hpp"
 #include "paths/planning_constants.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
@@ -63,6 +64,7 @@ class CellGraphBuilder {
         count, [&](std::size_t i) { look_all_around(static_cast<CellId>(i)); }, 64);
     detail::add_bends(space_, radius_, graph_);
     number_parts();
+    graph_.open_parts = detail::find_open_parts(esdf_, radius_);
     return std::move(graph_);
   }
 

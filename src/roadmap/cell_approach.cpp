@@ -16,10 +16,13 @@ std::uint8_t place_of_voxel(const VoxelIndex& v) {
 
 }  // namespace
 
-std::size_t width_for(double factor) {
-  std::size_t width = 1;
-  while (width < kRadiusLevels.size() && factor > kRadiusLevels[width - 1] * (1.0 + 1e-9)) ++width;
-  return width;
+WidthsFor widths_for(double factor) {
+  constexpr double kRounding = 1e-9;
+  std::size_t least = 1;
+  while (least < kRadiusLevels.size() && kRadiusLevels[least] <= factor * (1.0 + kRounding))
+    ++least;
+  const bool is_level = factor <= kRadiusLevels[least - 1] * (1.0 + kRounding);
+  return {least, is_level ? least : least + 1};
 }
 
 CellsForRobot::CellsForRobot(const Roadmap& roadmap, const FreeSpace& free_space,
@@ -30,10 +33,10 @@ CellsForRobot::CellsForRobot(const Roadmap& roadmap, const FreeSpace& free_space
       lattice(roadmap.esdf.layout),
       radius(robot_radius),
       threshold(least_clearance(robot_radius, roadmap.esdf.voxel_size)),
-      least_width(width_for(robot_radius / roadmap.min_clearance)) {}
+      widths(widths_for(robot_radius / roadmap.min_clearance)) {}
 
 std::uint16_t CellsForRobot::part_of(CellId place) const {
-  const std::size_t level = least_width - 1;
+  const std::size_t level = widths.least - 1;
   const std::size_t cells = graph.cells.size();
   return place < cells ? graph.cells[place].parts[level] : graph.nooks[place - cells].parts[level];
 }

@@ -13,9 +13,15 @@
 
 namespace ridgeway::detail {
 
-/// How many levels of radii an edge has to let through for a radius over the smallest; the widest
-/// have to be looked at beyond all levels.
-std::size_t width_for(double factor);
+/// How many levels of radii an edge has to let through for a radius. Between two levels those of
+/// the narrower may let it through, beyond all levels those of the widest, and have to be looked
+/// at.
+struct WidthsFor {
+  std::size_t least;  ///< fewer: it does not let it through
+  std::size_t sure;   ///< so many: it does
+};
+/// `factor`: the radius over the smallest.
+WidthsFor widths_for(double factor);
 
 /// The cell graph as a robot of some radius sees it.
 struct CellsForRobot {
@@ -25,7 +31,7 @@ struct CellsForRobot {
   CellLattice lattice;
   double radius;  ///< metres
   SquaredHalves threshold;
-  std::size_t least_width;  ///< of its edges
+  WidthsFor widths;  ///< of its edges
 
   CellsForRobot(const Roadmap& roadmap, const FreeSpace& free_space, double robot_radius);
 
@@ -38,7 +44,7 @@ struct CellsForRobot {
     return centre_of(lattice.voxel_at(cell_of_place(graph, place), number_in_cell(graph, place)),
                      esdf.voxel_size);
   }
-  /// Connected part of the graph at this radius.
+  /// Connected part of the graph by all edges that may let the robot through.
   std::uint16_t part_of(CellId place) const;
 };
 

@@ -18,7 +18,7 @@ namespace ridgeway::detail {
 namespace {
 
 const CellGraph::Lengths& lengths_for(const CellGraph& cells, double factor) {
-  return width_for(factor) == kRadiusLevels.size() ? cells.lengths_wide : cells.lengths;
+  return widths_for(factor).least == kRadiusLevels.size() ? cells.lengths_wide : cells.lengths;
 }
 
 class CellSearch {
@@ -30,9 +30,7 @@ class CellSearch {
         query_(query),
         lattice_(roadmap.esdf.layout),
         voxel_size_(roadmap.esdf.voxel_size),
-        is_beyond_levels_(query.radius >
-                          kRadiusLevels.back() * roadmap.min_clearance * (1.0 + 1e-9)),
-        least_width_(around_.least_width),
+        widths_(around_.widths),
         lengths_(lengths_for(roadmap.cells, query.radius / roadmap.min_clearance)),
         goal_((query.goal / voxel_size_).cast<float>()),
         longest_(static_cast<float>(query.longest / voxel_size_)) {}
@@ -118,8 +116,7 @@ class CellSearch {
           best_last = next.cell;
         }
       if (next.cell < cells_.size()) expand(next, best);
-      if (!is_beyond_levels_ && (next.cell >= cells_.size() || cells_[next.cell].has_bends))
-        follow_bends(next, best);
+      if (next.cell >= cells_.size() || cells_[next.cell].has_bends) follow_bends(next, best);
     }
     return best_last;
   }
@@ -147,12 +144,13 @@ class CellSearch {
     fetch_around(here.cell, directions, around);
     const VoxelIndex first = lattice_.first_voxel(here.cell);
     const Place place = place_in(here.cell, first);
-    const bool is_open = !is_beyond_levels_ && cells_[here.cell].all_around >= least_width_;
+    const bool is_open = cells_[here.cell].all_around >= widths_.sure;
     for (Cube27 left = directions; left != 0; left &= left - 1) {
       const int d = std::countr_zero(left);
       const CellId next = around[static_cast<std::size_t>(d)];
       if (next == kNoCell) continue;
-      if (!is_open && edge_width(cells_, here.cell, next, d) < least_width_) continue;
+      const std::size_t width = is_open ? widths_.sure : edge_width(cells_, here.cell, next, d);
+      if (width < widths_.least) continue;
       const VoxelIndex& o = offset_of(d);
       const Place there =
           place_in(next, first + VoxelIndex{CellGraph::kSide * o.x, CellGraph::kSide * o.y,
@@ -161,14 +159,14 @@ class CellSearch {
       MetCells::Met& met = met_[next];
       if (cost >= met.cost) continue;  // as most have
       if (met.rest < 0.0f) met.rest = rest_from(next, there);
-      if (cost + met.rest < best && (!is_beyond_levels_ || is_free(here.cell, next)))
+      if (cost + met.rest < best && (width >= widths_.sure || is_free(here.cell, next)))
         reach(cost, here.cell, met, is_open ? static_cast<Direction>(opposite(d)) : kCentre);
     }
   }
 
   void follow_bends(const Open& here, float best) {
     for (const CellGraph::Bend& bend : bends_from(graph_, here.cell)) {
-      if (bend.width < least_width_) continue;
+      if (bend.width < widths_.sure) continue;
       const float cost = here.cost + bend.length;
       MetCells::Met& met = met_[bend.to];
       if (cost >= met.cost) continue;
@@ -177,8 +175,22 @@ class CellSearch {
     }
   }
 
+  /// By the distances at both ends, if they tell.
   bool is_free(CellId a, CellId b) const {
+    const EsdfMap& esdf = around_.esdf;
+    const SquaredHalves from = esdf.squared[voxel_of(a)], to = esdf.squared[voxel_of(b)];
+    if (std::min(from, to) < around_.threshold) return false;
+    const VoxelIndex o = lattice_.voxel_at(b, number_in_cell(graph_, b)) -
+                         lattice_.voxel_at(a, number_in_cell(graph_, a));
+    if (esdf.unknown == UnknownPolicy::kObstacle &&
+        FreeSpace::move_bound(from, to, o.x * o.x + o.y * o.y + o.z * o.z) >= around_.threshold)
+      return true;
     return around_.space.is_free(around_.point_of(a), around_.point_of(b), query_.radius);
+  }
+
+  VoxelId voxel_of(CellId cell) const {
+    return around_.esdf.layout.slot_at(cell / CellGraph::kPerBlock) * kBlockVoxels +
+           local_voxel(cell, number_in_cell(graph_, cell));
   }
 
   std::vector<Point> route_over(const CellApproach& out, const CellApproach& in, CellId last) {
@@ -203,7 +215,8 @@ class CellSearch {
     const VoxelIndex step = around_.first_voxel(b) - around_.first_voxel(a);
     const int d = direction_of(
         {step.x / CellGraph::kSide, step.y / CellGraph::kSide, step.z / CellGraph::kSide});
-    return edge_width(cells_, a, b, d) >= least_width_;
+    const std::size_t width = edge_width(cells_, a, b, d);
+    return width >= widths_.sure || (width >= widths_.least && is_free(a, b));
   }
 
   const CellsForRobot around_;
@@ -212,8 +225,7 @@ class CellSearch {
   const CellQuery& query_;
   const CellLattice lattice_;
   const double voxel_size_;
-  const bool is_beyond_levels_;  ///< edges may be free that the widest robots pass
-  const std::size_t least_width_;
+  const WidthsFor widths_;
   const CellGraph::Lengths& lengths_;
   std::array<float, CellGraph::kLandmarks> goal_lengths_{};
   const Place goal_;

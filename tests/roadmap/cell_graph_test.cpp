@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <random>
 #include <utility>
 #include <vector>
 
 #include "paths/planning_constants.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
@@ -18,6 +20,8 @@
 #include "roadmap/cell_neighbours.hpp"
 #include "roadmap/cell_search.hpp"
 #include "roadmap/cell_walks.hpp"
+#include "roadmap/open_parts.hpp"
+#include "support/flood.hpp"
 #include "support/pillars.hpp"
 #include "support/places.hpp"
 #include "support/random_maps.hpp"
@@ -27,9 +31,9 @@ namespace {
 
 constexpr double kClearance = testing::kPillarClearance;
 
-Roadmap pillar_roadmap(unsigned seed) {
+Roadmap pillar_roadmap(unsigned seed, double clearance = kClearance) {
   std::vector<Eigen::Vector2d> axes;
-  return build_roadmap(testing::pillars(seed, axes), {.min_clearance = kClearance}).roadmap;
+  return build_roadmap(testing::pillars(seed, axes), {.min_clearance = clearance}).roadmap;
 }
 
 TEST(CellGraph, EveryPlaceAndEdgeKeepsItsClearance) {
@@ -118,11 +122,12 @@ TEST(CellGraph, RoutesAreFreeAtTheirRadius) {
   int found = 0;
   for (unsigned seed = 0; seed < 6; ++seed) {
     SCOPED_TRACE(seed);
-    const Roadmap roadmap = pillar_roadmap(seed);
+    const Roadmap roadmap = pillar_roadmap(seed, 0.5 * kClearance);
     const EsdfMap& esdf = roadmap.esdf;
     const FreeSpace space(esdf);
     std::mt19937 random(seed);
-    for (const double radius : {kClearance, 1.25 * kClearance}) {
+    for (const double factor : {1.0, 1.1, 1.25, 1.4, 1.8, 2.4}) {
+      const double radius = factor * roadmap.min_clearance;
       const std::vector<VoxelId> places = testing::traversable_places(esdf, radius);
       for (int i = 0; i < 20; ++i) {
         const VoxelId from = places[random() % places.size()];
@@ -144,7 +149,37 @@ TEST(CellGraph, RoutesAreFreeAtTheirRadius) {
       }
     }
   }
-  EXPECT_GT(found, 150);
+  EXPECT_GT(found, 400);
+}
+
+TEST(OpenParts, ConnectAllTheirVoxelsByMovesAcrossFaces) {
+  int parts_seen = 0, ways = 0;
+  for (unsigned seed = 0; seed < 120; ++seed) {
+    SCOPED_TRACE(seed);
+    const double radius = 0.05;
+    BuildConfig config{.min_clearance = radius, .tangent_pairs = 0};
+    Roadmap roadmap;
+    try {
+      roadmap = build_roadmap(testing::random_map(seed, 40), config).roadmap;
+    } catch (const InputError&) {
+      continue;  // no room in this one
+    }
+    const EsdfMap& esdf = roadmap.esdf;
+    const testing::Regions regions = testing::regions_at(esdf, radius);
+    std::map<std::uint32_t, std::uint32_t> region_of;  // by part
+    for (const VoxelId id : testing::traversable_places(esdf, radius)) {
+      const std::uint32_t own = roadmap.cells.open_parts[esdf.layout.rank(id / kBlockVoxels)];
+      const std::uint32_t reached = detail::open_part_of(roadmap, id);
+      if (own != CellGraph::kNotOpen) EXPECT_EQ(reached, own);
+      if (reached == CellGraph::kNotOpen) continue;
+      ++ways;
+      const auto [known, is_new] = region_of.emplace(reached, regions.label.at(id));
+      parts_seen += is_new;
+      ASSERT_EQ(known->second, regions.label.at(id));
+    }
+  }
+  EXPECT_GT(parts_seen, 30);
+  EXPECT_GT(ways, 10'000);
 }
 
 /// Voxels of 1 m, two fifths of them occupied: passages a voxel wide, for a robot that just fits.

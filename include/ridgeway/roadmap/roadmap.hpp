@@ -88,6 +88,12 @@ struct CellGraph {
   using Lengths = std::vector<std::array<float, kLandmarks>>;
   Lengths lengths;       ///< over all edges
   Lengths lengths_wide;  ///< over those of the widest robots
+
+  /// Parts of open space, by block in order: moves between voxels connect all voxels of blocks that
+  /// have the same number, at the smallest radius. kNotOpen where the robot does not fit on some
+  /// voxel of the block: the numbers say nothing about that one.
+  std::vector<std::uint32_t> open_parts;
+  static constexpr std::uint32_t kNotOpen = 0xffffffffu;  ///< see open_parts
 };
 
 /// For robots of a radius of `min_clearance` metres and more. Every segment is verified by the
