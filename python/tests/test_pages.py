@@ -104,7 +104,7 @@ def test_python_prints_what_is_printed(page, folder):
         if block.runs:
             exec(code, scope)
             expected += re.findall(r"#> (.*)", block.text)
-    assert printed == expected
+    assert printed == expected, [(a, b) for a, b in zip(printed, expected) if a != b]
 
 
 @with_blocks("sh", runs=False)

@@ -19,7 +19,8 @@ namespace {
 // planned with it. A change that reads the file differently is found here. Where the format is
 // changed on purpose, both are written anew, and looked at before they are committed:
 //   RIDGEWAY_WRITE_GOLDEN=1 build/bin/ridge_tests --gtest_filter='GoldenRidge.*'
-// Where planning is changed on purpose, the text alone becomes what is planned on the kept file.
+// Where planning is changed on purpose, the text alone becomes what is planned on the kept file:
+//   RIDGEWAY_WRITE_GOLDEN=text, the same
 
 const std::string kFolder = std::string(RIDGEWAY_SOURCE_DIR) + "/tests/ridge/golden/";
 
@@ -48,7 +49,12 @@ std::string plans_on(const Roadmap& roadmap) {
   return text.str();
 }
 
-void write_golden() {
+/// Both, or the text of the kept file alone.
+void write_golden(const std::string& what) {
+  if (what == "text") {
+    write_whole(kFolder + "rooms.txt", plans_on(load_roadmap(kFolder + "rooms.ridge")));
+    return;
+  }
   const OccupancyMap map = synthetic_map({.rooms_x = 2, .rooms_y = 1, .room = 16, .height = 14});
   const Roadmap roadmap = build_roadmap(map, {.min_clearance = 0.2}).roadmap;
   save_roadmap(roadmap, kFolder + "rooms.ridge");
@@ -56,7 +62,7 @@ void write_golden() {
 }
 
 TEST(GoldenRidge, OfTheCurrentVersionLoadsAndPlansAsItDid) {
-  if (std::getenv("RIDGEWAY_WRITE_GOLDEN") != nullptr) write_golden();
+  if (const char* what = std::getenv("RIDGEWAY_WRITE_GOLDEN")) write_golden(what);
   const Roadmap roadmap = load_roadmap(kFolder + "rooms.ridge");
   EXPECT_EQ(plans_on(roadmap), read_whole(kFolder + "rooms.txt"));
 }
