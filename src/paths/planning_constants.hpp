@@ -21,7 +21,8 @@ struct PlanningConstants {
   // The cell graph (roadmap/build_cell_graph.cpp, roadmap/cell_search.cpp).
   double cell_room = 1.5;      ///< voxels beyond the widest radius that a cell's place may be wide
   double cell_centring = 0.5;  ///< voxels of width that a voxel off the middle is worth
-  /// One after the other; a straight search finds what is nearly as short as what a wide one finds.
+  /// One after the other: the first finds most ways; one that goes straighter for the goal gets
+  /// there where that gave up; the last is wider, for what is still long.
   std::array<CellEffort, 3> cell_efforts{{{1.35, 400, 1.05}, {2.0, 800, 1.05}, {1.2, 1500, 1.12}}};
   /// Where those gave up and the graph's is long: straighter than the last, so that it gets there.
   CellEffort last_cell_effort{1.35, 16000, 1.15};

@@ -10,6 +10,7 @@
 #include "cell_approach.hpp"
 #include "cell_bends.hpp"
 #include "cell_neighbours.hpp"
+#include "cell_walks.hpp"
 #include "met_cells.hpp"
 #include "paths/planning_constants.hpp"
 #include "voxel/beyond_parent.hpp"

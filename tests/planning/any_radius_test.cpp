@@ -55,8 +55,8 @@ OccupancyMap rooms_with_slits(unsigned seed) {
     const bool wall = v.x % 20 == 0;
     const auto number = static_cast<std::size_t>(std::clamp(v.x / 20 - 1, 0, 3));
     const auto slit = static_cast<std::size_t>(std::min((v.y - 1) / 20, 3));
-    const bool is_in_slit = wall && v.y > 0 && (v.y - 1) % 20 >= 8 &&
-                            (v.y - 1) % 20 < 8 + slits[number][slit];
+    const bool is_in_slit =
+        wall && v.y > 0 && (v.y - 1) % 20 >= 8 && (v.y - 1) % 20 < 8 + slits[number][slit];
     return hull || (wall && !is_in_slit) ? VoxelState::kOccupied : VoxelState::kFree;
   });
 }
