@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/number_text.hpp"
 #include "common/rounding.hpp"
 #include "console.hpp"
 #include "ridgeway/common/error.hpp"
@@ -146,6 +147,10 @@ std::string AnswerFacts::reason(const Query& query, PlanStatus status) {
     case PlanStatus::kNoRoute:
       return explain_no_route(query);
     case PlanStatus::kRadiusTooSmall:
+      if (const double inner = 0.5 * robot_height_; inner > 0.0 && inner < query.radius)
+        return "the largest ball in a robot of that height has a radius of " + metres(inner) +
+               ", and the map was built for " + metres(roadmap_.min_clearance) +
+               " and more: build it with --min-clearance " + number_text(inner);
       return "the map was built for robots of a radius of " + metres(roadmap_.min_clearance) +
              " and more, asked for " + metres(query.radius) +
              ": give a larger --radius, or build the map with a smaller --min-clearance";

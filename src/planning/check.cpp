@@ -8,6 +8,7 @@
 #include <iterator>
 #include <random>
 
+#include "common/number_text.hpp"
 #include "common/rounding.hpp"
 #include "query.hpp"
 #include "ridgeway/common/error.hpp"
@@ -163,6 +164,16 @@ void ask_all(const Roadmap& roadmap, const CheckConfig& config, const std::vecto
   }
 }
 
+/// A roadmap says nothing about robots in which no ball of its smallest radius is.
+void require_room_for_balls(const Roadmap& roadmap, const CheckConfig& config) {
+  const double inner = 0.5 * config.robot_height;
+  if (inner == 0.0 || detail::is_as_wide(inner, roadmap.min_clearance)) return;
+  throw InputError("robot_height " + number_text(config.robot_height),
+                   "holds no ball of " + number_text(roadmap.min_clearance) +
+                       " m, the smallest radius of the roadmap",
+                   "build the roadmap with a min_clearance of " + number_text(inner));
+}
+
 }  // namespace
 
 CheckReport check_roadmap(const Roadmap& roadmap, const CheckConfig& config,
@@ -176,6 +187,7 @@ void check_roadmap(const Roadmap& roadmap, const CheckConfig& config, const Prog
                    CheckReport& report) {
   report = {};
   detail::validate_robot_height(config.robot_height);
+  require_room_for_balls(roadmap, config);
   check_edges(roadmap, progress, report);
   const std::vector<Query> queries = draw_queries(roadmap, config);
   std::vector<Outcome> outcomes;

@@ -46,7 +46,8 @@ struct Shifted {
   }
 
   /// The same points but for the shift, and what the world's coordinates round.
-  void expect_same(const std::vector<Point>& points_near, const std::vector<Point>& points_far) {
+  void expect_same(const std::vector<Point>& points_near,
+                   const std::vector<Point>& points_far) const {
     ASSERT_EQ(points_near.size(), points_far.size());
     for (std::size_t i = 0; i < points_near.size(); ++i) {
       const Point expected = shift(points_near[i]);
@@ -55,7 +56,7 @@ struct Shifted {
     }
   }
 
-  void expect_same(const PlanResult& a, const PlanResult& b) {
+  void expect_same(const PlanResult& a, const PlanResult& b) const {
     ASSERT_EQ(a.status, b.status);
     EXPECT_EQ(a.answered_by, b.answered_by);
     EXPECT_EQ(a.length, b.length);

@@ -103,7 +103,7 @@ bool connects(const EsdfMap& esdf, const FreeSpace& space, double radius, VoxelI
     if (here == to) return true;
     for (int d = 0; d < 27; ++d) {
       const VoxelId next = esdf.layout.neighbour(here, d);
-      if (next == kNoVoxel || seen.count(next) > 0 ||
+      if (next == kNoVoxel || seen.contains(next) ||
           !space.is_free(centre_of(esdf.layout.index_of(here), esdf.voxel_size),
                          centre_of(esdf.layout.index_of(next), esdf.voxel_size), radius))
         continue;
@@ -204,6 +204,7 @@ TEST(Cylinder, ChecksAlternativesAndBadHeights) {
   const Point a(1, 2, 1.1), b(5, 2, 1.1);
   EXPECT_EQ(plan(doors, a, b, {.radius = 0.4, .robot_height = 0.3}).status,
             PlanStatus::kRadiusTooSmall);  // the graph is for spheres of 0.2
+  EXPECT_THROW(check_roadmap(doors, {.queries = 1, .robot_height = 0.3}), InputError);
   for (const double height : {-1.0, std::nan(""), 1e300})
     EXPECT_THROW(plan(doors, a, b, {.robot_height = height}), InputError);
   EXPECT_THROW(plan(doors, a, b, {.escape = true, .robot_height = 1.0}), InputError);

@@ -130,7 +130,7 @@ class Judge {
       if (here == to) return true;
       for (int d = 0; d < 27; ++d) {
         const VoxelId next = esdf_.layout.neighbour(here, d);
-        if (d != kCentre && next != kNoVoxel && within_.count(next) > 0 && seen.count(next) == 0 &&
+        if (d != kCentre && next != kNoVoxel && within_.contains(next) && !seen.contains(next) &&
             free_.move_is_free(here, next, d, threshold_)) {
           seen.insert(next);
           open.push_back(next);

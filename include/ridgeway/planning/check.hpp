@@ -75,7 +75,8 @@ struct CheckReport {
 /// Verifies the contract of a roadmap: the clearance of every edge, measured anew, and random
 /// queries against A* through the ESDF: start and goal anywhere in the traversable voxels, radius
 /// 1 to 2 times the smallest, half of them 1, 1.25, 1.5 or 2 times. Queries run on all threads; the
-/// times are of one query alone on its thread. Throws InputError for bad limits.
+/// times are of one query alone on its thread. Throws InputError for bad limits, and for a robot
+/// that holds no ball of the smallest radius.
 CheckReport check_roadmap(const Roadmap& roadmap, const CheckConfig& config = {},
                           const Progress& progress = {});
 /// The same; where it is cancelled the report is of what was checked until then.
