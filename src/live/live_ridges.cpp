@@ -8,7 +8,6 @@
 
 #include "ridgeway/common/parallel.hpp"
 #include "skeleton/block_ridges.hpp"
-#include "skeleton/thin_among.hpp"
 #include "voxel/cube_gather.hpp"
 
 namespace ridgeway::detail {
@@ -60,58 +59,6 @@ void remake(const std::vector<std::uint32_t>& slots, const BlockOf& block_of_slo
   changed.name(named);
 }
 
-/// Collects the 26-components of a mask that hold some of its members.
-class Flood {
- public:
-  Flood(const BlockLayout& layout, const VoxelMask& mask, MarkedVoxels& seen)
-      : layout_(layout), mask_(mask), seen_(seen) {}
-
-  void from(VoxelId seed) {
-    if (!mask_.test(seed) || seen_.voxels.test(seed)) return;
-    take(seed);
-    for (std::size_t next = found_.size() - 1; next < found_.size(); ++next)
-      around(found_[next], [&](VoxelId id) { take(id); });
-  }
-  void from_around(VoxelId id) {
-    around(id, [&](VoxelId seed) { from(seed); });
-  }
-  std::vector<VoxelId> take_all() { return std::move(found_); }
-
- private:
-  template <typename Body>
-  void around(VoxelId id, const Body& body) const {
-    for (Cube27 cube = cube_around(layout_, mask_, id) & kCells26; cube != 0; cube &= cube - 1)
-      body(layout_.neighbour(id, std::countr_zero(cube)));
-  }
-  void take(VoxelId id) {
-    if (seen_.voxels.test(id)) return;
-    const std::uint32_t slot = id / kBlockVoxels;
-    if (seen_.voxels.block(slot) == VoxelMask::Block{}) seen_.slots.push_back(slot);
-    seen_.voxels.set(id);
-    found_.push_back(id);
-  }
-
-  const BlockLayout& layout_;
-  const VoxelMask& mask_;
-  MarkedVoxels& seen_;
-  std::vector<VoxelId> found_;
-};
-
-/// Thins the components again that thick edges came to or went from.
-void thin_again(LiveRidges& ridges, const BlockLayout& layout) {
-  Flood touched(layout, ridges.thick_edges, ridges.seen);
-  for (const std::uint32_t slot : ridges.changed_thick.slots)
-    for_each_member(ridges.changed_thick.voxels, slot, [&](VoxelId id) {
-      ridges.edges.reset(id);
-      touched.from(id);
-      touched.from_around(id);
-    });
-  ridges.seen.clear();
-  std::vector<VoxelId> voxels = touched.take_all();
-  for (const VoxelId id : voxels) ridges.edges.set(id);
-  thin_among(layout, ridges.edges, std::move(voxels));
-}
-
 }  // namespace
 
 std::vector<std::uint32_t> blocks_around(const BlockLayout& layout, const MarkedVoxels& marked) {
@@ -139,7 +86,7 @@ void update_traversable(LiveRidges& ridges, const LiveField& field) {
 void update_edges(LiveRidges& ridges, const LiveField& field) {
   const EsdfMap& esdf = field.esdf;
   for (VoxelMask* mask : {&ridges.gvd, &ridges.thick_edges, &ridges.edges}) mask->grow(esdf.layout);
-  for (MarkedVoxels* marked : {&ridges.changed_gvd, &ridges.changed_thick, &ridges.seen})
+  for (MarkedVoxels* marked : {&ridges.changed_gvd, &ridges.changed_thick})
     marked->grow_voxels(esdf.layout);
   remake(
       blocks_around(esdf.layout, field.changed),
@@ -151,7 +98,8 @@ void update_edges(LiveRidges& ridges, const LiveField& field) {
       blocks_around(esdf.layout, ridges.changed_gvd),
       [&](std::uint32_t slot) { return edges_in_block(esdf.layout, ridges.gvd, slot); },
       ridges.thick_edges, ridges.changed_thick, ridges.thick_count);
-  thin_again(ridges, esdf.layout);
+  ridges.thinning.thin(esdf.layout, ridges.thick_edges, ridges.changed_thick.voxels,
+                       ridges.changed_thick.slots, ridges.edges);
 }
 
 }  // namespace ridgeway::detail

@@ -7,6 +7,7 @@
 
 #include "live_field.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
+#include "skeleton/thinning_memory.hpp"
 
 namespace ridgeway::detail {
 
@@ -18,7 +19,7 @@ struct LiveRidges {
   std::size_t traversable_count = 0, gvd_count = 0, thick_count = 0;
   /// Those that came or went with the last update.
   MarkedVoxels changed_space = {}, changed_gvd = {}, changed_thick = {};
-  MarkedVoxels seen = {};  ///< for updates
+  ThinningMemory thinning = {};
 };
 
 /// The blocks of marked voxels and of their 26-neighbours, ascending.
@@ -29,7 +30,7 @@ std::vector<std::uint32_t> blocks_around(const BlockLayout& layout, const Marked
 void update_traversable(LiveRidges& ridges, const LiveField& field);
 
 /// And after that the rest: blocks in which something has changed, and those beside it; of the
-/// edges whole components, which thinning does not look beyond.
+/// thinned edges those voxels that are to be asked otherwise than before.
 void update_edges(LiveRidges& ridges, const LiveField& field);
 
 }  // namespace ridgeway::detail

@@ -86,12 +86,15 @@ inline std::vector<VoxelId> neighbours_of(const BlockLayout& layout, const Voxel
 }
 
 /// Deletes rounds of voxels until none of them may go; after the first round only neighbours of
-/// deleted voxels are asked again.
-template <typename MayGo>
+/// deleted voxels are asked again. Calls told(round, deleted) after each, from 0 on.
+template <typename MayGo, typename Told>
 void delete_layers(const BlockLayout& layout, VoxelMask& voxels, std::vector<VoxelId> work,
-                   const MayGo& may_go) {
-  while (!work.empty())
-    work = neighbours_of(layout, voxels, delete_round(layout, voxels, work, may_go));
+                   const MayGo& may_go, const Told& told) {
+  for (std::uint32_t round = 0; !work.empty(); ++round) {
+    const std::vector<VoxelId> deleted = delete_round(layout, voxels, work, may_go);
+    told(round, deleted);
+    work = neighbours_of(layout, voxels, deleted);
+  }
 }
 
 }  // namespace ridgeway::detail

@@ -6,12 +6,32 @@
 #include <vector>
 
 #include "level_peeling.hpp"
-#include "peeling_replay.hpp"
+#include "simple_point.hpp"
 #include "voxel/cube_gather.hpp"
 #include "voxel/mask_sets.hpp"
 
 namespace ridgeway::detail {
 namespace {
+
+/// Peeling as turns: a voxel's level is its own, and by which turns voxels go that are not played
+/// is as in PeelingMemory.
+struct PeelingRule {
+  const EsdfMap& esdf;
+  const VoxelMask& traversable;
+  const VoxelMask& keep;
+  const VoxelMask& stayed;
+  const VoxelMask& left;
+  const FlatTable<VoxelId, Turn>& late;
+
+  const VoxelMask& space() const { return traversable; }
+  Turn first_turn(VoxelId id) const { return turn_at(esdf.squared[id], 0, sub_field(id)); }
+  Turn later_turn(VoxelId, Turn) const { return kNever; }
+  Turn base_turn(VoxelId id) const {
+    if (!stayed.test(id)) return first_turn(id);
+    return left.test(id) ? kNever : late.at(id, mixed(id));
+  }
+  bool may_go(VoxelId id, Cube27 cube, Turn) const { return !keep.test(id) && is_simple(cube); }
+};
 
 /// Voxels of a mask, and of which blocks they are.
 struct Marked {
@@ -50,16 +70,16 @@ void for_each_of(const VoxelMask::Block& block, std::uint32_t slot, const Body& 
 /// than their base turn supposes. `fresh`: those whose base turn is to be their first one; that of
 /// before has not been forgotten yet.
 std::vector<VoxelId> disturbed(const BlockLayout& layout, const VoxelMask& traversable,
-                               const VoxelMask& stayed, const Marked& fresh, const Replay& replay) {
+                               const VoxelMask& stayed, const Marked& fresh, const PeelingRule& rule) {
   std::vector<VoxelId> ids;
   const auto look_at = [&](VoxelId id) {
     const bool is_fresh = fresh.voxels.test(id);
-    const Turn base = replay.base_turn(id), first = replay.first_turn(id);
+    const Turn base = rule.base_turn(id), first = rule.first_turn(id);
     for (Cube27 cube = cube_around(layout, traversable, id) & kCells26; cube != 0;
          cube &= cube - 1) {
       const VoxelId n = layout.neighbour(id, std::countr_zero(cube));
       if (fresh.voxels.test(n) == is_fresh) continue;
-      if (is_fresh ? replay.base_turn(n) > first : base > replay.first_turn(n)) ids.push_back(n);
+      if (is_fresh ? rule.base_turn(n) > first : base > rule.first_turn(n)) ids.push_back(n);
     }
   };
   const Marked around = dilated(layout, fresh);
@@ -126,26 +146,28 @@ void PeelingMemory::peel_again(const EsdfMap& esdf, const VoxelMask& traversable
   }
   // Those whose base turn is their first one from now on.
   const Marked fresh = dilated(layout, changed);
-  Replay replay(esdf, traversable, keep, {stayed_, left_, late_});
-  const std::vector<VoxelId> to_play = disturbed(layout, traversable, stayed_, fresh, replay);
+  const PeelingRule rule{esdf, traversable, keep, stayed_, left_, late_};
+  const std::vector<VoxelId> to_play = disturbed(layout, traversable, stayed_, fresh, rule);
   for (const std::uint32_t slot : fresh.slots)
     for_each_of(both(stayed_.block(slot), fresh.voxels.block(slot)), slot, [&](VoxelId id) {
       stayed_.reset(id);
       if (!left_.test(id)) late_.erase(id, mixed(id));
       left_.reset(id);
     });
+  scratch_.grow(layout);
+  Replay<PeelingRule> replay(layout, rule, scratch_);
   for (const std::uint32_t slot : fresh.slots)
     for (const VoxelMask* mask : {&not_simple, &keep})
       for_each_of(both(mask->block(slot), fresh.voxels.block(slot)), slot,
                   [&](VoxelId id) { replay.play(id, 0); });
   for (const VoxelId id : to_play) replay.play(id, 0);
   replay.run();
-  for (const Replay::Played& voxel : replay.played()) {
+  for (const auto& voxel : replay.played()) {
     const VoxelId id = voxel.id;
     if (stayed_.test(id) && !left_.test(id)) late_.erase(id, mixed(id));
     stayed_.reset(id);
     left_.reset(id);
-    if (voxel.gone == replay.first_turn(id)) continue;
+    if (voxel.gone == rule.first_turn(id)) continue;
     stayed_.set(id);
     if (voxel.gone == kNever)
       left_.set(id);

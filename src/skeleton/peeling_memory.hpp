@@ -7,6 +7,7 @@
 
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
+#include "turn_replay.hpp"
 #include "voxel/flat_table.hpp"
 
 namespace ridgeway::detail {
@@ -38,7 +39,8 @@ class PeelingMemory {
   VoxelMask traversable_, keep_;            // and what was peeled
   VoxelMask left_;                          // what it left
   VoxelMask stayed_;                        // those that stayed at their first turn
-  FlatTable<VoxelId, std::uint64_t> late_;  // the turns at which those of them went that went
+  FlatTable<VoxelId, Turn> late_;  // the turns at which those of them went that went
+  ReplayScratch scratch_;
 };
 
 }  // namespace ridgeway::detail

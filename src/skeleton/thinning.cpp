@@ -56,8 +56,6 @@ constexpr std::array<Template, 38> make_templates() {
 
 constexpr std::array<Template, 38> kTemplates = make_templates();
 
-bool may_go(Cube27 cube) { return is_simple(cube) && !is_curve_end(cube); }
-
 }  // namespace
 
 bool matches_deletion_template(Cube27 cube) {
@@ -72,13 +70,20 @@ void thin(const BlockLayout& layout, VoxelMask& voxels) {
 
 namespace detail {
 
-void thin_among(const BlockLayout& layout, VoxelMask& voxels, std::vector<VoxelId> among) {
-  delete_layers(layout, voxels, among, [](VoxelId, Cube27 cube) {
-    return matches_deletion_template(cube) && may_go(cube);
-  });
-  std::erase_if(among, [&](VoxelId id) { return !voxels.test(id); });
-  delete_layers(layout, voxels, std::move(among),
-                [](VoxelId, Cube27 cube) { return may_go(cube); });
+bool may_be_thinned(std::uint32_t pass, Cube27 cube) {
+  return (pass > 0 || matches_deletion_template(cube)) && is_simple(cube) && !is_curve_end(cube);
+}
+
+void thin_among(const BlockLayout& layout, VoxelMask& voxels, std::vector<VoxelId> among,
+                const ThinningRound& told) {
+  for (std::uint32_t pass = 0; pass < kThinningPasses; ++pass) {
+    delete_layers(
+        layout, voxels, among, [&](VoxelId, Cube27 cube) { return may_be_thinned(pass, cube); },
+        [&](std::uint32_t round, const std::vector<VoxelId>& deleted) {
+          if (told) told(pass, round, deleted);
+        });
+    std::erase_if(among, [&](VoxelId id) { return !voxels.test(id); });
+  }
 }
 
 }  // namespace detail
