@@ -75,7 +75,7 @@ class Replay {
       scratch_.is_played.reset(voxel.id);
       scratch_.places_of[voxel.id / kBlockVoxels] = kNone;
     }
-    scratch_.places = {};
+    decltype(scratch_.places)().swap(scratch_.places);  // which clear() would keep
   }
 
   /// Plays a voxel from a turn on, unless it has gone by then. Zero: from the first.
