@@ -10,20 +10,24 @@
 #include <tuple>
 #include <vector>
 
+#include "changed_blocks.hpp"
 #include "measured_moves.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "voxel/flat_table.hpp"
 
 namespace ridgeway::detail {
 
-/// What FreeSpace said of segments in a map that changes: an answer holds as long as nothing has
-/// changed where it was looked for. Answers that were not asked for between two changes are
-/// forgotten. Any number of threads may ask, one tells of changes.
+/// What FreeSpace said of segments in a map that changes: an answer holds as long as no distance
+/// and no site is another beside the segment, and no obstacle where it was looked for. Answers that
+/// were not asked for between two changes are forgotten. Any number of threads may ask, one tells
+/// of changes.
 class SegmentMemory {
  public:
   /// All that is asked from now on is of the map after a change. `changed`: the blocks in which an
-  /// obstacle, a distance or a site is another than before, and those that were added.
-  void change(const BlockLayout& layout, std::span<const std::uint32_t> changed);
+  /// obstacle, a distance or a site is another than before, and those that were added; `flipped`:
+  /// those of them in which an obstacle is, or that were added.
+  void change(const BlockLayout& layout, std::span<const std::uint32_t> changed,
+              std::span<const std::uint32_t> flipped);
   /// Forgets what was not asked for since the last change.
   void forget_unasked();
   /// Nothing is known any more.
@@ -55,8 +59,11 @@ class SegmentMemory {
     return value;
   }
 
-  /// Whether a block has changed that a box touches; its corners are in voxels.
-  bool touches_change(const Point& low, const Point& high) const;
+  /// The blocks in which anything has changed.
+  const ChangedBlocks& changed() const { return changed_; }
+  /// Whether an answer of before the last change may be another now. The box around its segment,
+  /// and how far from there it looked at obstacles, are in voxels.
+  bool may_be_another(const Point& low, const Point& high, double reach) const;
 
  private:
   static constexpr std::size_t kShards = 32;
@@ -79,14 +86,10 @@ class SegmentMemory {
   }
   template <typename Body>
   void for_each_kind(const Body& body);
-  std::uint32_t sum_up_to(int x, int y, int z) const;
 
   std::array<Shard, kShards> shards_;
   std::size_t most_answers_ = 0;  // of a shard: memory follows the map
-  // How many changed blocks there are up to each one of the box around them.
-  BlockIndex low_{}, extent_{};
-  std::vector<std::uint32_t> sums_;
-  bool is_all_changed_ = false;  // they are too far apart for sums
+  ChangedBlocks changed_, flipped_;
 };
 
 /// FreeSpace, with a memory or without. `moves`: those that have been measured already.

@@ -21,11 +21,8 @@ std::vector<VoxelChange> all_of(const OccupancyMap& map) {
   return changes;
 }
 
-/// Blocks in which anything that a segment's clearance depends on is another than before the last
-/// update, and those that came with it.
-std::vector<std::uint32_t> changed_since(const LiveField& field) {
-  std::vector<std::uint32_t> slots = field.changed.slots;
-  slots.insert(slots.end(), field.flipped.slots.begin(), field.flipped.slots.end());
+/// Some blocks, and those that came with the last update.
+std::vector<std::uint32_t> with_added(std::vector<std::uint32_t> slots, const LiveField& field) {
   for (std::uint32_t slot = field.first_of_last; slot < field.esdf.layout.block_count(); ++slot)
     slots.push_back(slot);
   return slots;
@@ -139,7 +136,8 @@ std::shared_ptr<const Roadmap> LiveRoadmap::State::built_on(Live& live, detail::
   update_traversable(live.ridges, field);
   build.traversable_voxels = live.ridges.traversable_count;
   build.seconds.gvd = lap.seconds();
-  live.memory->segments.change(field.esdf.layout, changed_since(field));
+  live.memory->segments.change(field.esdf.layout, with_added(field.changed.slots, field),
+                               with_added(field.flipped.slots, field));
   live.memory->peeling.change(field.esdf.layout, field.changed.voxels, field.changed.slots);
   live.memory->diagram.change(field.esdf.layout, field.changed.voxels, field.changed.slots);
   if (build.traversable_voxels == 0) {

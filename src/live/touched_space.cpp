@@ -48,8 +48,8 @@ struct Extent {
     constexpr double kAround = 6.0;  // voxels: of the answers, and for what is beside the part
     const double reach = 0.5 * std::sqrt(static_cast<double>(top)) + kAround;
     const Point first(low.x, low.y, low.z), last(high.x + 1, high.y + 1, high.z + 1);
-    return segments.touches_change(kBlockSide * first - Point::Constant(reach),
-                                   kBlockSide * last + Point::Constant(reach));
+    return segments.changed().touch(kBlockSide * first - Point::Constant(reach),
+                                    kBlockSide * last + Point::Constant(reach));
   }
 };
 
