@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "voxel/cube_gather.hpp"
+
 namespace ridgeway::detail {
 namespace {
 
@@ -120,6 +122,27 @@ SquaredHalves RememberedSpace::move_clearance(VoxelId from, VoxelId to, int dire
   };
   return SquaredHalves(memory_->answer(
       move, holds, [&] { return space_.move_clearance(from, to, direction).value; }));
+}
+
+void RememberedSpace::remember_moves(const VoxelMask& voxels) const {
+  if (memory_ == nullptr) return;
+  constexpr Cube27 kForward = kCells26 >> kCentre << kCentre;  // each move is one way
+  const Point beside = Point::Constant(kBeside);
+  const BlockLayout& layout = esdf_.layout;
+  for (std::uint32_t slot = 0; slot < layout.block_count(); ++slot) {
+    if (voxels.block(slot) == VoxelMask::Block{}) continue;
+    const BlockIndex& b = layout.block(slot);
+    const Point low = kBlockSide * Point(b.x, b.y, b.z);
+    if (!memory_->changed().touch(low - beside, low + Point::Constant(kBlockSide) + beside))
+      continue;
+    for_each_member(voxels, slot, [&](VoxelId id) {
+      for (Cube27 cells = cube_around(layout, voxels, id) & kForward; cells != 0;
+           cells &= cells - 1) {
+        const int d = std::countr_zero(cells);
+        move_clearance(id, layout.neighbour(id, d), d);
+      }
+    });
+  }
 }
 
 }  // namespace ridgeway::detail

@@ -113,6 +113,9 @@ class RememberedSpace {
     return low == SquaredHalves(kNoSite) ||
            FreeSpace::move_bound(a, b, squared_length(direction)) >= low;
   }
+  /// Asks for the moves between members of a set where something has changed, so that others find
+  /// them remembered: for a thread that would have nothing to do. Nothing without a memory.
+  void remember_moves(const VoxelMask& voxels) const;
 
  private:
   template <typename Reach, typename Find>

@@ -179,6 +179,7 @@ void build_on_watershed(const EdgesOf& edges_of, const SpaceOf& space_of, const 
   parallel_for_each_index(2, [&](std::size_t task) {
     if (task == 0) {
       edges = edges_of();
+      space.remember_moves(edges);  // the kernel takes longer
       require_memory_for(edges, kKernelBytesPerEdgeVoxel);
     } else {
       peeled = peel(space, space_of(), config.min_clearance, memory);
