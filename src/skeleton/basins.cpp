@@ -9,6 +9,7 @@
 #include <queue>
 
 #include "by_height.hpp"
+#include "common/parallel_sort.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "voxel/disjoint_sets.hpp"
 #include "watershed.hpp"
@@ -53,8 +54,8 @@ std::vector<Saddle> find_saddles(const EsdfMap& esdf, const Basins& basins,
       },
       64);
   std::erase_if(saddles, [](const Saddle& s) { return s.higher == 0; });
-  std::sort(saddles.begin(), saddles.end(),
-            [](const Saddle& a, const Saddle& b) { return a.height > b.height; });
+  detail::parallel_sort(saddles.begin(), saddles.end(),
+                        [](const Saddle& a, const Saddle& b) { return a.height > b.height; });
   return saddles;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "level_peeling.hpp"
+#include "ridgeway/common/parallel.hpp"
 #include "simple_point.hpp"
 #include "voxel/cube_gather.hpp"
 #include "voxel/mask_sets.hpp"
@@ -48,9 +49,18 @@ Marked dilated(const BlockLayout& layout, const Marked& marked) {
       const std::uint32_t n = layout.neighbour_block(slot, d);
       if (n == BlockLayout::kNoBlock || is_named[n] != 0) continue;
       is_named[n] = 1;
-      result.voxels.block(n) = CubeGather(layout, marked.voxels, n).dilated();
-      if (result.voxels.block(n) != VoxelMask::Block{}) result.slots.push_back(n);
+      result.slots.push_back(n);
     }
+  parallel_for_each_index(
+      result.slots.size(),
+      [&](std::size_t i) {
+        const std::uint32_t slot = result.slots[i];
+        result.voxels.block(slot) = CubeGather(layout, marked.voxels, slot).dilated();
+      },
+      32);
+  std::erase_if(result.slots, [&](std::uint32_t slot) {
+    return result.voxels.block(slot) == VoxelMask::Block{};
+  });
   return result;
 }
 
@@ -71,8 +81,7 @@ void for_each_of(const VoxelMask::Block& block, std::uint32_t slot, const Body& 
 /// before has not been forgotten yet.
 std::vector<VoxelId> disturbed(const BlockLayout& layout, const VoxelMask& traversable,
                                const VoxelMask& stayed, const Marked& fresh, const PeelingRule& rule) {
-  std::vector<VoxelId> ids;
-  const auto look_at = [&](VoxelId id) {
+  const auto look_at = [&](VoxelId id, std::vector<VoxelId>& ids) {
     const bool is_fresh = fresh.voxels.test(id);
     const Turn base = rule.base_turn(id), first = rule.first_turn(id);
     for (Cube27 cube = cube_around(layout, traversable, id) & kCells26; cube != 0;
@@ -83,8 +92,18 @@ std::vector<VoxelId> disturbed(const BlockLayout& layout, const VoxelMask& trave
     }
   };
   const Marked around = dilated(layout, fresh);
-  for (const std::uint32_t slot : around.slots)
-    for_each_of(both(stayed.block(slot), around.voxels.block(slot)), slot, look_at);
+  std::vector<std::vector<VoxelId>> of_block(around.slots.size());
+  parallel_for_each_index(
+      around.slots.size(),
+      [&](std::size_t i) {
+        const std::uint32_t slot = around.slots[i];
+        for_each_of(both(stayed.block(slot), around.voxels.block(slot)), slot,
+                    [&](VoxelId id) { look_at(id, of_block[i]); });
+      },
+      32);
+  std::vector<VoxelId> ids;
+  for (const std::vector<VoxelId>& of_one : of_block)
+    ids.insert(ids.end(), of_one.begin(), of_one.end());
   return ids;
 }
 
