@@ -2,13 +2,13 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "live_ridges.hpp"
 
-#include <bit>
 #include <utility>
 #include <vector>
 
 #include "ridgeway/common/parallel.hpp"
 #include "skeleton/block_ridges.hpp"
 #include "voxel/cube_gather.hpp"
+#include "voxel/mask_sets.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -24,12 +24,6 @@ bool has_member_towards(const VoxelMask::Block& block, const VoxelIndex& directi
   for (std::size_t z = 0; z < kBlockSide; ++z)
     if (direction.z == 0 || (direction.z < 0 ? z == 0 : z == kBlockSide - 1)) any |= block[z];
   return (any & cells) != 0;
-}
-
-std::size_t count_of(const VoxelMask::Block& block) {
-  std::size_t count = 0;
-  for (const std::uint64_t layer : block) count += static_cast<std::size_t>(std::popcount(layer));
-  return count;
 }
 
 /// Makes some blocks of a mask again, marks what is new, and keeps count of its members.

@@ -19,12 +19,8 @@ constexpr SquaredHalves kMeasuredByTheOther(-1.0);  // clearance that the move b
 
 /// Number of a diagram voxel, by how many of its block come before it.
 DiagramNumber number_of(const DiagramCurves& curves, const VoxelMask& diagram, VoxelId id) {
-  const VoxelMask::Block& block = diagram.block(id / kBlockVoxels);
-  const std::size_t layer = id / 64 % kBlockSide;
-  int before = bit_count(block[layer] & ((std::uint64_t{1} << id % 64) - 1));
-  for (std::size_t z = 0; z < layer; ++z) before += bit_count(block[z]);
   return curves.first_of_block[curves.layout->rank(id / kBlockVoxels)] +
-         static_cast<DiagramNumber>(before);
+         static_cast<DiagramNumber>(members_before(diagram.block(id / kBlockVoxels), id));
 }
 
 /// A move to each neighbour in a diagram, its clearance known to the first of the two.

@@ -80,7 +80,8 @@ void for_each_of(const VoxelMask::Block& block, std::uint32_t slot, const Body& 
 /// than their base turn supposes. `fresh`: those whose base turn is to be their first one; that of
 /// before has not been forgotten yet.
 std::vector<VoxelId> disturbed(const BlockLayout& layout, const VoxelMask& traversable,
-                               const VoxelMask& stayed, const Marked& fresh, const PeelingRule& rule) {
+                               const VoxelMask& stayed, const Marked& fresh,
+                               const PeelingRule& rule) {
   const auto look_at = [&](VoxelId id, std::vector<VoxelId>& ids) {
     const bool is_fresh = fresh.voxels.test(id);
     const Turn base = rule.base_turn(id), first = rule.first_turn(id);

@@ -34,12 +34,12 @@ class PeelingMemory {
                   const VoxelMask& keep);
 
   bool knows_any_ = false;
-  VoxelMask changed_;                       // since the last peel, maybe
-  VoxelField<std::uint32_t> squared_;       // levels of that
-  VoxelMask traversable_, keep_;            // and what was peeled
-  VoxelMask left_;                          // what it left
-  VoxelMask stayed_;                        // those that stayed at their first turn
-  FlatTable<VoxelId, Turn> late_;  // the turns at which those of them went that went
+  VoxelMask changed_;                  // since the last peel, maybe
+  VoxelField<std::uint32_t> squared_;  // levels of that
+  VoxelMask traversable_, keep_;       // and what was peeled
+  VoxelMask left_;                     // what it left
+  VoxelMask stayed_;                   // those that stayed at their first turn
+  FlatTable<VoxelId, Turn> late_;      // the turns at which those of them went that went
   ReplayScratch scratch_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "thin_among.hpp"
 #include "voxel/cube_gather.hpp"
+#include "voxel/mask_sets.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -31,20 +32,6 @@ std::uint8_t code_of(Turn turn) {
   if (round >= kRounds) return kIsLong;
   const bool is_first = level_of_turn(turn) == kFirstLevel;
   return static_cast<std::uint8_t>(is_first ? round : kStays + 1u + round);
-}
-
-/// Members of a block that come before a voxel.
-std::size_t members_before(const VoxelMask::Block& block, VoxelId id) {
-  const std::size_t layer = id / 64 % kBlockSide;
-  int before = bit_count(block[layer] & ((std::uint64_t{1} << id % 64) - 1));
-  for (std::size_t z = 0; z < layer; ++z) before += bit_count(block[z]);
-  return static_cast<std::size_t>(before);
-}
-
-std::size_t count_of(const VoxelMask::Block& block) {
-  int count = 0;
-  for (const std::uint64_t layer : block) count += bit_count(layer);
-  return static_cast<std::size_t>(count);
 }
 
 }  // namespace

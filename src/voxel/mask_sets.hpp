@@ -11,6 +11,21 @@
 /// Sets of voxels, block by block.
 namespace ridgeway::detail {
 
+/// Members of a block.
+inline std::size_t count_of(const VoxelMask::Block& block) {
+  int count = 0;
+  for (const std::uint64_t layer : block) count += bit_count(layer);
+  return static_cast<std::size_t>(count);
+}
+
+/// Members of its block that come before a voxel.
+inline std::size_t members_before(const VoxelMask::Block& block, VoxelId id) {
+  const std::size_t layer = id / 64 % kBlockSide;
+  int before = bit_count(block[layer] & ((std::uint64_t{1} << id % 64) - 1));
+  for (std::size_t z = 0; z < layer; ++z) before += bit_count(block[z]);
+  return static_cast<std::size_t>(before);
+}
+
 /// The members of both of two sets of one layout.
 inline VoxelMask common_members(VoxelMask a, const VoxelMask& b) {
   for (std::uint32_t slot = 0; slot < a.block_count(); ++slot)
