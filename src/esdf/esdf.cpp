@@ -11,6 +11,7 @@
 #include "mapping/memory_limit.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "voxel/mask_sets.hpp"
 #include "work_domain.hpp"
 
 namespace ridgeway {
@@ -61,7 +62,7 @@ VoxelField<Value> move_to_layout(const BlockLayout& from, const VoxelField<Value
 NearestSites sweep_through_unknown(const EsdfMap& map, double farthest) {
   std::vector<bool> occupied(map.layout.block_count());
   for (std::uint32_t slot = 0; slot < map.layout.block_count(); ++slot)
-    occupied[slot] = map.obstacle.block(slot) != VoxelMask::Block{};
+    occupied[slot] = !detail::is_empty(map.obstacle.block(slot));
   const BlockLayout domain =
       detail::sweep_domain(map.layout, occupied, farthest, kSweepBytesPerVoxel);
   VoxelMask obstacle(domain);

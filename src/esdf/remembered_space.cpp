@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "voxel/cube_gather.hpp"
+#include "voxel/mask_sets.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -130,7 +131,7 @@ void RememberedSpace::remember_moves(const VoxelMask& voxels) const {
   const Point beside = Point::Constant(kBeside);
   const BlockLayout& layout = esdf_.layout;
   for (std::uint32_t slot = 0; slot < layout.block_count(); ++slot) {
-    if (voxels.block(slot) == VoxelMask::Block{}) continue;
+    if (is_empty(voxels.block(slot))) continue;
     const BlockIndex& b = layout.block(slot);
     const Point low = kBlockSide * Point(b.x, b.y, b.z);
     if (!memory_->changed().touch(low - beside, low + Point::Constant(kBlockSide) + beside))

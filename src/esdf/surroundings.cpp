@@ -8,6 +8,7 @@
 #include "common/rounding.hpp"
 #include "obstacle_scan.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "voxel/mask_sets.hpp"
 
 namespace ridgeway {
 namespace {
@@ -164,7 +165,7 @@ Surroundings::Kind Surroundings::voxels_of(VoxelState state) const {
         const VoxelState* states = esdf_.state.block(slot);
         VoxelMask::Block& block = kind.members.block(slot);
         block = block_where([&](int v) { return states[v] == state; });
-        has_some[index] = block != VoxelMask::Block{};
+        has_some[index] = !detail::is_empty(block);
         for (int d = 0; kind.absent_is_member && d < 27; ++d)
           has_some[index] |= layout.neighbour_block(slot, d) == BlockLayout::kNoBlock;
       },

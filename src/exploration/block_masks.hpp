@@ -2,32 +2,15 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
-#include <bit>
-
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/voxel/neighbourhood.hpp"
-#include "ridgeway/voxel/voxel_mask.hpp"
+#include "voxel/mask_sets.hpp"
 
 namespace ridgeway::detail {
 
 /// Sets of voxels of one block, a bit for each: operations take a few instructions a layer.
 using BlockMask = VoxelMask::Block;
 
-inline bool is_empty(const BlockMask& mask) {
-  for (const std::uint64_t layer : mask)
-    if (layer != 0) return false;
-  return true;
-}
-inline std::size_t count_of(const BlockMask& mask) {
-  std::size_t count = 0;
-  for (const std::uint64_t layer : mask) count += static_cast<std::size_t>(std::popcount(layer));
-  return count;
-}
-inline BlockMask both(const BlockMask& a, const BlockMask& b) {
-  BlockMask mask;
-  for (std::size_t z = 0; z < mask.size(); ++z) mask[z] = a[z] & b[z];
-  return mask;
-}
 inline BlockMask difference(const BlockMask& a, const BlockMask& b) {
   BlockMask mask;
   for (std::size_t z = 0; z < mask.size(); ++z) mask[z] = a[z] ^ b[z];

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "ridgeway/common/parallel.hpp"
+#include "voxel/mask_sets.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -92,7 +93,7 @@ void BackgroundParts::find_blocks(const VoxelMask& voxels) {
   place_of_.assign(layout_.block_count(), BlockLayout::kNoBlock);
   for (std::uint32_t rank = 0; rank < layout_.block_count(); ++rank) {
     const std::uint32_t slot = layout_.slot_at(rank);
-    if (voxels.block(slot) == Block{}) continue;
+    if (is_empty(voxels.block(slot))) continue;
     place_of_[slot] = static_cast<std::uint32_t>(slots_.size());
     slots_.push_back(slot);
   }

@@ -13,6 +13,7 @@
 #include "lanes.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "voxel/cube_gather.hpp"
+#include "voxel/mask_sets.hpp"
 
 namespace ridgeway {
 namespace {
@@ -237,7 +238,7 @@ VoxelMask::Block traversable_in_block(const EsdfMap& esdf, double radius, std::u
 VoxelMask::Block gvd_in_block(const EsdfMap& esdf, const VoxelMask& traversable,
                               const GvdConfig& config, std::uint32_t slot) {
   VoxelMask::Block gvd{};
-  if (traversable.block(slot) == VoxelMask::Block{}) return gvd;
+  if (detail::is_empty(traversable.block(slot))) return gvd;
   const double cosine = std::cos(config.theta);
   const double least = config.least_apart * (1.0 - 1e-9) / esdf.voxel_size;
   const bool all_count = esdf.unknown == UnknownPolicy::kObstacle && !esdf.planar;
@@ -257,7 +258,7 @@ VoxelMask::Block gvd_in_block(const EsdfMap& esdf, const VoxelMask& traversable,
 VoxelMask::Block edges_in_block(const BlockLayout& layout, const VoxelMask& gvd,
                                 std::uint32_t slot) {
   VoxelMask::Block edges{};
-  if (gvd.block(slot) == VoxelMask::Block{}) return edges;
+  if (detail::is_empty(gvd.block(slot))) return edges;
   const CubeGather gather(layout, gvd, slot);
   for_each_member(gvd, slot, [&](VoxelId id) {
     if (bit_count(gather.cube(id) & kCells26) >= kEdgeNeighbours) set(edges, id);

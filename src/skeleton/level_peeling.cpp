@@ -15,6 +15,7 @@
 #include "simple_point.hpp"
 #include "turns.hpp"
 #include "voxel/cube_gather.hpp"
+#include "voxel/mask_sets.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -30,7 +31,7 @@ class KnownNeighbours {
         blocks_(esdf.layout.block_count()) {
     std::vector<std::uint8_t> has_any(blocks_.size());
     for (std::uint32_t slot = 0; slot < blocks_.size(); ++slot)
-      has_any[slot] = not_simple.block(slot) != VoxelMask::Block{};
+      has_any[slot] = !is_empty(not_simple.block(slot));
     parallel_for_each_index(
         blocks_.size(),
         [&](std::size_t block) {
@@ -61,7 +62,7 @@ class KnownNeighbours {
     for_each_member(traversable_, slot, [&](VoxelId id) {
       if (cubes.cube(id) != 0) known_.set(id);
     });
-    if (known == VoxelMask::Block{}) return;
+    if (is_empty(known)) return;
     const Levels levels = gather_levels(esdf_, traversable_, slot);
     InBlock& block = blocks_[slot];
     std::uint16_t count = 0;

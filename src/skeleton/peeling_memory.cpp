@@ -58,15 +58,9 @@ Marked dilated(const BlockLayout& layout, const Marked& marked) {
         result.voxels.block(slot) = CubeGather(layout, marked.voxels, slot).dilated();
       },
       32);
-  std::erase_if(result.slots, [&](std::uint32_t slot) {
-    return result.voxels.block(slot) == VoxelMask::Block{};
-  });
+  std::erase_if(result.slots,
+                [&](std::uint32_t slot) { return is_empty(result.voxels.block(slot)); });
   return result;
-}
-
-VoxelMask::Block both(VoxelMask::Block a, const VoxelMask::Block& b) {
-  for (std::size_t z = 0; z < kBlockSide; ++z) a[z] &= b[z];
-  return a;
 }
 
 template <typename Body>
@@ -162,7 +156,7 @@ void PeelingMemory::peel_again(const EsdfMap& esdf, const VoxelMask& traversable
     for (std::size_t z = 0; z < kBlockSide; ++z)
       block[z] |= (traversable.block(slot)[z] ^ traversable_.block(slot)[z]) |
                   (keep.block(slot)[z] ^ keep_.block(slot)[z]);
-    if (block != VoxelMask::Block{}) changed.slots.push_back(slot);
+    if (!is_empty(block)) changed.slots.push_back(slot);
   }
   // Those whose base turn is their first one from now on.
   const Marked fresh = dilated(layout, changed);

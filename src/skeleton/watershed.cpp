@@ -16,6 +16,7 @@
 #include "steepest_ways.hpp"
 #include "sub_field.hpp"
 #include "voxel/cube_gather.hpp"
+#include "voxel/mask_sets.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -197,7 +198,7 @@ void look_at_blocks(const EsdfMap& esdf, const VoxelMask& traversable,
         ways.not_simple_at_first_turn.block(slot) = {};
         BlockWays& own = ways.blocks[slot];
         own = {};
-        if (traversable.block(slot) == VoxelMask::Block{}) return;
+        if (is_empty(traversable.block(slot))) return;
         const Levels levels = gather_levels(esdf, traversable, slot);
         const Bordered<float> heights = heights_of(levels);
         for_each_four(traversable, slot, [&](VoxelId first, unsigned members) {

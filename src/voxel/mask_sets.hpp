@@ -11,6 +11,19 @@
 /// Sets of voxels, block by block.
 namespace ridgeway::detail {
 
+/// Whether a block has no member: to compare it with an empty one takes a call for each block.
+inline bool is_empty(const VoxelMask::Block& block) {
+  std::uint64_t any = 0;
+  for (const std::uint64_t layer : block) any |= layer;
+  return any == 0;
+}
+
+/// Those of both of two blocks.
+inline VoxelMask::Block both(VoxelMask::Block a, const VoxelMask::Block& b) {
+  for (std::size_t z = 0; z < kBlockSide; ++z) a[z] &= b[z];
+  return a;
+}
+
 /// Members of a block.
 inline std::size_t count_of(const VoxelMask::Block& block) {
   int count = 0;
@@ -52,7 +65,7 @@ inline std::vector<VoxelId> members_of_sparse(const BlockLayout& layout, const V
   for (std::uint32_t rank = 0; rank < layout.block_count(); ++rank) {
     const std::uint32_t slot = layout.slot_at(rank);
     const VoxelMask::Block& block = voxels.block(slot);
-    if (block == VoxelMask::Block{}) continue;
+    if (is_empty(block)) continue;
     for (std::uint32_t z = 0; z < kBlockSide; ++z)
       for (std::uint64_t bits = block[z]; bits != 0; bits &= bits - 1)
         ids.push_back(slot * kBlockVoxels + z * 64 + static_cast<VoxelId>(std::countr_zero(bits)));

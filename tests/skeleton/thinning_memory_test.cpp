@@ -6,6 +6,7 @@
 
 #include "ridgeway/skeleton/gvd.hpp"
 #include "support/random_shapes.hpp"
+#include "voxel/mask_sets.hpp"
 
 namespace ridgeway {
 namespace {
@@ -50,7 +51,7 @@ class ChangingSet {
   void tell(const VoxelMask& changed) {
     std::vector<std::uint32_t> slots;
     for (std::uint32_t slot = 0; slot < layout_.block_count(); ++slot)
-      if (changed.block(slot) != VoxelMask::Block{}) slots.push_back(slot);
+      if (!detail::is_empty(changed.block(slot))) slots.push_back(slot);
     memory_.thin(layout_, voxels_, changed, slots, thinned_);
   }
 
