@@ -28,7 +28,7 @@ VoxelRange known_on_lattice(const EsdfMap& esdf) {
   return known.empty() ? known : moved(known, map.origin);
 }
 
-py::object distances(const EsdfFace& face, py::handle bounds) {
+py::object field_distances(const EsdfFace& face, py::handle bounds) {
   const EsdfMap& esdf = *face.esdf;
   const float outside =
       esdf.unknown == UnknownPolicy::kObstacle ? 0.0f : std::numeric_limits<float>::quiet_NaN();
@@ -149,7 +149,7 @@ bool path_is_free(const EsdfFace& face, py::handle path, py::handle radius) {
   return true;
 }
 
-std::string repr(const EsdfFace& face) {
+std::string field_repr(const EsdfFace& face) {
   const EsdfMap& esdf = *face.esdf;
   return "EsdfMap(voxel_size=" + literal(esdf.voxel_size) +
          ", blocks=" + std::to_string(esdf.layout.block_count()) + ", unknown='" +
@@ -199,7 +199,7 @@ void add_fields(py::module_& module) {
   py::class_<EsdfFace>(module, "EsdfMap",
                        "Exact Euclidean distances from voxel centres to the nearest obstacle's "
                        "cube.")
-      .def("distances", &distances, py::arg("bounds") = py::none(),
+      .def("distances", &field_distances, py::arg("bounds") = py::none(),
            "distances(self, bounds=None)\n--\n\n"
            "Distances at voxel centres as a Grid of float32, (nx, ny, nz), metres: 0 in obstacles, "
            "inf where none is\nnear; outside of the map 0, or NaN where unknown space is no "
@@ -265,7 +265,7 @@ void add_fields(py::module_& module) {
           py::arg("slot"),
           "block(self, slot)\n--\n\n"
           "One block of `block_squared`, (8, 8, 8) uint32: the map's memory, always.")
-      .def("__repr__", &repr);
+      .def("__repr__", &field_repr);
 
   const std::string doc =
       "compute_esdf(map" + esdf_fields().signature().replace(0, 2, ", *, threads=0, ") +

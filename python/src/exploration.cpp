@@ -81,7 +81,7 @@ class ExplorerFace {
   std::shared_ptr<const Roadmap> roadmap_;  ///< that was decided on last
 };
 
-py::tuple tuple_of(const Viewpoint& view) {
+py::tuple viewpoint_tuple(const Viewpoint& view) {
   return py::make_tuple(view.position.x(), view.position.y(), view.position.z(), view.yaw);
 }
 
@@ -93,7 +93,7 @@ py::array tour_of(const ExplorationStep& step) {
   return owning_array(std::move(numbers), {static_cast<py::ssize_t>(step.tour.size()), 4});
 }
 
-py::dict seconds_of(const ExplorationStep& step) {
+py::dict step_seconds(const ExplorationStep& step) {
   py::dict seconds;
   seconds["frontiers"] = step.seconds.frontiers;
   seconds["views"] = step.seconds.views;
@@ -132,7 +132,7 @@ void add_step(py::module_& module) {
       .def_property_readonly(
           "goal",
           [](const ExplorationStep& step) {
-            return step.goal ? py::object(tuple_of(*step.goal)) : py::none();
+            return step.goal ? py::object(viewpoint_tuple(*step.goal)) : py::none();
           },
           "Where the next look is taken, (x, y, z, yaw), metres, radians; or None.")
       .def_property_readonly("tour", &tour_of,
@@ -144,7 +144,7 @@ void add_step(py::module_& module) {
                     "The trajectory does no more than stop the robot.")
       .def_readonly("frontiers", &ExplorationStep::frontiers, "How many there are.")
       .def_readonly("frontier_voxels", &ExplorationStep::frontier_voxels, "In them.")
-      .def_property_readonly("seconds", &seconds_of,
+      .def_property_readonly("seconds", &step_seconds,
                              "Of frontiers, views, tour, trajectory, and in total.")
       .def("__repr__", [](const ExplorationStep& step) {
         return "ExplorationStep(status='" + std::string(name_of(step.status)) +

@@ -62,7 +62,7 @@ void require_ok(const FlightFace& flight) {
                      "ask for its status first");
 }
 
-std::string repr(const FlightFace& flight) {
+std::string flight_repr(const FlightFace& flight) {
   const TrajectoryResult& result = flight.result;
   if (!result.ok()) return "Trajectory(status='" + std::string(name_of(result.status)) + "')";
   return "Trajectory(status='ok', duration=" + literal(result.duration) +
@@ -173,7 +173,7 @@ void add_flights(py::module_& module) {
           },
           py::arg("path"), py::arg("step") = 0.05,
           "save(self, path, step=0.05)\n--\n\nAs .csv, .json, or .yaml (polynomials).")
-      .def("__repr__", &repr);
+      .def("__repr__", &flight_repr);
 }
 
 void add_trajectories(py::class_<RoadmapFace>& type) {

@@ -62,7 +62,7 @@ py::object to_networkx(const GraphFace& face) {
   return graph;
 }
 
-std::string repr(const GraphFace& face) {
+std::string graph_repr(const GraphFace& face) {
   return "SparseGraph(vertices=" + std::to_string(face.graph->vertices.size()) +
          ", edges=" + std::to_string(face.graph->edges.size()) +
          ", components=" + std::to_string(connected_components(*face.graph).count) +
@@ -103,7 +103,7 @@ void add_graph(py::module_& module) {
            "to_networkx(self)\n--\n\n"
            "As networkx.Graph: nodes with `pos` and `clearance`, edges with `length` and "
            "`clearance`, metres.")
-      .def("__repr__", &repr);
+      .def("__repr__", &graph_repr);
 }
 
 }  // namespace ridgeway::python

@@ -107,7 +107,7 @@ std::string bounds_text(const OccupancyMap& map) {
   return "(" + literal(rounded(box->min)) + ", " + literal(rounded(box->max)) + ")";
 }
 
-std::string repr(const MapFace& face) {
+std::string map_repr(const MapFace& face) {
   const VoxelCounts counts = count_voxels(*face.map);
   return "OccupancyMap(voxel_size=" + literal(face.map->voxel_size) +
          ", free=" + std::to_string(counts.free) + ", occupied=" + std::to_string(counts.occupied) +
@@ -263,7 +263,7 @@ void add_maps(py::module_& module) {
         return blocks_view<std::uint8_t>(self.cast<const MapFace&>().map->state, self);
       },
       "States by block, (B, 8, 8, 8) uint8 [block, x, y, z]: the map's own memory, read-only.");
-  type.def("__repr__", &repr);
+  type.def("__repr__", &map_repr);
   add_edits(type);
 
   const std::string doc = "load_map(path" + load_fields().signature().replace(0, 2, ", *, ") +

@@ -68,8 +68,8 @@ std::string reason_of(const PlanFace& plan) {
          " moves it to where the robot fits)";
 }
 
-PlanFace face_of(const std::shared_ptr<const Roadmap>& roadmap, const Point& start,
-                 const Point& goal, const PlanConfig& config, PlanResult plan) {
+PlanFace plan_face(const std::shared_ptr<const Roadmap>& roadmap, const Point& start,
+                   const Point& goal, const PlanConfig& config, PlanResult plan) {
   PlanFace face{std::move(plan), nullptr};
   if (face.status == PlanStatus::kStartInCollision || face.status == PlanStatus::kGoalInCollision)
     face.question = std::make_shared<const PlanFace::Question>(
@@ -77,7 +77,7 @@ PlanFace face_of(const std::shared_ptr<const Roadmap>& roadmap, const Point& sta
   return face;
 }
 
-std::string repr(const PlanResult& plan) {
+std::string plan_repr(const PlanResult& plan) {
   if (!plan.ok()) return "PlanResult(status='" + std::string(name_of(plan.status)) + "')";
   return "PlanResult(status='ok', length=" + literal(plan.length) +
          ", clearance=" + literal(plan.clearance) +
@@ -85,7 +85,7 @@ std::string repr(const PlanResult& plan) {
          std::string(name_of(plan.answered_by)) + "')";
 }
 
-py::dict seconds_of(const PlanResult& plan) {
+py::dict plan_seconds(const PlanResult& plan) {
   py::dict seconds;
   seconds["attach"] = plan.seconds.attach;
   seconds["search"] = plan.seconds.search;
@@ -99,7 +99,7 @@ PlanFace plan_one(const RoadmapFace& face, py::handle start, py::handle goal,
   const PlanConfig config = plan_fields().read_all(keywords);
   const Point from = point_from(start, "start"), to = point_from(goal, "goal");
   const py::gil_scoped_release release;
-  return face_of(face.roadmap, from, to, config, plan(*face.roadmap, from, to, config));
+  return plan_face(face.roadmap, from, to, config, plan(*face.roadmap, from, to, config));
 }
 
 /// One place for each of `count` queries.
@@ -147,14 +147,14 @@ py::list plan_many(const RoadmapFace& face, py::handle starts, py::handle goals,
   const std::size_t queries = from.empty() || to.empty() ? 0 : std::max(from.size(), to.size());
   std::vector<PlanFace> plans(queries);
   run_many(count, queries, [&](std::size_t i) {
-    plans[i] = face_of(face.roadmap, at(from, i), at(to, i), config,
-                       plan(*face.roadmap, at(from, i), at(to, i), config));
+    plans[i] = plan_face(face.roadmap, at(from, i), at(to, i), config,
+                         plan(*face.roadmap, at(from, i), at(to, i), config));
   });
   return list_of(std::move(plans));
 }
 
-py::array distances(const RoadmapFace& face, py::handle start, py::handle goals,
-                    py::handle radius) {
+py::array goal_distances(const RoadmapFace& face, py::handle start, py::handle goals,
+                         py::handle radius) {
   const Point from = point_from(start, "start");
   const std::vector<Point> to = points_from(goals, "goals");
   std::optional<double> r;
@@ -249,7 +249,7 @@ void add_results(py::module_& module) {
       .def_property_readonly(
           "unknown", [](const PlanFace& plan) { return std::string(name_of(plan.unknown)); },
           "What unknown space was taken for: 'obstacle', 'ignore' or 'free'.")
-      .def_property_readonly("seconds", &seconds_of, "Of attach, search, shorten, and in total.")
+      .def_property_readonly("seconds", &plan_seconds, "Of attach, search, shorten, and in total.")
       .def_property_readonly(
           "escape_start", [](const PlanFace& plan) { return plan.escape_start.length; },
           "Length of the first segment where it leads out of a collision, metres; else 0.")
@@ -284,7 +284,7 @@ void add_results(py::module_& module) {
           "84), its altitude,\nmetres above the sea, and where its x axis points, degrees "
           "clockwise "
           "from north.")
-      .def("__repr__", [](const PlanFace& plan) { return repr(plan); });
+      .def("__repr__", [](const PlanFace& plan) { return plan_repr(plan); });
 
   py::class_<Alternatives>(module, "Alternatives",
                            "Routes on other sides of obstacles, shortest first; a sequence of "
@@ -379,7 +379,7 @@ void add_queries(py::class_<RoadmapFace>& type) {
       ("alternatives(self, start, goal, count=3" + keywords +
        ")\n--\n\nUp to `count` routes on different sides of obstacles, as Alternatives.\n" + docs)
           .c_str());
-  type.def("distances", &distances, py::arg("start"), py::arg("goals"),
+  type.def("distances", &goal_distances, py::arg("start"), py::arg("goals"),
            py::arg("radius") = py::none(),
            "distances(self, start, goals, radius=None)\n--\n\n"
            "Lengths along the graph from start to goals (N, 3): (N,), metres; inf where it has no "

@@ -163,7 +163,7 @@ py::dict check(const RoadmapFace& face, py::handle queries, py::handle seed,
   return dict;
 }
 
-std::string repr(const RoadmapFace& face) {
+std::string roadmap_repr(const RoadmapFace& face) {
   const Roadmap& roadmap = *face.roadmap;
   return "Roadmap(min_clearance=" + literal(roadmap.min_clearance) +
          ", voxel_size=" + literal(roadmap.esdf.voxel_size) +
@@ -265,7 +265,7 @@ void add_roadmap(py::module_& module) {
            "check(self, queries=0, seed=1, progress=None)\n--\n\n"
            "Verifies every edge, and random queries against A* through the distance field: a dict "
            "of counts;\n`clean` says that nothing was wrong.")
-      .def("__repr__", &repr);
+      .def("__repr__", &roadmap_repr);
 
   const std::string parameters =
       "\n  progress: called with a stage and the share done, 0 to 1; False cancels"

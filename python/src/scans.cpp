@@ -30,7 +30,7 @@ SpinningLidar make_lidar(py::handle rows, py::handle columns, py::handle vertica
   return lidar;
 }
 
-std::string repr(const SpinningLidar& l) {
+std::string lidar_repr(const SpinningLidar& l) {
   return "SpinningLidar(rows=" + literal(l.rows) + ", columns=" + literal(l.columns) +
          ", vertical=" + literal(l.vertical) + ", min_range=" + literal(l.min_range) +
          ", max_range=" + literal(l.max_range) + ", range_sigma=" + literal(l.range_sigma) + ")";
@@ -73,7 +73,7 @@ void add_lidar(py::module_& module) {
            "field_of_view(self, share_of_range=0.7, row_gap=None)\n--\n\n"
            "What it sees, as keyword arguments of Explorer; counting on a share of its range. Rows "
            "are no farther apart\nthan row_gap metres at the end of the range: the size of voxels.")
-      .def("__repr__", &repr);
+      .def("__repr__", &lidar_repr);
 }
 
 py::tuple scan_of(const ScanSequence& sequence, py::ssize_t i) {

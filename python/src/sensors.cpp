@@ -14,7 +14,7 @@
 namespace ridgeway::python {
 namespace {
 
-py::array array_of(DepthImage image) {
+py::array image_array(DepthImage image) {
   const py::ssize_t height = image.height, width = image.width;
   return owning_array(std::move(image.depth), {height, width});
 }
@@ -32,7 +32,7 @@ PinholeCamera make_camera(py::handle width, py::handle height, py::handle fx, py
   return camera;
 }
 
-std::string repr(const PinholeCamera& c) {
+std::string camera_repr(const PinholeCamera& c) {
   return "PinholeCamera(width=" + literal(c.width) + ", height=" + literal(c.height) +
          ", fx=" + literal(c.fx) + ", fy=" + literal(c.fy) + ", cx=" + literal(c.cx) +
          ", cy=" + literal(c.cy) + ")";
@@ -48,7 +48,7 @@ py::tuple frame_of(const DepthSequence& sequence, py::ssize_t i) {
     const py::gil_scoped_release release;
     image = read_frame(sequence, frame);
   }
-  return py::make_tuple(array_of(std::move(image)), python::array_of(frame.T_world_camera));
+  return py::make_tuple(image_array(std::move(image)), array_of(frame.T_world_camera));
 }
 
 py::array render(const World& world, const PinholeCamera& camera, py::handle pose,
@@ -65,7 +65,7 @@ py::array render(const World& world, const PinholeCamera& camera, py::handle pos
     const py::gil_scoped_release release;
     image = render_depth(world, sensor, T_world_camera, number);
   }
-  return array_of(std::move(image));
+  return image_array(std::move(image));
 }
 
 py::array scan(const World& world, const SpinningLidar& lidar, py::handle pose, py::handle seed) {
@@ -76,7 +76,7 @@ py::array scan(const World& world, const SpinningLidar& lidar, py::handle pose, 
     const py::gil_scoped_release release;
     points = scan_with(world, lidar, T_world_sensor, number);
   }
-  return python::array_of(std::move(points));
+  return array_of(std::move(points));
 }
 
 void add_world(py::module_& module) {
@@ -154,7 +154,7 @@ void add_sensors(py::module_& module) {
       .def_readonly("fy", &PinholeCamera::fy)
       .def_readonly("cx", &PinholeCamera::cx)
       .def_readonly("cy", &PinholeCamera::cy)
-      .def("__repr__", &repr);
+      .def("__repr__", &camera_repr);
 
   py::class_<DepthSequence>(
       module, "DepthSequence",

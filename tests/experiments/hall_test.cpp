@@ -15,7 +15,7 @@
 namespace ridgeway {
 namespace {
 
-HallExperimentConfig small_config() {
+HallExperimentConfig small_hall_config() {
   HallExperimentConfig config;
   config.hall = {
       .length = 10.0, .width = 10.0, .height = 4.0, .tanks = 1, .machines = 2, .pipes = 1};
@@ -35,7 +35,7 @@ std::vector<HallMap> maze() {
 }
 
 TEST(Hall, EveryMapHasARowForEveryNumberOfThreads) {
-  const std::vector<HallRow> rows = run_hall(small_config(), maze());
+  const std::vector<HallRow> rows = run_hall(small_hall_config(), maze());
   ASSERT_EQ(rows.size(), 4u);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     EXPECT_EQ(rows[i].map, i < 2 ? "hall" : "maze");
@@ -48,7 +48,7 @@ TEST(Hall, EveryMapHasARowForEveryNumberOfThreads) {
 }
 
 TEST(Hall, ResultsDoNotDependOnTheNumberOfThreads) {
-  const std::vector<HallRow> rows = run_hall(small_config());
+  const std::vector<HallRow> rows = run_hall(small_hall_config());
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0].counts.diagram_voxels, rows[1].counts.diagram_voxels);
   EXPECT_EQ(rows[0].vertices, rows[1].vertices);
@@ -57,7 +57,7 @@ TEST(Hall, ResultsDoNotDependOnTheNumberOfThreads) {
 }
 
 TEST(Hall, StagesAddUp) {
-  for (const HallRow& row : run_hall(small_config())) {
+  for (const HallRow& row : run_hall(small_hall_config())) {
     for (const StageNumbers* sum : {&row.seconds, &row.bytes}) {
       const double graph = sum->gvd + sum->edges + sum->thin + sum->kernel + sum->graph;
       EXPECT_NEAR(sum->esdf_to_graph, graph, 1e-9 * graph);
@@ -71,7 +71,7 @@ TEST(Hall, StagesAddUp) {
 }
 
 TEST(Hall, PeakMemoryHoldsAllFieldsOfTheRoadmap) {
-  HallExperimentConfig config = small_config();
+  HallExperimentConfig config = small_hall_config();
   config.voxel_sizes = {0.05};
   config.threads = {2};
   const std::vector<HallRow> rows = run_hall(config);
@@ -82,7 +82,7 @@ TEST(Hall, PeakMemoryHoldsAllFieldsOfTheRoadmap) {
 }
 
 TEST(Hall, PeakMemoryIsThatOfOneMapAlone) {
-  HallExperimentConfig config = small_config();
+  HallExperimentConfig config = small_hall_config();
   config.voxel_sizes = {0.05, 0.25};
   config.threads = {1};
   const std::vector<HallRow> rows = run_hall(config);
@@ -92,7 +92,7 @@ TEST(Hall, PeakMemoryIsThatOfOneMapAlone) {
 
 /// 1,000 to 50,000 single voxels in a million, between which ridges are everywhere.
 TEST(Hall, PeakMemoryIsNoMoreThanIsReckonedWith) {
-  HallExperimentConfig config = small_config();
+  HallExperimentConfig config = small_hall_config();
   config.voxel_sizes = {0.06};
   config.min_clearance = 0.12;
   config.threads = {2};
@@ -122,7 +122,7 @@ TEST(Hall, MapsThatCannotBeBuiltAreRefusedBeforeTheWork) {
                       ++made;
                       throw InputError("bad", "is no map", "give another");
                     }};
-  EXPECT_THROW(run_hall(small_config(), {bad}), InputError);
+  EXPECT_THROW(run_hall(small_hall_config(), {bad}), InputError);
   EXPECT_EQ(made, 1);  // here; before that in a process of its own
 }
 
@@ -137,7 +137,7 @@ TEST(Hall, TheStoreGetsTheRoadmapAndAnswersFirst) {
                              ++loaded;
                              return kept;
                            }};
-  HallExperimentConfig config = small_config();
+  HallExperimentConfig config = small_hall_config();
   config.repeat = 3;
   const std::vector<HallRow> rows = run_hall(config, {}, store);
   EXPECT_EQ(saved, 2);
@@ -150,7 +150,7 @@ TEST(Hall, TheStoreGetsTheRoadmapAndAnswersFirst) {
 
 TEST(Hall, WhatMakesNoSenseIsRefused) {
   const auto refuses = [](auto change) {
-    HallExperimentConfig config = small_config();
+    HallExperimentConfig config = small_hall_config();
     change(config);
     EXPECT_THROW(run_hall(config), InputError);
   };

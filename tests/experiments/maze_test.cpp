@@ -10,7 +10,7 @@
 namespace ridgeway {
 namespace {
 
-MazeExperimentConfig small_config() {
+MazeExperimentConfig small_maze_config() {
   MazeExperimentConfig config;
   config.maze.cells = 3;
   config.voxel_size = 0.2;
@@ -22,7 +22,7 @@ MazeExperimentConfig small_config() {
 }
 
 TEST(Maze, EveryPlannerAnswersEveryPair) {
-  const MazeExperimentConfig config = small_config();
+  const MazeExperimentConfig config = small_maze_config();
   const MazeResult result = run_maze(config);
   ASSERT_EQ(result.rows.size(), 8u);
   EXPECT_EQ(result.rows.back().planner, "graph");
@@ -37,7 +37,7 @@ TEST(Maze, EveryPlannerAnswersEveryPair) {
 }
 
 TEST(Maze, AnswersAreTheSameInEveryRound) {
-  MazeExperimentConfig config = small_config();
+  MazeExperimentConfig config = small_maze_config();
   const MazeResult thrice = run_maze(config);
   config.repeat = 1;
   const MazeResult once = run_maze(config);
@@ -52,16 +52,16 @@ TEST(Maze, AnswersAreTheSameInEveryRound) {
 }
 
 TEST(Maze, RefusesWhatCannotBeRun) {
-  MazeExperimentConfig config = small_config();
+  MazeExperimentConfig config = small_maze_config();
   config.repeat = 0;
   EXPECT_THROW(run_maze(config), InputError);
-  config = small_config();
+  config = small_maze_config();
   config.min_clearance = 5.0;
   EXPECT_THROW(run_maze(config), InputError);
 }
 
 TEST(Maze, CanBeCancelled) {
-  MazeExperimentConfig config = small_config();
+  MazeExperimentConfig config = small_maze_config();
   config.repeat = 1;
   const auto planning = [&](const Progress& progress) { run_maze(config, progress); };
   // While the roadmap is built (nine times asked, or more), before the lengths, and with planners.
@@ -69,7 +69,7 @@ TEST(Maze, CanBeCancelled) {
 }
 
 TEST(Maze, CanBeCancelledInAQueryThatTakesForEver) {
-  MazeExperimentConfig config = small_config();
+  MazeExperimentConfig config = small_maze_config();
   config.time_limit = 1e9;
   int asked = 0;
   const auto stop_in_the_long_one = [&](std::string_view stage, double) {

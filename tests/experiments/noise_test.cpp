@@ -25,7 +25,7 @@ World small_world() {
   return world;
 }
 
-NoiseConfig small_config() {
+NoiseConfig small_noise_config() {
   NoiseConfig config;
   config.voxel_sizes = {0.1, 0.2};
   config.sigmas = {0.05};
@@ -37,7 +37,7 @@ NoiseConfig small_config() {
 }
 
 TEST(Noise, EveryMapOfARoomServesEveryPair) {
-  const NoiseResult result = run_noise(small_world(), small_config());
+  const NoiseResult result = run_noise(small_world(), small_noise_config());
   ASSERT_EQ(result.maps.size(), 4u);
   EXPECT_EQ(result.pairs, 40u);
   double least = 1e9, most = 0.0;
@@ -61,17 +61,17 @@ TEST(Noise, EveryMapOfARoomServesEveryPair) {
 }
 
 TEST(Noise, WhatMakesNoSenseIsRefused) {
-  NoiseConfig config = small_config();
+  NoiseConfig config = small_noise_config();
   config.voxel_sizes.clear();
   EXPECT_THROW(run_noise(small_world(), config), InputError);
-  config = small_config();
+  config = small_noise_config();
   config.sigmas = {-0.1};
   EXPECT_THROW(run_noise(small_world(), config), InputError);
 }
 
 TEST(FusionSpeed, AllWaysSeeTheSameRoom) {
   const std::vector<FusionSpeed> ways =
-      run_fusion_speed(small_world(), {.poses = small_config().poses});
+      run_fusion_speed(small_world(), {.poses = small_noise_config().poses});
   ASSERT_EQ(ways.size(), 4u);
   for (const FusionSpeed& way : ways) {
     EXPECT_GT(way.voxels, 10000u) << way.integrator;
@@ -97,14 +97,14 @@ TEST(WorldMap, VoxelsAreFreeWhereTheirCentreIs) {
 
 TEST(Noise, CanBeCancelled) {
   const auto comparing = [](const Progress& progress) {
-    run_noise(small_world(), small_config(), progress);
+    run_noise(small_world(), small_noise_config(), progress);
   };
   for (const int stop : {0, 1, 3}) testing::expect_cancelled_at(stop, comparing);
 }
 
 TEST(FusionSpeed, CanBeCancelled) {
   const auto fusing = [](const Progress& progress) {
-    run_fusion_speed(small_world(), {.poses = small_config().poses}, progress);
+    run_fusion_speed(small_world(), {.poses = small_noise_config().poses}, progress);
   };
   for (const int stop : {0, 1, 5}) testing::expect_cancelled_at(stop, fusing);
 }

@@ -11,7 +11,7 @@ namespace ridgeway {
 namespace {
 
 constexpr double kVoxel = 0.2;
-constexpr double kRate = 0.5 * std::numbers::pi;
+constexpr double kFlightRate = 0.5 * std::numbers::pi;
 
 /// A free room of 12 x 8 x 2.4 m with a cube of 0.8 m in it that is unknown, half way along x and
 /// beside the middle; and places along the middle.
@@ -49,7 +49,7 @@ class Room {
   std::optional<double> yaw_in_flight(double seconds) const {
     const auto glances = detail::glances_along(flight(seconds), seconds, views_, places_, 0.8);
     EXPECT_GT(glances.size(), 3u);
-    return detail::yaw_between(views_, 16, glances, 0.0, 0.0, seconds, kRate);
+    return detail::yaw_between(views_, 16, glances, 0.0, 0.0, seconds, kFlightRate);
   }
 
  private:

@@ -14,11 +14,11 @@
 namespace ridgeway {
 namespace {
 
-constexpr double kVoxel = 0.2;
+constexpr double kLegsVoxel = 0.2;
 
 /// A free room of 12 x 6 x 3 m, half of it unknown where that is asked for.
 Roadmap room(bool half_unknown = false) {
-  OccupancyBuilder voxels(kVoxel);
+  OccupancyBuilder voxels(kLegsVoxel);
   for (int z = -1; z <= 15; ++z)
     for (int y = -1; y <= 30; ++y)
       for (int x = -1; x <= 60; ++x) {

@@ -9,7 +9,7 @@
 namespace ridgeway {
 namespace {
 
-constexpr double kVoxel = 0.2;
+constexpr double kViewsVoxel = 0.2;
 constexpr int kLength = 60;  // voxels of the hall along x
 
 /// A free hall of 12 x 3 x 2.4 m.
@@ -35,7 +35,7 @@ std::vector<detail::Place> places_along_the_hall() {
   std::vector<detail::Place> places;
   for (int x = 3; x < kLength; x += 4) {
     const VoxelIndex voxel{x, 7, 6};
-    places.push_back({places.size() + 1, voxel, centre_of(voxel, kVoxel)});
+    places.push_back({places.size() + 1, voxel, centre_of(voxel, kViewsVoxel)});
   }
   return places;
 }
@@ -44,13 +44,13 @@ std::vector<detail::Place> places_along_the_hall() {
 bool sees_far(const detail::Views& views, const Frontiers& frontiers) {
   for (const auto& sights : views.from_places())
     for (const detail::Sight& sight : sights)
-      if (frontiers.parts()[sight.part].centroid.x() > 0.75 * kLength * kVoxel) return true;
+      if (frontiers.parts()[sight.part].centroid.x() > 0.75 * kLength * kViewsVoxel) return true;
   return false;
 }
 
 /// What is near is another in every update, and asks for more rays than there are.
 TEST(Views, FarPartsAreSeenInTimeAndStaySeen) {
-  LiveRoadmap live({.fusion = {.voxel_size = kVoxel},
+  LiveRoadmap live({.fusion = {.voxel_size = kViewsVoxel},
                     .build = {.min_clearance = 0.4, .max_distance = 2.0},
                     .origin = VoxelIndex{}});
   live.set_voxels(hall());
@@ -92,7 +92,7 @@ TEST(Views, FarPartsAreSeenInTimeAndStaySeen) {
 
 /// A cube of unknown space at the far end, from places that all see its front at the same targets.
 TEST(Views, LessIsExpectedFromFartherOff) {
-  LiveRoadmap live({.fusion = {.voxel_size = kVoxel},
+  LiveRoadmap live({.fusion = {.voxel_size = kViewsVoxel},
                     .build = {.min_clearance = 0.4, .max_distance = 2.0},
                     .origin = VoxelIndex{}});
   std::vector<VoxelChange> changes = hall();

@@ -29,7 +29,7 @@ detail::LatticePath search(const EsdfMap& esdf, const VoxelIndex& start, const V
                                 {}, detail::Deadline(1e9));
 }
 
-std::string refusal(std::string_view bytes) {
+std::string scenario_refusal(std::string_view bytes) {
   try {
     read_benchmark_scenarios(bytes, "a.3dscen");
   } catch (const InputError& error) {
@@ -52,14 +52,15 @@ TEST(BenchmarkScenarios, ReadsQueriesAndOptima) {
 
 TEST(BenchmarkScenarios, NamesTheLineThatIsBad) {
   for (const char* bytes : {"", "version 2\nA\n", "Version 1\nA\n", "version 1 1\nA\n"})
-    EXPECT_NE(refusal(bytes), "accepted") << bytes;
-  EXPECT_NE(refusal("version 2\nA\n").find("line 1"), std::string::npos);
-  EXPECT_NE(refusal("version 1\n\n").find("line 2"), std::string::npos);
-  EXPECT_NE(refusal("version 1\nA B\n").find("line 2"), std::string::npos);
+    EXPECT_NE(scenario_refusal(bytes), "accepted") << bytes;
+  EXPECT_NE(scenario_refusal("version 2\nA\n").find("line 1"), std::string::npos);
+  EXPECT_NE(scenario_refusal("version 1\n\n").find("line 2"), std::string::npos);
+  EXPECT_NE(scenario_refusal("version 1\nA B\n").find("line 2"), std::string::npos);
   for (const char* line : {"1 2 3 4 5 6 7", "1 2 3 4 5 6 7 8 9", "1 2 -3 4 5 6 7 1",
                            "1 2 3 4 5 6 nan 1", "1 2 3 4 5 6 inf 1", "1 2 3 4 5 6 -7 1",
                            "1 2 3 4 5.5 6 7 1", "1 2 3 4 5 6 7 x", "1 2 3 4 5 99999999999 7 1"}) {
-    const std::string what = refusal("version 1\nA\n1 1 1 2 1 1 1 1\n" + std::string(line) + "\n");
+    const std::string what =
+        scenario_refusal("version 1\nA\n1 1 1 2 1 1 1 1\n" + std::string(line) + "\n");
     EXPECT_NE(what.find("line 4"), std::string::npos) << line << ": " << what;
   }
 }

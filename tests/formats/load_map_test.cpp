@@ -21,7 +21,7 @@ namespace ridgeway {
 namespace {
 
 /// Where and what of the InputError that a call throws.
-std::string refusal(const std::function<void()>& call) {
+std::string why_refused(const std::function<void()>& call) {
   try {
     call();
   } catch (const InputError& error) {
@@ -46,14 +46,14 @@ std::string scattered_cells() {
 
 TEST(LoadMap, FilesThatAreNoneAreNamed) {
   const TemporaryFolder folder;
-  EXPECT_TRUE(
-      contains(refusal([&] { load_map(folder / "missing.bt"); }), "missing.bt: there is no such"));
-  EXPECT_TRUE(contains(refusal([&] { load_map(folder.path()); }),
+  EXPECT_TRUE(contains(why_refused([&] { load_map(folder / "missing.bt"); }),
+                       "missing.bt: there is no such"));
+  EXPECT_TRUE(contains(why_refused([&] { load_map(folder.path()); }),
                        folder.path().string() + ": is a folder"));
   write_whole(folder / "empty.bt", "");
-  EXPECT_TRUE(contains(refusal([&] { load_map(folder / "empty.bt"); }), "empty.bt: is empty"));
+  EXPECT_TRUE(contains(why_refused([&] { load_map(folder / "empty.bt"); }), "empty.bt: is empty"));
   write_whole(folder / "picture.bt", "\x89PNG\r\n\x1a\n and so on");
-  EXPECT_TRUE(contains(refusal([&] { load_map(folder / "picture.bt"); }),
+  EXPECT_TRUE(contains(why_refused([&] { load_map(folder / "picture.bt"); }),
                        "picture.bt: is in no map format"));
 }
 
@@ -69,25 +69,25 @@ TEST(LoadMap, CloudsNeedVoxelSizeAndBoundsAndSayWhereTheyAre) {
   const TemporaryFolder folder;
   const auto file = folder / "cloud.xyz";
   write_whole(file, "0 0 0\n1 2 3\n");
-  EXPECT_TRUE(contains(refusal([&] { load_map(file); }),
+  EXPECT_TRUE(contains(why_refused([&] { load_map(file); }),
                        "give bounds and voxel_size; its points span 0,0,0"));
-  EXPECT_TRUE(contains(refusal([&] {
+  EXPECT_TRUE(contains(why_refused([&] {
                          load_map(file, {.bounds = Box{{0, 0, 0}, {2, 2, 2}}});
                        }),
                        "give voxel_size;"));
-  const std::string unbounded = refusal([&] { load_map(file, {.voxel_size = 0.1}); });
+  const std::string unbounded = why_refused([&] { load_map(file, {.voxel_size = 0.1}); });
   EXPECT_TRUE(contains(unbounded, "give bounds; its points span 0,0,0 to 1,2,3")) << unbounded;
-  const std::string elsewhere = refusal([&] {
+  const std::string elsewhere = why_refused([&] {
     load_map(file, {.voxel_size = 0.1, .bounds = Box{{5, 5, 5}, {6, 6, 6}}});
   });
   EXPECT_TRUE(contains(elsewhere, "no point within the bounds")) << elsewhere;
   EXPECT_TRUE(
-      contains(refusal([&] {
+      contains(why_refused([&] {
                  load_map(file, {.voxel_size = 0.1, .bounds = Box{{0, 0, 0}, {1e300, 1, 1}}});
                }),
                "bounds: reach farther"));
   EXPECT_TRUE(
-      contains(refusal([&] {
+      contains(why_refused([&] {
                  load_map(file, {.voxel_size = 1e-4, .bounds = Box{{0, 0, 0}, {50, 50, 50}}});
                }),
                "of memory"));
@@ -135,16 +135,16 @@ TEST(LoadMap, OptionsOfMeshesAreOfMeshesAlone) {
   write_whole(folder / "cells.3dmap", "voxel 3 3 3\n");
   LoadConfig config;
   config.units = 0.001;
-  EXPECT_TRUE(contains(refusal([&] { load_map(folder / "cells.3dmap", config); }), "units"));
+  EXPECT_TRUE(contains(why_refused([&] { load_map(folder / "cells.3dmap", config); }), "units"));
   config.units = std::nan("");
-  EXPECT_TRUE(contains(refusal([&] { config.validate(); }), "units"));
+  EXPECT_TRUE(contains(why_refused([&] { config.validate(); }), "units"));
 }
 
 TEST(LoadMap, MeshesThatAreDamagedAreRefusedByName) {
   const TemporaryFolder folder;
   const auto says = [&](const char* name, const std::string& bytes) {
     write_whole(folder / name, bytes);
-    return refusal([&] { load_map(folder / name); });
+    return why_refused([&] { load_map(folder / name); });
   };
   EXPECT_TRUE(contains(says("far.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1 1e30\nf 1 2 3\n"), "far.obj"));
   EXPECT_TRUE(contains(says("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 1\nf 1 2 3\n"), "nan.obj"));
@@ -193,7 +193,7 @@ TEST(LoadMap, AWorldIsAMap) {
 TEST(LoadMap, CornersOfBoxesAreNotTakenForPoints) {
   const TemporaryFolder folder;
   write_whole(folder / "boxes.txt", "0 0 0 10 6 3\n4 0 0 4.2 6 3\n");
-  const std::string message = refusal([&] {
+  const std::string message = why_refused([&] {
     load_map(folder / "boxes.txt", {.voxel_size = 0.1, .bounds = Box{{0, 0, 0}, {10, 6, 3}}});
   });
   EXPECT_TRUE(contains(message, "boxes.txt: line 1 has 6 columns")) << message;
@@ -255,7 +255,7 @@ TEST(LoadMap, BadOptionsAreNamed) {
   const TemporaryFolder folder;
   write_whole(folder / "a.bt", testing::write_bt());
   const auto load = [&](const LoadConfig& config) {
-    return refusal([&] { load_map(folder / "a.bt", config); });
+    return why_refused([&] { load_map(folder / "a.bt", config); });
   };
   EXPECT_TRUE(load({.voxel_size = 0.0}).starts_with("voxel_size: "));
   EXPECT_TRUE(load({.voxel_size = 0.09}).starts_with("voxel_size: "));
@@ -277,10 +277,10 @@ TEST(LoadMap, AMapWithoutFreeSpaceIsRefused) {
   testing::append(bytes, std::uint16_t{2});
   write_whole(folder / "solid.bt", bytes);
   EXPECT_TRUE(
-      contains(refusal([&] { load_map(folder / "solid.bt"); }), "solid.bt: has no free space"));
+      contains(why_refused([&] { load_map(folder / "solid.bt"); }), "solid.bt: has no free space"));
   write_whole(folder / "full.3dmap", "voxel 1 1 2\n0 0 0\n0 0 1\n");
   EXPECT_TRUE(
-      contains(refusal([&] { load_map(folder / "full.3dmap"); }), "has no free voxel left"));
+      contains(why_refused([&] { load_map(folder / "full.3dmap"); }), "has no free voxel left"));
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ TEST(BundledData, AGraphOfTheOriginalIsWrittenAgainByteForByte) {
 }
 
 /// Clouds say neither how fine they are nor what is free, meshes not the first.
-LoadConfig config_for(const std::filesystem::path& file) {
+LoadConfig shared_data_config(const std::filesystem::path& file) {
   LoadConfig config;
   const std::string extension = file.extension();
   if (extension == ".dae" || extension == ".DAE" || extension == ".stl") config.voxel_size = 0.2;
@@ -65,11 +65,11 @@ TEST_F(SharedData, EveryFileIsAMapOrRefusedWithARemedy) {
     if (!entry.is_regular_file() || file.filename() == "camera-intrinsics.txt") continue;
     SCOPED_TRACE(file);
     if (maps.count(file.extension()) > 0) {
-      EXPECT_GT(count_voxels(load_map(file, config_for(file))).free, 1000u);
+      EXPECT_GT(count_voxels(load_map(file, shared_data_config(file))).free, 1000u);
       ++read;
       continue;
     }
-    const std::string why = refusal([&] { load_map(file, config_for(file)); });
+    const std::string why = refusal([&] { load_map(file, shared_data_config(file)); });
     EXPECT_EQ(why.rfind(file.string() + ": ", 0), 0u) << why;
     EXPECT_NE(why.find(" ("), std::string::npos) << why;
   }

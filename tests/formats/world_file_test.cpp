@@ -114,7 +114,7 @@ TEST(WorldFile, MeshesAreFoundFromItsFolderAndPlaced) {
 
 TEST(WorldFile, MistakesAreNamedWithTheirLine) {
   const TemporaryFolder folder;
-  const auto refusal = [&](const std::string& text) {
+  const auto refused_for = [&](const std::string& text) {
     write_whole(folder / "bad.yaml", text);
     try {
       load_world(folder / "bad.yaml");
@@ -152,12 +152,12 @@ TEST(WorldFile, MistakesAreNamedWithTheirLine) {
            {"boxes: [\n", "is no YAML"},
            {"boxes: {{{{\n", "bad.yaml"},
            {std::string(100000, '['), "bad.yaml"}}) {
-    const std::string message = refusal(text);
+    const std::string message = refused_for(text);
     EXPECT_NE(message.find(word), std::string::npos) << text.substr(0, 80) << " -> " << message;
     EXPECT_NE(message.find("bad.yaml"), std::string::npos) << message;
   }
   EXPECT_EQ(
-      refusal(box + "size: [1, 1, 0]}\n"),
+      refused_for(box + "size: [1, 1, 0]}\n"),
       (folder / "bad.yaml").string() + " box 1: has no size (give finite lengths above 0 metres)");
   EXPECT_THROW(load_world(folder / "none.yaml"), InputError);
 }

@@ -26,11 +26,11 @@ using Axes = std::vector<Eigen::Vector2d>;
 /// that of pillar i towards +x, else -(i + 1).
 using Word = std::vector<int>;
 
-constexpr double kClearance = testing::kPillarClearance;
+using testing::kPillarClearance;
 const Point kStart(0.5, 2.9, 0.4), kGoal(7.4, 3.1, 0.4);
 
-Roadmap build(const OccupancyMap& map) {
-  return build_roadmap(map, {.min_clearance = kClearance}).roadmap;
+Roadmap build_pillars(const OccupancyMap& map) {
+  return build_roadmap(map, {.min_clearance = kPillarClearance}).roadmap;
 }
 
 void append_crossings(const Point& a, const Point& b, const Axes& axes, Word& word) {
@@ -78,7 +78,7 @@ class SimplePaths {
     goal_ = goal;
     passed_.assign(graph_.vertices.size(), false);
     last_ = joined_to(goal, which);
-    if (space_.is_free(start, goal, kClearance)) words_.insert(word_of({start, goal}, axes_));
+    if (space_.is_free(start, goal, kPillarClearance)) words_.insert(word_of({start, goal}, axes_));
     const std::vector<bool> first = joined_to(start, which);
     for (std::uint32_t v = 0; v < first.size(); ++v)
       if (first[v]) visit(VertexId{v}, start, {});
@@ -90,11 +90,11 @@ class SimplePaths {
     const auto at = [&](VertexId v) { return graph_.vertices[number(v)].position; };
     std::vector<bool> joined(graph_.vertices.size());
     for (std::uint32_t v = 0; v < joined.size(); ++v) {
-      joined[v] = space_.is_free(end, at(VertexId{v}), kClearance);
+      joined[v] = space_.is_free(end, at(VertexId{v}), kPillarClearance);
       if (which == Joined::kAll) continue;
       for (const Link& link : graph_.links_of(VertexId{v}))
         if ((at(link.vertex) - end).norm() < (at(VertexId{v}) - end).norm() &&
-            space_.is_free(end, at(link.vertex), kClearance) &&
+            space_.is_free(end, at(link.vertex), kPillarClearance) &&
             is_swept(end, at(link.vertex), at(VertexId{v}), axes_))
           joined[v] = false;
     }
@@ -143,7 +143,7 @@ std::vector<Point> pulled_straight(const FreeSpace& space, const std::vector<Poi
     for (std::size_t j = i + 1; j < path.size(); ++j) {
       loop.push_back(path[j]);
       const double there = cost[i] + (path[j] - path[i]).norm();
-      if (there >= cost[j] || !space.is_free(path[i], path[j], kClearance)) continue;
+      if (there >= cost[j] || !space.is_free(path[i], path[j], kPillarClearance)) continue;
       loop.push_back(path[i]);
       if (word_of(loop, axes).empty()) {
         cost[j] = there;
@@ -175,7 +175,7 @@ std::vector<Point> shortest_of_class(const EsdfMap& esdf, const Axes& axes, cons
   std::map<std::pair<int, int>, bool> looked_at;
   const auto is_free = [&](int a, int b) {
     const auto [entry, is_new] = looked_at.try_emplace(std::minmax(a, b));
-    if (is_new) entry->second = space.is_free(at(a), at(b), kClearance);
+    if (is_new) entry->second = space.is_free(at(a), at(b), kPillarClearance);
     return entry->second;
   };
   using State = std::pair<Word, int>;  // sheet, cell
@@ -219,7 +219,8 @@ bool comes_back(const std::vector<Point>& corners) {
     double between = 0.0;
     for (std::size_t j = i + 1; j < path.size(); ++j) {
       between += (path[j] - path[j - 1]).norm();
-      if (between > 4.0 * kClearance && (path[j] - path[i]).norm() < 1.5 * kClearance) return true;
+      if (between > 4.0 * kPillarClearance && (path[j] - path[i]).norm() < 1.5 * kPillarClearance)
+        return true;
     }
   }
   return false;
@@ -263,7 +264,7 @@ TEST(Alternatives, AreOneForEachClassOfSimpleRoutesAroundPillars) {
                      (first == testing::DrawnFirst::kX ? ", x" : ", y") + " drawn first");
         Axes axes;
         const OccupancyMap hall = testing::pillars(seed, axes, count, first);
-        expect_one_for_each_class(build(hall), axes, classes);
+        expect_one_for_each_class(build_pillars(hall), axes, classes);
       }
   EXPECT_GT(classes.found, 16u * (2 + 3 + 6));
   EXPECT_GT(classes.left_out, 0u);
@@ -276,10 +277,10 @@ TEST(Alternatives, AreVerifiedShortestFirstAndNoLongerThanThePlan) {
     Axes axes;
     const auto policy = seed % 2 == 0 ? UnknownPolicy::kObstacle : UnknownPolicy::kIgnore;
     const Roadmap roadmap = build_roadmap(testing::pillars(seed, axes),
-                                          {.min_clearance = kClearance, .unknown = policy})
+                                          {.min_clearance = kPillarClearance, .unknown = policy})
                                 .roadmap;
     const FreeSpace space(roadmap.esdf);
-    for (const double radius : {kClearance, 1.2 * kClearance}) {
+    for (const double radius : {kPillarClearance, 1.2 * kPillarClearance}) {
       const PlanConfig config{.radius = radius};
       const Alternatives found = plan_alternatives(roadmap, kStart, kGoal, 4, config);
       ASSERT_TRUE(found.ok());
@@ -380,7 +381,7 @@ TEST(Alternatives, AreApartSomewhereByTheRadiusAtLeast) {
 
 TEST(Alternatives, SayWhyThereIsNoneAndRefuseOtherPlanners) {
   Axes axes;
-  const Roadmap roadmap = build(testing::pillars(0, axes));
+  const Roadmap roadmap = build_pillars(testing::pillars(0, axes));
   const Alternatives none = plan_alternatives(roadmap, kStart, Point(7.4, 3.1, 5.0), 3);
   EXPECT_EQ(none.status, PlanStatus::kGoalOutsideMap);
   EXPECT_TRUE(none.routes.empty());

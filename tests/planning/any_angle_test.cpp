@@ -20,8 +20,8 @@ using detail::Deadline;
 using detail::LatticePath;
 using detail::SearchStatus;
 
-const Deadline kNever(std::numeric_limits<double>::infinity());
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+const Deadline kNoDeadline(std::numeric_limits<double>::infinity());
+constexpr double kAnyLength = std::numeric_limits<double>::infinity();
 
 Point centre(const EsdfMap& esdf, VoxelId id) {
   return centre_of(esdf.layout.index_of(id), esdf.voxel_size);
@@ -48,13 +48,13 @@ void expect_legal(const EsdfMap& esdf, const LatticePath& path, VoxelId start, V
 std::vector<double> shortest_by_sight(const EsdfMap& esdf, const std::vector<VoxelId>& places,
                                       std::size_t start, double radius) {
   const FreeSpace space(esdf);
-  std::vector<double> cost(places.size(), kInfinity);
+  std::vector<double> cost(places.size(), kAnyLength);
   std::vector<bool> done(places.size(), false);
   cost[start] = 0.0;
   for (;;) {
     std::size_t best = places.size();
     for (std::size_t i = 0; i < places.size(); ++i)
-      if (!done[i] && cost[i] < kInfinity && (best == places.size() || cost[i] < cost[best]))
+      if (!done[i] && cost[i] < kAnyLength && (best == places.size() || cost[i] < cost[best]))
         best = i;
     if (best == places.size()) return cost;
     done[best] = true;
@@ -81,8 +81,9 @@ TEST(ThetaStar, FindsPathsWhereTheLatticeDoesAndHardlyEverLongerOnes) {
       for (std::size_t k = 0; k < 12; ++k) {
         const VoxelId start = places[k * 7919 % places.size()];
         const VoxelId goal = places[(k * 31 + 104729 * seed) % places.size()];
-        const LatticePath lattice = detail::search_lattice(esdf, start, goal, radius, {}, kNever);
-        const LatticePath theta = detail::search_any_angle(esdf, start, goal, radius, kNever);
+        const LatticePath lattice =
+            detail::search_lattice(esdf, start, goal, radius, {}, kNoDeadline);
+        const LatticePath theta = detail::search_any_angle(esdf, start, goal, radius, kNoDeadline);
         ASSERT_EQ(theta.status, lattice.status);
         if (theta.status != SearchStatus::kFound) continue;
         expect_legal(esdf, theta, start, goal, radius);
@@ -115,7 +116,7 @@ TEST(ThetaStar, IsNeverShorterThanTheShortestByTurnsAtVoxels) {
     const std::vector<double> shortest = shortest_by_sight(esdf, places, start, radius);
     for (std::size_t goal = 0; goal < places.size(); goal += 7) {
       const LatticePath theta =
-          detail::search_any_angle(esdf, places[start], places[goal], radius, kNever);
+          detail::search_any_angle(esdf, places[start], places[goal], radius, kNoDeadline);
       if (theta.status != SearchStatus::kFound || shortest[goal] == 0.0) continue;
       ++routes;
       ASSERT_GE(theta.cost, shortest[goal] - 1e-9);

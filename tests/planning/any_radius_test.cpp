@@ -14,12 +14,12 @@
 namespace ridgeway {
 namespace {
 
-constexpr double kVoxel = 0.1, kSmallest = 0.2;
+constexpr double kWindowVoxel = 0.1, kSmallest = 0.2;
 
 /// Two rooms behind a wall with two windows: a wide one far off, and one that robots pass up to a
 /// radius of 1.75 times the smallest: between two of the levels that the cells know.
 OccupancyMap rooms_with_two_windows() {
-  return testing::make_map(kVoxel, {0, 0, 0}, {61, 101, 15}, [](const VoxelIndex& v) {
+  return testing::make_map(kWindowVoxel, {0, 0, 0}, {61, 101, 15}, [](const VoxelIndex& v) {
     const bool hull = v.x == 0 || v.y == 0 || v.z == 0 || v.x == 61 || v.y == 101 || v.z == 15;
     const bool near_window = v.y >= 12 && v.y < 19 && v.z >= 4 && v.z < 11;
     const bool far_window = v.y >= 80 && v.y < 95 && v.z >= 2 && v.z < 14;
@@ -50,7 +50,7 @@ OccupancyMap rooms_with_slits(unsigned seed) {
   std::array<std::array<int, 4>, 4> slits{};  // their widths, by wall
   for (std::array<int, 4>& wall : slits)
     for (int& width : wall) width = 3 + static_cast<int>(random() % 5);
-  return testing::make_map(kVoxel, {0, 0, 0}, {101, 81, 11}, [&](const VoxelIndex& v) {
+  return testing::make_map(kWindowVoxel, {0, 0, 0}, {101, 81, 11}, [&](const VoxelIndex& v) {
     const bool hull = v.x == 0 || v.y == 0 || v.z == 0 || v.x == 101 || v.y == 81 || v.z == 11;
     const bool wall = v.x % 20 == 0;
     const auto number = static_cast<std::size_t>(std::clamp(v.x / 20 - 1, 0, 3));
@@ -71,7 +71,8 @@ TEST(PlanAtAnyRadius, IsAboutAsShortAsAStarBetweenTheLevelsToo) {
       const double radius = factor * roadmap.min_clearance;
       const std::vector<VoxelId> places = testing::traversable_places(roadmap.esdf, radius);
       const auto place = [&] {
-        return centre_of(roadmap.esdf.layout.index_of(places[random() % places.size()]), kVoxel);
+        return centre_of(roadmap.esdf.layout.index_of(places[random() % places.size()]),
+                         kWindowVoxel);
       };
       for (int i = 0; i < 12; ++i) {
         const Point start = place(), goal = place();

@@ -18,7 +18,7 @@
 namespace ridgeway {
 namespace {
 
-constexpr double kVoxel = 0.1, kRadius = 0.1;
+constexpr double kBlockedVoxel = 0.1, kBlockedRadius = 0.1;
 
 /// The widest way between two voxels by a plain search: Prim's, over every legal move.
 double bottleneck(const EsdfMap& esdf, VoxelId from, VoxelId to) {
@@ -71,7 +71,9 @@ void expect_explained(const Roadmap& roadmap, const OccupancyMap& map, const Rou
                       VoxelId from, VoxelId to, double radius, const testing::Regions& regions,
                       Tally& tally) {
   const EsdfMap& esdf = roadmap.esdf;
-  const auto place_of = [&](VoxelId id) { return centre_of(esdf.layout.index_of(id), kVoxel); };
+  const auto place_of = [&](VoxelId id) {
+    return centre_of(esdf.layout.index_of(id), kBlockedVoxel);
+  };
   ASSERT_EQ(plan(roadmap, place_of(from), place_of(to), {.radius = radius}).status,
             PlanStatus::kNoRoute);
   const auto blocked = blocks.between(place_of(from), place_of(to), radius);
@@ -85,12 +87,13 @@ void expect_explained(const Roadmap& roadmap, const OccupancyMap& map, const Rou
   EXPECT_NE(blocked->start_number, blocked->goal_number);
   const auto nearest = [&](VoxelState state) {
     double best = std::numeric_limits<double>::infinity();
-    const VoxelIndex at = voxel_at(*blocked->place, kVoxel);
+    const VoxelIndex at = voxel_at(*blocked->place, kBlockedVoxel);
     for (int z = -20; z <= 20; ++z)
       for (int y = -20; y <= 20; ++y)
         for (int x = -20; x <= 20; ++x)
           if (const VoxelIndex v = at + VoxelIndex{x, y, z}; map.at(v) == state)
-            best = std::min(best, testing::brute_squared_distance(*blocked->place / kVoxel, {v}));
+            best = std::min(best,
+                            testing::brute_squared_distance(*blocked->place / kBlockedVoxel, {v}));
     return best;
   };
   if (blocked->radius > 0.0) {
@@ -99,7 +102,7 @@ void expect_explained(const Roadmap& roadmap, const OccupancyMap& map, const Rou
     // The narrowest place is as wide as the radius says, unless a diagonal move dips beside it.
     const double there = FreeSpace(esdf).distance(*blocked->place);
     EXPECT_GE(there, blocked->radius - 1e-9);
-    EXPECT_LE(there, blocked->radius + kVoxel);
+    EXPECT_LE(there, blocked->radius + kBlockedVoxel);
     tally.by_unknown += blocked->by == Blocker::kUnknown;
     if (there > blocked->radius + 1e-9) return;
     const bool is_unknown = esdf.unknown == UnknownPolicy::kObstacle &&
@@ -118,10 +121,10 @@ void expect_explained(const Roadmap& roadmap, const OccupancyMap& map, const Rou
   tally.enclosed += !joined_beyond;
   tally.beyond += joined_beyond && !joined;
   if (blocked->map_end) {
-    EXPECT_FALSE(known_range(map).contains(voxel_at(*blocked->map_end, kVoxel)));
+    EXPECT_FALSE(known_range(map).contains(voxel_at(*blocked->map_end, kBlockedVoxel)));
   }
   if (!joined) return;
-  const VoxelIndex gate = voxel_at(*blocked->place, kVoxel);
+  const VoxelIndex gate = voxel_at(*blocked->place, kBlockedVoxel);
   EXPECT_EQ(map.at(gate), VoxelState::kUnknown);
   EXPECT_TRUE(joined_but_for_occupied(map, gate, esdf.layout.index_of(to)));
 }
@@ -131,13 +134,13 @@ TEST(BlockedRoute, TellsTheWidestWayByBruteForceAndWhatIsInIt) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
     const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
-    const OccupancyMap map = testing::random_map(seed, 20, kVoxel);
+    const OccupancyMap map = testing::random_map(seed, 20, kBlockedVoxel);
     const EsdfMap esdf = compute_esdf(map, {.unknown = policy});
-    if (testing::traversable_places(esdf, kRadius).empty()) continue;
+    if (testing::traversable_places(esdf, kBlockedRadius).empty()) continue;
     const Roadmap roadmap =
-        build_roadmap(map, {.min_clearance = kRadius, .unknown = policy}).roadmap;
+        build_roadmap(map, {.min_clearance = kBlockedRadius, .unknown = policy}).roadmap;
     const RouteBlocks blocks(roadmap);
-    for (const double radius : {kRadius, 0.15, 0.2}) {  // the built radius too
+    for (const double radius : {kBlockedRadius, 0.15, 0.2}) {  // the built radius too
       const testing::Regions regions = testing::regions_at(roadmap.esdf, radius);
       for (std::size_t a = 0; a < std::min<std::size_t>(regions.first.size(), 4); ++a)
         for (std::size_t b = 0; b < a; ++b) {
@@ -153,9 +156,10 @@ TEST(BlockedRoute, TellsTheWidestWayByBruteForceAndWhatIsInIt) {
   EXPECT_GT(tally.beyond, 0);
 }
 
-/// Two rooms with a window in the wall between them, 4 voxels wide and high; `filling`: the wall.
-OccupancyMap rooms(VoxelState filling, VoxelState window_state = VoxelState::kFree) {
-  return testing::make_map(kVoxel, {0, 0, 0}, {61, 23, 23}, [=](const VoxelIndex& v) {
+/// Two rooms_with_window with a window in the wall between them, 4 voxels wide and high; `filling`:
+/// the wall.
+OccupancyMap rooms_with_window(VoxelState filling, VoxelState window_state = VoxelState::kFree) {
+  return testing::make_map(kBlockedVoxel, {0, 0, 0}, {61, 23, 23}, [=](const VoxelIndex& v) {
     if (v.x == 0 || v.y == 0 || v.z == 0 || v.x == 61 || v.y == 23 || v.z == 23)
       return VoxelState::kOccupied;
     const bool wall = v.x == 30 || v.x == 31;
@@ -167,7 +171,7 @@ OccupancyMap rooms(VoxelState filling, VoxelState window_state = VoxelState::kFr
 TEST(BlockedRoute, NamesTheWindowAndWhetherItsFrameIsKnown) {
   const Point start(1.0, 1.0, 1.0), goal(5.0, 1.0, 1.0);
   for (const VoxelState frame : {VoxelState::kOccupied, VoxelState::kUnknown}) {
-    const Roadmap roadmap = build_roadmap(rooms(frame), {.min_clearance = 0.3}).roadmap;
+    const Roadmap roadmap = build_roadmap(rooms_with_window(frame), {.min_clearance = 0.3}).roadmap;
     ASSERT_EQ(plan(roadmap, start, goal).status, PlanStatus::kNoRoute);
     const auto blocked = RouteBlocks(roadmap).between(start, goal, 0.3);
     ASSERT_TRUE(blocked.has_value());
@@ -176,7 +180,8 @@ TEST(BlockedRoute, NamesTheWindowAndWhetherItsFrameIsKnown) {
     EXPECT_NEAR(blocked->place->y(), 1.2, 0.15);
     EXPECT_EQ(blocked->by, frame == VoxelState::kUnknown ? Blocker::kUnknown : Blocker::kObstacle);
     EXPECT_EQ(blocked->start_number + blocked->goal_number, 1u);
-    const Roadmap smaller = build_roadmap(rooms(frame), {.min_clearance = blocked->radius}).roadmap;
+    const Roadmap smaller =
+        build_roadmap(rooms_with_window(frame), {.min_clearance = blocked->radius}).roadmap;
     EXPECT_TRUE(plan(smaller, start, goal).ok());
   }
 }
@@ -185,7 +190,7 @@ TEST(BlockedRoute, TellsUnknownSpaceFromWallsWhereNoRadiusHelps) {
   const Point start(1.0, 1.0, 1.0), goal(5.0, 1.0, 1.0);
   for (const VoxelState window : {VoxelState::kOccupied, VoxelState::kUnknown})
     for (const UnknownPolicy policy : {UnknownPolicy::kObstacle, UnknownPolicy::kIgnore}) {
-      const Roadmap roadmap = build_roadmap(rooms(VoxelState::kOccupied, window),
+      const Roadmap roadmap = build_roadmap(rooms_with_window(VoxelState::kOccupied, window),
                                             {.min_clearance = 0.1, .unknown = policy})
                                   .roadmap;
       const auto blocked = RouteBlocks(roadmap).between(start, goal, 0.1);
@@ -204,11 +209,12 @@ TEST(BlockedRoute, TellsUnknownSpaceFromWallsWhereNoRadiusHelps) {
 
 /// A box that a wall cuts right through, with nothing known beyond its sides.
 OccupancyMap cut_box(VoxelState corner, const VoxelIndex& low = {0, 0, 0}) {
-  return testing::make_map(kVoxel, low, low + VoxelIndex{41, 21, 21}, [=](const VoxelIndex& at) {
-    const VoxelIndex v = at - low;
-    if (v.y > 18 && v.z > 18) return corner;
-    return v.x == 20 ? VoxelState::kOccupied : VoxelState::kFree;
-  });
+  return testing::make_map(kBlockedVoxel, low, low + VoxelIndex{41, 21, 21},
+                           [=](const VoxelIndex& at) {
+                             const VoxelIndex v = at - low;
+                             if (v.y > 18 && v.z > 18) return corner;
+                             return v.x == 20 ? VoxelState::kOccupied : VoxelState::kFree;
+                           });
 }
 
 TEST(BlockedRoute, NamesTheWallWhereTheOnlyOtherWayLeavesTheMap) {
@@ -225,9 +231,9 @@ TEST(BlockedRoute, NamesTheWallWhereTheOnlyOtherWayLeavesTheMap) {
       ASSERT_EQ(blocked->place.has_value(), passes_inside);
       ASSERT_EQ(blocked->map_end.has_value(), !passes_inside);
       if (passes_inside) {
-        EXPECT_TRUE(known_range(map).contains(voxel_at(*blocked->place, kVoxel)));
+        EXPECT_TRUE(known_range(map).contains(voxel_at(*blocked->place, kBlockedVoxel)));
       } else {
-        EXPECT_FALSE(known_range(map).contains(voxel_at(*blocked->map_end, kVoxel)));
+        EXPECT_FALSE(known_range(map).contains(voxel_at(*blocked->map_end, kBlockedVoxel)));
         EXPECT_LT(blocked->map_end->x(), 2.0);  // on the start's side
       }
     }
@@ -235,7 +241,7 @@ TEST(BlockedRoute, NamesTheWallWhereTheOnlyOtherWayLeavesTheMap) {
 
 TEST(BlockedRoute, LeavesBadPlacesToThePlan) {
   const Roadmap roadmap =
-      build_roadmap(rooms(VoxelState::kOccupied), {.min_clearance = 0.3}).roadmap;
+      build_roadmap(rooms_with_window(VoxelState::kOccupied), {.min_clearance = 0.3}).roadmap;
   const RouteBlocks blocks(roadmap);
   EXPECT_FALSE(blocks.between(Point(-9, 0, 0), Point(5, 1, 1), 0.3).has_value());
   EXPECT_FALSE(blocks.between(Point(5, 1, 1), Point(0.15, 1, 1), 0.3).has_value());

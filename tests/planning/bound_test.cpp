@@ -19,10 +19,10 @@
 namespace ridgeway {
 namespace {
 
-constexpr double kVoxel = 0.1, kRadius = 0.1;
+constexpr double kBoundVoxel = 0.1, kBoundRadius = 0.1;
 
 /// A box of free space with random obstacles.
-Roadmap random_roadmap(std::mt19937& random) {
+Roadmap roadmap_of_boxes(std::mt19937& random) {
   std::vector<std::array<VoxelIndex, 2>> boxes;
   for (int i = 0; i < 7; ++i) {
     const auto at = [&](int most) {
@@ -32,14 +32,14 @@ Roadmap random_roadmap(std::mt19937& random) {
     boxes.push_back({low, low + VoxelIndex{at(5), at(5), at(5)}});
   }
   const OccupancyMap map =
-      testing::make_map(kVoxel, {0, 0, 0}, {14, 14, 9}, [&](const VoxelIndex& v) {
+      testing::make_map(kBoundVoxel, {0, 0, 0}, {14, 14, 9}, [&](const VoxelIndex& v) {
         const bool is_solid = std::any_of(boxes.begin(), boxes.end(), [&](const auto& box) {
           return v.x >= box[0].x && v.x < box[1].x && v.y >= box[0].y && v.y < box[1].y &&
                  v.z >= box[0].z && v.z < box[1].z;
         });
         return is_solid ? VoxelState::kOccupied : VoxelState::kFree;
       });
-  return build_roadmap(map, {.min_clearance = kRadius}).roadmap;
+  return build_roadmap(map, {.min_clearance = kBoundRadius}).roadmap;
 }
 
 /// The shortest path over all traversable voxel centres that see each other: an upper bound on the
@@ -65,7 +65,7 @@ double shortest_over_centres(const Roadmap& roadmap, const std::vector<VoxelId>&
     is_done[best] = true;
     for (std::size_t i = 0; i < at.size(); ++i)
       if (const double own = cost[best] + (at[i] - at[best]).norm();
-          own < cost[i] && space.is_free(at[best], at[i], kRadius))
+          own < cost[i] && space.is_free(at[best], at[i], kBoundRadius))
         cost[i] = own;
   }
 }
@@ -75,13 +75,14 @@ TEST(Within, HoldsAgainstTheShortestPathByBruteForce) {
   int bent = 0, shorter_by_more = 0;
   for (int map = 0; map < 12; ++map) {
     SCOPED_TRACE(map);
-    const Roadmap roadmap = random_roadmap(random);
+    const Roadmap roadmap = roadmap_of_boxes(random);
     const EsdfMap& esdf = roadmap.esdf;
-    const std::vector<VoxelId> places = testing::traversable_places(esdf, kRadius);
+    const std::vector<VoxelId> places = testing::traversable_places(esdf, kBoundRadius);
     for (int i = 0; i < 5; ++i) {
       const std::size_t from = random() % places.size(), to = random() % places.size();
-      const Point start = to_world(esdf, centre_of(esdf.layout.index_of(places[from]), kVoxel));
-      const Point goal = to_world(esdf, centre_of(esdf.layout.index_of(places[to]), kVoxel));
+      const Point start =
+          to_world(esdf, centre_of(esdf.layout.index_of(places[from]), kBoundVoxel));
+      const Point goal = to_world(esdf, centre_of(esdf.layout.index_of(places[to]), kBoundVoxel));
       const double shortest = shortest_over_centres(roadmap, places, from, to);
       const PlanResult usual = plan(roadmap, start, goal);
       const PlanResult best = plan(roadmap, start, goal, {.within = PlanConfig::kBestWithin});
@@ -142,7 +143,7 @@ TEST(ShortPaths, ThroughClutterAreHardlyLongerThanOverAllVoxels) {
 
 /// A corridor of 1.5 m that turns back four times, in a hall of 8 x 6 m.
 OccupancyMap serpentine() {
-  return testing::make_map(kVoxel, {0, 0, 0}, {79, 59, 9}, [](const VoxelIndex& v) {
+  return testing::make_map(kBoundVoxel, {0, 0, 0}, {79, 59, 9}, [](const VoxelIndex& v) {
     const bool is_border = v.x == 0 || v.y == 0 || v.z == 0 || v.x == 79 || v.y == 59 || v.z == 9;
     const bool is_open = (v.x / 16) % 2 == 0 ? v.y >= 45 : v.y < 15;
     const bool is_wall = v.x % 16 == 0 && !is_open;
@@ -151,11 +152,11 @@ OccupancyMap serpentine() {
 }
 
 TEST(Within, LandmarksForetellHowLongWindingWaysAre) {
-  const Roadmap roadmap = build_roadmap(serpentine(), {.min_clearance = kRadius}).roadmap;
+  const Roadmap roadmap = build_roadmap(serpentine(), {.min_clearance = kBoundRadius}).roadmap;
   const EsdfMap& esdf = roadmap.esdf;
   ASSERT_FALSE(roadmap.cells.lengths.empty());
   std::mt19937 random(1);
-  const std::vector<VoxelId> places = testing::traversable_places(esdf, kRadius);
+  const std::vector<VoxelId> places = testing::traversable_places(esdf, kBoundRadius);
   int winding = 0, foretold = 0;
   for (int i = 0; i < 100; ++i) {
     const VoxelId from = places[random() % places.size()], to = places[random() % places.size()];
@@ -164,9 +165,9 @@ TEST(Within, LandmarksForetellHowLongWindingWaysAre) {
     };
     const PlanResult exact = plan(roadmap, place(from), place(to), {.planner = Planner::kEsdf});
     ASSERT_TRUE(exact.ok());
-    const double expected = detail::length_between(roadmap, from, to, kRadius);
+    const double expected = detail::length_between(roadmap, from, to, kBoundRadius);
     // Each end may be half a block's diagonal away from the middle of its block's cells.
-    EXPECT_LE(expected, 1.05 * exact.length + std::sqrt(3.0) * kBlockSide * kVoxel);
+    EXPECT_LE(expected, 1.05 * exact.length + std::sqrt(3.0) * kBlockSide * kBoundVoxel);
     if (exact.length < 1.5 * (place(from) - place(to)).norm()) continue;
     ++winding;
     foretold += expected > 0.8 * exact.length;
@@ -177,7 +178,7 @@ TEST(Within, LandmarksForetellHowLongWindingWaysAre) {
 
 TEST(Within, RefusesWhatIsNoFactor) {
   std::mt19937 random(1);
-  const Roadmap roadmap = random_roadmap(random);
+  const Roadmap roadmap = roadmap_of_boxes(random);
   for (const double bad : {-1.0, 0.5, 0.999, std::nan(""), std::numeric_limits<double>::infinity()})
     EXPECT_THROW(plan(roadmap, {0.5, 0.5, 0.5}, {1, 1, 1}, {.within = bad}), InputError);
 }

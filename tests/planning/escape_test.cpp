@@ -20,7 +20,7 @@
 namespace ridgeway {
 namespace {
 
-constexpr double kVoxel = 0.1, kRadius = 0.2;
+constexpr double kEscapeVoxel = 0.1, kEscapeRadius = 0.2;
 
 /// A room with a few boxes in it; a corner of it is unknown.
 OccupancyMap room_with_boxes(unsigned seed, int boxes = 3) {
@@ -30,7 +30,7 @@ OccupancyMap room_with_boxes(unsigned seed, int boxes = 3) {
   for (int i = 0; i < boxes; ++i)
     corners.push_back({static_cast<int>(random() % 20) + 2, static_cast<int>(random() % 20) + 2,
                        static_cast<int>(random() % 8) + 1});
-  return testing::make_map(kVoxel, {0, 0, 0}, {25, 25, 13}, [&](const VoxelIndex& v) {
+  return testing::make_map(kEscapeVoxel, {0, 0, 0}, {25, 25, 13}, [&](const VoxelIndex& v) {
     bool solid = v.x == 0 || v.y == 0 || v.z == 0 || v.x == 25 || v.y == 25 || v.z == 13;
     for (const VoxelIndex& c : corners)
       solid |=
@@ -45,17 +45,17 @@ OccupancyMap room_with_boxes(unsigned seed, int boxes = 3) {
 void expect_rising_leg(const OccupancyMap& map, const std::vector<VoxelIndex>& obstacles,
                        const Point& end, const Point& place, const Escape& escape) {
   EXPECT_NEAR(escape.length, (place - end).norm(), 1e-12);
-  EXPECT_LE(escape.length, 2.0 * kRadius);
+  EXPECT_LE(escape.length, 2.0 * kEscapeRadius);
   const auto distance = [&](const Point& p) {
-    return kVoxel * std::sqrt(testing::brute_squared_distance(p / kVoxel, obstacles));
+    return kEscapeVoxel * std::sqrt(testing::brute_squared_distance(p / kEscapeVoxel, obstacles));
   };
   EXPECT_NEAR(distance(end), escape.clearance, 1e-9);
-  EXPECT_GE(distance(place), kRadius * (1.0 - 1e-9));
+  EXPECT_GE(distance(place), kEscapeRadius * (1.0 - 1e-9));
   constexpr int kSteps = 97;
   double last = distance(end);
   for (int k = 0; k <= kSteps; ++k) {
     const Point p = end + (place - end) * (static_cast<double>(k) / kSteps);
-    EXPECT_EQ(map.at(voxel_at(p, kVoxel)), VoxelState::kFree);
+    EXPECT_EQ(map.at(voxel_at(p, kEscapeVoxel)), VoxelState::kFree);
     EXPECT_GE(distance(p), last - 1e-9);
     last = distance(p);
   }
@@ -69,7 +69,7 @@ TEST(Escape, LegsRiseInKnownFreeSpaceAndTheRestIsVerified) {
     const OccupancyMap map = room_with_boxes(seed);
     const std::vector<VoxelIndex> obstacles = testing::all_obstacles(map, policy);
     const Roadmap roadmap =
-        build_roadmap(map, {.min_clearance = kRadius, .unknown = policy}).roadmap;
+        build_roadmap(map, {.min_clearance = kEscapeRadius, .unknown = policy}).roadmap;
     const FreeSpace space(roadmap.esdf);
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> x(0.0, 2.6), z(0.0, 1.4);
@@ -99,7 +99,7 @@ TEST(Escape, LegsRiseInKnownFreeSpaceAndTheRestIsVerified) {
         expect_rising_leg(map, obstacles, goal, rest[rest.size() - 2], result.escape_goal);
         rest = rest.first(rest.size() - 1);
       }
-      EXPECT_GE(space.clearance(rest), kRadius * (1.0 - 1e-9));
+      EXPECT_GE(space.clearance(rest), kEscapeRadius * (1.0 - 1e-9));
       EXPECT_NEAR(result.clearance, space.clearance(rest), 1e-9);
       double length = 0.0;
       for (std::size_t k = 1; k < result.waypoints.size(); ++k)
@@ -113,7 +113,8 @@ TEST(Escape, LegsRiseInKnownFreeSpaceAndTheRestIsVerified) {
 }
 
 TEST(Escape, NeverLeavesAnObstacleOrTheUnknown) {
-  const Roadmap roadmap = build_roadmap(room_with_boxes(0), {.min_clearance = kRadius}).roadmap;
+  const Roadmap roadmap =
+      build_roadmap(room_with_boxes(0), {.min_clearance = kEscapeRadius}).roadmap;
   const Point good(1.25, 1.25, 0.7);
   const auto status = [&](const Point& start) {
     return plan(roadmap, start, good, {.escape = true}).status;
@@ -183,7 +184,8 @@ TEST(Escape, LeadsToTheNearestPlaceThatALookAtEveryVoxelFinds) {
 TEST(Escape, LooksNoFartherThanTheMapHoweverLargeTheRadius) {
   for (const UnknownPolicy policy : {UnknownPolicy::kObstacle, UnknownPolicy::kIgnore}) {
     const Roadmap roadmap =
-        build_roadmap(room_with_boxes(1), {.min_clearance = kRadius, .unknown = policy}).roadmap;
+        build_roadmap(room_with_boxes(1), {.min_clearance = kEscapeRadius, .unknown = policy})
+            .roadmap;
     for (const double radius : {50.0, 1e3, 1e6, 1e9, 1e12, 1e300}) {
       const PlanResult result = plan(roadmap, Point(0.15, 0.95, 0.7), Point(1.25, 1.25, 0.7),
                                      {.radius = radius, .escape = true});
@@ -193,7 +195,8 @@ TEST(Escape, LooksNoFartherThanTheMapHoweverLargeTheRadius) {
 }
 
 TEST(Escape, IsSoughtWithinTheTimeLimit) {
-  const Roadmap roadmap = build_roadmap(room_with_boxes(0, 0), {.min_clearance = kRadius}).roadmap;
+  const Roadmap roadmap =
+      build_roadmap(room_with_boxes(0, 0), {.min_clearance = kEscapeRadius}).roadmap;
   const Point close(0.15, 0.95, 0.7), free(1.25, 1.25, 0.7);
   for (const auto& [start, goal] : {std::pair(close, free), std::pair(free, close)}) {
     EXPECT_TRUE(plan(roadmap, start, goal, {.escape = true}).ok());
@@ -203,7 +206,8 @@ TEST(Escape, IsSoughtWithinTheTimeLimit) {
 }
 
 TEST(Escape, GoesOutAndBackFromOnePlace) {
-  const Roadmap roadmap = build_roadmap(room_with_boxes(0, 0), {.min_clearance = kRadius}).roadmap;
+  const Roadmap roadmap =
+      build_roadmap(room_with_boxes(0, 0), {.min_clearance = kEscapeRadius}).roadmap;
   const Point place(0.15, 0.95, 0.7);
   const PlanResult result = plan(roadmap, place, place, {.escape = true});
   ASSERT_TRUE(result.ok());

@@ -15,11 +15,11 @@
 namespace ridgeway {
 namespace {
 
-constexpr double kClearance = 0.1;
+constexpr double kGoalsClearance = 0.1;
 
-std::optional<Roadmap> random_roadmap(unsigned seed) {
+std::optional<Roadmap> roadmap_with_room(unsigned seed) {
   try {
-    return build_roadmap(testing::random_map(seed, 24), {.min_clearance = kClearance}).roadmap;
+    return build_roadmap(testing::random_map(seed, 24), {.min_clearance = kGoalsClearance}).roadmap;
   } catch (const InputError&) {
     return std::nullopt;  // no room in this one
   }
@@ -28,7 +28,7 @@ std::optional<Roadmap> random_roadmap(unsigned seed) {
 /// The first is a start. One is outside, the others may be out of reach.
 std::vector<Point> random_places(const Roadmap& roadmap, unsigned seed) {
   const EsdfMap& esdf = roadmap.esdf;
-  const std::vector<VoxelId> places = testing::traversable_places(esdf, kClearance);
+  const std::vector<VoxelId> places = testing::traversable_places(esdf, kGoalsClearance);
   std::mt19937 random(seed);
   std::vector<Point> points;
   points.reserve(11);
@@ -44,7 +44,7 @@ template <typename Body>
 void on_random_roadmaps(const Body& body) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
-    const std::optional<Roadmap> roadmap = random_roadmap(seed);
+    const std::optional<Roadmap> roadmap = roadmap_with_room(seed);
     if (!roadmap) continue;
     const std::vector<Point> places = random_places(*roadmap, seed);
     body(*roadmap, places[0], std::span(places).subspan(1));
@@ -55,7 +55,7 @@ void on_random_roadmaps(const Body& body) {
 TEST(ManyGoals, AreReachedAsSinglePlansReachThem) {
   int reached = 0, refused = 0;
   on_random_roadmaps([&](const Roadmap& roadmap, const Point& start, std::span<const Point> goals) {
-    for (const double radius : {kClearance, 0.15}) {
+    for (const double radius : {kGoalsClearance, 0.15}) {
       const PlanConfig config{.radius = radius};
       const std::vector<GoalPlan> many = plan_to_many(roadmap, start, goals, config);
       const NearestGoal nearest = plan_to_nearest(roadmap, start, goals, config);
@@ -109,7 +109,7 @@ TEST(ManyGoals, DistancesAreThoseOfRawPlansAndOfDijkstra) {
 }
 
 TEST(ManyGoals, RefuseBadInput) {
-  const std::optional<Roadmap> roadmap = random_roadmap(1);
+  const std::optional<Roadmap> roadmap = roadmap_with_room(1);
   ASSERT_TRUE(roadmap);
   const std::vector<Point> goals{Point(1, 1, std::nan(""))};
   EXPECT_THROW(distances_to_goals(*roadmap, Point(1, 1, 1), goals), InputError);

@@ -15,8 +15,8 @@
 namespace ridgeway {
 namespace {
 
-constexpr double kClearance = testing::kPillarClearance;
-const Point kStart(0.5, 2.9, 0.4), kGoal(7.4, 3.1, 0.4);
+using testing::kPillarClearance;
+const Point kHallStart(0.5, 2.9, 0.4), kHallGoal(7.4, 3.1, 0.4);
 
 double mean_clearance(const FreeSpace& space, const std::vector<Point>& path) {
   double sum = 0.0, length = 0.0;
@@ -53,7 +53,7 @@ Roadmap hall_of_pillars(unsigned seed) {
       testing::make_map(0.1, {0, 0, 0}, {79, 59, 15}, [&](const VoxelIndex& v) {
         return v.z == 0 || v.z == 15 ? VoxelState::kOccupied : low.at({v.x, v.y, 3});
       });
-  return build_roadmap(high, {.min_clearance = kClearance}).roadmap;
+  return build_roadmap(high, {.min_clearance = kPillarClearance}).roadmap;
 }
 
 TEST(PreferClearance, TradesLengthForDistanceFromWalls) {
@@ -65,17 +65,17 @@ TEST(PreferClearance, TradesLengthForDistanceFromWalls) {
     const FreeSpace space(roadmap.esdf);
     std::vector<PlanResult> results;
     for (std::size_t i = 0; i < kWeights.size(); ++i) {
-      const PlanResult result =
-          plan(roadmap, kStart, kGoal, {.radius = kClearance, .prefer_clearance = kWeights[i]});
+      const PlanResult result = plan(roadmap, kHallStart, kHallGoal,
+                                     {.radius = kPillarClearance, .prefer_clearance = kWeights[i]});
       ASSERT_TRUE(result.ok());
-      EXPECT_GE(space.clearance(result.waypoints), kClearance * (1.0 - 1e-9));
+      EXPECT_GE(space.clearance(result.waypoints), kPillarClearance * (1.0 - 1e-9));
       mean[i] += mean_clearance(space, result.waypoints);
       least[i] += result.clearance;
       length[i] += result.length;
       results.push_back(result);
       // No dearer than what asks for no clearance at all.
-      EXPECT_LE(cost_of(space, result.waypoints, kClearance, kWeights[i]),
-                1.01 * cost_of(space, results[0].waypoints, kClearance, kWeights[i]));
+      EXPECT_LE(cost_of(space, result.waypoints, kPillarClearance, kWeights[i]),
+                1.01 * cost_of(space, results[0].waypoints, kPillarClearance, kWeights[i]));
     }
   }
   for (std::size_t i = 1; i < kWeights.size(); ++i) {
@@ -91,7 +91,7 @@ TEST(PreferClearance, RefusesBadWeights) {
   const Roadmap roadmap = hall_of_pillars(0);
   for (const double bad :
        {-1.0, std::nan(""), std::numeric_limits<double>::infinity(), 1e308, 1e100, 1.1e6})
-    EXPECT_THROW(plan(roadmap, kStart, kGoal, {.prefer_clearance = bad}), InputError);
+    EXPECT_THROW(plan(roadmap, kHallStart, kHallGoal, {.prefer_clearance = bad}), InputError);
 }
 
 TEST(PreferClearance, AnAnswerThatIsOkHasAPathOfFiniteLengthAtAnyWeight) {
@@ -100,7 +100,7 @@ TEST(PreferClearance, AnAnswerThatIsOkHasAPathOfFiniteLengthAtAnyWeight) {
     for (const Planner planner : {Planner::kGraph, Planner::kDiagram, Planner::kEsdf})
       for (const bool shorten : {true, false}) {
         const PlanResult result =
-            plan(roadmap, kStart, kGoal,
+            plan(roadmap, kHallStart, kHallGoal,
                  {.planner = planner, .shorten = shorten, .prefer_clearance = weight});
         ASSERT_TRUE(result.ok());
         ASSERT_GE(result.waypoints.size(), 2u);

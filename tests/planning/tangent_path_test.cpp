@@ -13,7 +13,7 @@
 namespace ridgeway {
 namespace {
 
-constexpr double kClearance = testing::kPillarClearance;
+using testing::kPillarClearance;
 
 /// Among the same pillars with and without a tangent graph.
 struct Hall {
@@ -24,11 +24,11 @@ struct Hall {
     std::vector<Eigen::Vector2d> axes;
     const OccupancyMap map = testing::pillars(seed, axes);
     BuildConfig config;
-    config.min_clearance = kClearance;
+    config.min_clearance = kPillarClearance;
     with = build_roadmap(map, config).roadmap;
     config.tangent_pairs = 0;
     without = build_roadmap(map, config).roadmap;
-    places = testing::traversable_places(with.esdf, kClearance);
+    places = testing::traversable_places(with.esdf, kPillarClearance);
   }
 
   Point place(std::mt19937& random) const {
@@ -56,7 +56,7 @@ TEST(TangentPath, IsVerifiedAndAboutAsShortAsAFullSearch) {
       EXPECT_EQ(path.waypoints.front(), start);
       EXPECT_EQ(path.waypoints.back(), goal);
       EXPECT_NEAR(path.clearance, space.clearance(path.waypoints), 1e-12);
-      EXPECT_GE(path.clearance, kClearance * (1.0 - 1e-9));
+      EXPECT_GE(path.clearance, kPillarClearance * (1.0 - 1e-9));
       EXPECT_LE(path.length, 1.1 * full.length);
       sum += path.length / full.length;
     }
@@ -82,7 +82,7 @@ TEST(TangentPath, QuickPathsHoldAndAreAsUsualWhereNoCornersAreKnown) {
       if (!quick.ok()) continue;
       ++found;
       EXPECT_NEAR(quick.clearance, space.clearance(quick.waypoints), 1e-12);
-      EXPECT_GE(quick.clearance, kClearance * (1.0 - 1e-9));
+      EXPECT_GE(quick.clearance, kPillarClearance * (1.0 - 1e-9));
       EXPECT_GE(quick.length, (goal - start).norm() * (1.0 - 1e-12));
     }
   }

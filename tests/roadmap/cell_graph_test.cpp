@@ -29,9 +29,9 @@
 namespace ridgeway {
 namespace {
 
-constexpr double kClearance = testing::kPillarClearance;
+using testing::kPillarClearance;
 
-Roadmap pillar_roadmap(unsigned seed, double clearance = kClearance) {
+Roadmap roadmap_of_pillars(unsigned seed, double clearance = kPillarClearance) {
   std::vector<Eigen::Vector2d> axes;
   return build_roadmap(testing::pillars(seed, axes), {.min_clearance = clearance}).roadmap;
 }
@@ -40,7 +40,7 @@ TEST(CellGraph, EveryPlaceAndEdgeKeepsItsClearance) {
   std::size_t edges = 0;
   for (unsigned seed = 0; seed < 6; ++seed) {
     SCOPED_TRACE(seed);
-    const Roadmap roadmap = pillar_roadmap(seed);
+    const Roadmap roadmap = roadmap_of_pillars(seed);
     const EsdfMap& esdf = roadmap.esdf;
     const FreeSpace space(esdf);
     const detail::CellLattice lattice(esdf.layout);
@@ -53,7 +53,7 @@ TEST(CellGraph, EveryPlaceAndEdgeKeepsItsClearance) {
       EXPECT_EQ(lattice.cell_of(lattice.first_voxel(cell)), cell);
       if (cells[cell].place == CellGraph::kNoPlace) continue;
       EXPECT_EQ(lattice.cell_of(lattice.voxel_at(cell, cells[cell].place)), cell);
-      EXPECT_TRUE(space.is_free(place(cell), kClearance));
+      EXPECT_TRUE(space.is_free(place(cell), kPillarClearance));
       for (int d = kCentre + 1; d < 27; ++d) {
         const detail::CellId next = lattice.neighbour(cell, d);
         if (next == detail::kNoCell) continue;
@@ -64,7 +64,7 @@ TEST(CellGraph, EveryPlaceAndEdgeKeepsItsClearance) {
         for (std::size_t level = 0; level < width; ++level)
           EXPECT_EQ(cells[cell].parts[level], cells[next].parts[level]);
         EXPECT_GE(space.clearance(place(cell), place(next)) * (1.0 + 1e-6),
-                  kClearance * detail::kRadiusLevels[width - 1]);
+                  kPillarClearance * detail::kRadiusLevels[width - 1]);
       }
     }
   }
@@ -102,8 +102,8 @@ TEST(CellGraph, KnowsWhereAllEdgesAroundACellLetARadiusThrough) {
 }
 
 TEST(CellGraph, IsTheSameForAnyNumberOfThreads) {
-  const Roadmap roadmap = pillar_roadmap(1);
-  const auto run = [&] { return build_cell_graph(roadmap.esdf, kClearance); };
+  const Roadmap roadmap = roadmap_of_pillars(1);
+  const auto run = [&] { return build_cell_graph(roadmap.esdf, kPillarClearance); };
   const CellGraph one = with_threads(1, run), two = with_threads(2, run);
   EXPECT_TRUE(std::equal(one.cells.begin(), one.cells.end(), two.cells.begin(), two.cells.end(),
                          [](const CellGraph::Cell& a, const CellGraph::Cell& b) {
@@ -122,7 +122,7 @@ TEST(CellGraph, RoutesAreFreeAtTheirRadius) {
   int found = 0;
   for (unsigned seed = 0; seed < 6; ++seed) {
     SCOPED_TRACE(seed);
-    const Roadmap roadmap = pillar_roadmap(seed, 0.5 * kClearance);
+    const Roadmap roadmap = roadmap_of_pillars(seed, 0.5 * kPillarClearance);
     const EsdfMap& esdf = roadmap.esdf;
     const FreeSpace space(esdf);
     std::mt19937 random(seed);
@@ -256,7 +256,7 @@ TEST(CellGraph, PartsAreWhatEdgesAndBendsConnectAtEachRadius) {
   std::size_t parts = 0;
   for (unsigned seed = 0; seed < 4; ++seed) {
     SCOPED_TRACE(seed);
-    const Roadmap roadmap = seed < 2 ? clutter(seed) : pillar_roadmap(seed);
+    const Roadmap roadmap = seed < 2 ? clutter(seed) : roadmap_of_pillars(seed);
     const CellGraph& graph = roadmap.cells;
     const auto places = static_cast<detail::CellId>(graph.cells.size() + graph.nooks.size());
     for (std::size_t level = 0; level < CellGraph::kLevels; ++level) {
@@ -290,7 +290,7 @@ TEST(CellGraph, BendsAreMovesThatKeepTheirRadius) {
   std::size_t bends = 0;
   for (unsigned seed = 0; seed < 4; ++seed) {
     SCOPED_TRACE(seed);
-    const Roadmap roadmap = seed < 2 ? clutter(seed) : pillar_roadmap(seed);
+    const Roadmap roadmap = seed < 2 ? clutter(seed) : roadmap_of_pillars(seed);
     const EsdfMap& esdf = roadmap.esdf;
     const FreeSpace space(esdf);
     const CellGraph& graph = roadmap.cells;

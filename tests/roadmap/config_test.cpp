@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kRadius = 0.2;
+constexpr double kRoomRadius = 0.2;
 
 OccupancyMap room() {
   return testing::make_map(0.1, {0, 0, 0}, {15, 15, 15},
@@ -30,8 +30,8 @@ OccupancyMap room() {
 
 /// What the stages work on.
 struct Stages {
-  Roadmap roadmap = build_roadmap(room(), {.min_clearance = kRadius}).roadmap;
-  VoxelMask traversable = traversable_voxels(roadmap.esdf, kRadius);
+  Roadmap roadmap = build_roadmap(room(), {.min_clearance = kRoomRadius}).roadmap;
+  VoxelMask traversable = traversable_voxels(roadmap.esdf, kRoomRadius);
 };
 
 /// A floating-point field of a configuration, by the stage that takes it.

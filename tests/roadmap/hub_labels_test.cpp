@@ -14,11 +14,11 @@
 namespace ridgeway {
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kNotLinked = std::numeric_limits<double>::infinity();
 
 /// Places at random, about as many edges as `degree` says; often in several parts. Lengths are
 /// straight, whole numbers (many ways as short as another) or 1.
-SparseGraph random_graph(unsigned seed, std::uint32_t vertices, double degree) {
+SparseGraph graph_of_degree(unsigned seed, std::uint32_t vertices, double degree) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> place(0.0, 10.0), chance(0.0, 1.0);
   SparseGraph graph;
@@ -36,7 +36,7 @@ SparseGraph random_graph(unsigned seed, std::uint32_t vertices, double degree) {
 }
 
 struct Shared {
-  double length = kFar;
+  double length = kNotLinked;
   std::uint32_t hub = 0;
 };
 
@@ -53,7 +53,7 @@ Shared shared_hub(const HubLabels& hubs, VertexId a, VertexId b) {
 double length_along(const SparseGraph& graph, const std::vector<VertexId>& way) {
   double length = 0.0;
   for (std::size_t i = 1; i < way.size(); ++i) {
-    double edge_length = kFar;
+    double edge_length = kNotLinked;
     for (const Link& link : graph.links_of(way[i - 1]))
       if (link.vertex == way[i]) edge_length = graph.edges[number(link.edge)].length;
     length += edge_length;
@@ -64,7 +64,7 @@ double length_along(const SparseGraph& graph, const std::vector<VertexId>& way) 
 TEST(HubLabels, GiveTheShortestLengthsAndWays) {
   for (unsigned seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE(seed);
-    const SparseGraph graph = random_graph(seed, 60, 0.5 + 0.25 * (seed % 10));
+    const SparseGraph graph = graph_of_degree(seed, 60, 0.5 + 0.25 * (seed % 10));
     const HubLabels hubs = label_hubs(graph);
     for (std::uint32_t a = 0; a < graph.vertices.size(); ++a) {
       const auto lengths = testing::dijkstra_graph(graph, VertexId{a}, 0.5);
@@ -74,7 +74,7 @@ TEST(HubLabels, GiveTheShortestLengthsAndWays) {
       for (std::uint32_t b = 0; b < graph.vertices.size(); ++b) {
         const Shared shared = shared_hub(hubs, VertexId{a}, VertexId{b});
         if (!lengths.contains(VertexId{b})) {
-          ASSERT_EQ(shared.length, kFar);
+          ASSERT_EQ(shared.length, kNotLinked);
           continue;
         }
         const double length = lengths.at(VertexId{b});

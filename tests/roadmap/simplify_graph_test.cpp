@@ -22,7 +22,7 @@
 namespace ridgeway {
 namespace {
 
-constexpr double kClearance = testing::kPillarClearance;
+using testing::kPillarClearance;
 
 /// How often each independent cycle of a graph winds around each vertical axis: one row a cycle.
 /// Every link outside a spanning forest closes one.
@@ -107,7 +107,7 @@ TEST(SimplifyGraph, EveryPillarKeepsItsWayAround) {
   std::size_t elements_before = 0, elements_after = 0;
   for (unsigned seed = 0; seed < 20; ++seed) {
     std::vector<Eigen::Vector2d> axes;
-    const Pair pair = build_pair(testing::pillars(seed, axes), kClearance);
+    const Pair pair = build_pair(testing::pillars(seed, axes), kPillarClearance);
     ASSERT_GT(axes.size(), 3u);
     EXPECT_EQ(rank_of(windings(pair.whole.graph, axes)), static_cast<Eigen::Index>(axes.size()));
     EXPECT_EQ(rank_of(windings(pair.simple, axes)), static_cast<Eigen::Index>(axes.size()));
@@ -148,12 +148,14 @@ TEST(SimplifyGraph, WidthsBelowTheSmallestRadiusCountAsThat) {
   for (unsigned seed = 0; seed < 10; ++seed) {
     SCOPED_TRACE(seed);
     std::vector<Eigen::Vector2d> axes;
-    const Pair pair = build_pair(testing::pillars(seed, axes), kClearance);
+    const Pair pair = build_pair(testing::pillars(seed, axes), kPillarClearance);
     const auto simplified = [&](double widest_kept) {
       return simplify_graph(pair.whole.esdf, pair.whole.graph, {.widest_kept = widest_kept});
     };
-    const SparseGraph narrow = simplified(0.2 * kClearance), least = simplified(kClearance);
-    for (const Edge& edge : narrow.edges) EXPECT_GE(edge.clearance, kClearance * (1.0 - 1e-9));
+    const SparseGraph narrow = simplified(0.2 * kPillarClearance),
+                      least = simplified(kPillarClearance);
+    for (const Edge& edge : narrow.edges)
+      EXPECT_GE(edge.clearance, kPillarClearance * (1.0 - 1e-9));
     ASSERT_EQ(narrow.edges.size(), least.edges.size());
     for (std::size_t i = 0; i < least.edges.size(); ++i) {
       EXPECT_EQ(narrow.edges[i].from, least.edges[i].from);
@@ -167,9 +169,10 @@ TEST(SimplifyGraph, WidthsBelowTheSmallestRadiusCountAsThat) {
 TEST(SimplifyGraph, ConnectsAtLargerRadiiWhatItDid) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     std::vector<Eigen::Vector2d> axes;
-    const Pair pair = build_pair(testing::pillars(seed, axes), kClearance);
+    const Pair pair = build_pair(testing::pillars(seed, axes), kPillarClearance);
     for (const double factor : {1.0, 1.25, 1.5, 1.75, 2.0})
-      expect_connected_alike(pair.whole.graph, pair.simple, factor * kClearance * (1.0 - 1e-9));
+      expect_connected_alike(pair.whole.graph, pair.simple,
+                             factor * kPillarClearance * (1.0 - 1e-9));
   }
 }
 

@@ -18,13 +18,13 @@
 namespace ridgeway {
 namespace {
 
-constexpr double kClearance = testing::kPillarClearance;
+using testing::kPillarClearance;
 constexpr unsigned kSeeds = 10;
 
 Roadmap pillar_roadmap(unsigned seed, std::size_t tangent_pairs = 2000) {
   std::vector<Eigen::Vector2d> axes;
   BuildConfig config;
-  config.min_clearance = kClearance;
+  config.min_clearance = kPillarClearance;
   config.tangent_pairs = tangent_pairs;
   return build_roadmap(testing::pillars(seed, axes), config).roadmap;
 }
@@ -44,7 +44,7 @@ TEST(TangentGraph, KeepsItsContract) {
       ASSERT_NE(id, kNoVoxel);
       EXPECT_EQ(corner.position, centre_of(corner.voxel, esdf.voxel_size));
       EXPECT_EQ(corner.clearance, esdf.distance(id));
-      EXPECT_GE(corner.clearance, kClearance * (1.0 - 1e-9));
+      EXPECT_GE(corner.clearance, kPillarClearance * (1.0 - 1e-9));
       if (i > 0) {
         EXPECT_LT(esdf.layout.find(graph.vertices[i - 1].voxel), id);
       }
@@ -54,7 +54,7 @@ TEST(TangentGraph, KeepsItsContract) {
       const Point& to = graph.vertices[number(edge.to)].position;
       EXPECT_DOUBLE_EQ(edge.length, (to - from).norm());
       EXPECT_EQ(edge.clearance, space.clearance(from, to));
-      EXPECT_GE(edge.clearance, kClearance * (1.0 - 1e-9));
+      EXPECT_GE(edge.clearance, kPillarClearance * (1.0 - 1e-9));
     }
   }
   EXPECT_GT(corners, 20 * kSeeds);
@@ -112,14 +112,14 @@ TEST(TangentGraph, SearchFindsTheShortestRoute) {
     SCOPED_TRACE(seed);
     const Roadmap roadmap = pillar_roadmap(seed);
     const FreeSpace space(roadmap.esdf);
-    const std::vector<VoxelId> places = testing::traversable_places(roadmap.esdf, kClearance);
+    const std::vector<VoxelId> places = testing::traversable_places(roadmap.esdf, kPillarClearance);
     std::mt19937 random(seed);
     for (int i = 0; i < 20; ++i) {
       const VoxelId from = places[random() % places.size()], to = places[random() % places.size()];
       const auto place = [&](VoxelId id) {
         return centre_of(roadmap.esdf.layout.index_of(id), roadmap.esdf.voxel_size);
       };
-      const detail::TangentQuery query{place(from), place(to), kClearance,
+      const detail::TangentQuery query{place(from), place(to), kPillarClearance,
                                        roadmap.tangents.seen_from(from),
                                        roadmap.tangents.seen_from(to)};
       const std::vector<VertexId> route =
@@ -134,7 +134,7 @@ TEST(TangentGraph, SearchFindsTheShortestRoute) {
       path.push_back(query.goal);
       double length = 0.0;
       for (std::size_t k = 1; k < path.size(); ++k) {
-        EXPECT_TRUE(space.is_free(path[k - 1], path[k], kClearance));
+        EXPECT_TRUE(space.is_free(path[k - 1], path[k], kPillarClearance));
         length += (path[k] - path[k - 1]).norm();
       }
       EXPECT_NEAR(length, shortest, 1e-6 * shortest);  // its lengths are floats

@@ -20,12 +20,12 @@ using testing::spiky_mesh;
 using testing::TriangleList;
 using Vector = Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kEverywhere = std::numeric_limits<double>::infinity();
 
 /// Möller and Trumbore 1997, every triangle. Negative margins leave out what is near an edge.
 double brute_ray(const TriangleList& mesh, const Point& origin, const Vector& direction,
                  double margin) {
-  double first = kInfinity;
+  double first = kEverywhere;
   for (const auto& [ia, ib, ic] : mesh.triangles) {
     Eigen::Matrix3d sides;
     sides << mesh.vertices[ib] - mesh.vertices[ia], mesh.vertices[ic] - mesh.vertices[ia],
