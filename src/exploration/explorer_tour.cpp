@@ -8,6 +8,7 @@
 #include "expected_volume.hpp"
 #include "explorer_state.hpp"
 #include "legs.hpp"
+#include "ridgeway/common/parallel.hpp"
 #include "shaped_trajectory.hpp"
 
 namespace ridgeway {
@@ -116,7 +117,8 @@ void Explorer::State::keep_best(std::vector<TourStop>& stops, const FlightState&
   };
   if (config.strategy == ExplorationStrategy::kTour) {
     keep(kAsked * config.most_stops, [](const TourStop& stop) { return stop.stop.gain; });
-    for (TourStop& stop : stops) stop.expected = expected_at(stop.stop);
+    parallel_for_each_index(stops.size(),
+                            [&](std::size_t i) { stops[i].expected = expected_at(stops[i].stop); });
     keep(config.most_stops, [](const TourStop& stop) { return stop.expected; });
   }
   std::stable_sort(stops.begin(), stops.end(), [](const TourStop& a, const TourStop& b) {

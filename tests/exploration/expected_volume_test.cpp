@@ -9,14 +9,14 @@
 namespace ridgeway {
 namespace {
 
-constexpr double kVoxel = 0.25;
+constexpr double kVoxelSize = 0.25;
 constexpr int kSide = 6 * kBlockSide;  // voxels of the map along each axis: 12 m
-const Point kCentre = Point::Constant(0.5 * kSide * kVoxel + 0.01);
+const Point kCentre = Point::Constant(0.5 * kSide * kVoxelSize + 0.01);
 
 /// Unknown but for a free ball around the centre.
 OccupancyMap unknown_around(double free_radius) {
   OccupancyMap map;
-  map.voxel_size = kVoxel;
+  map.voxel_size = kVoxelSize;
   std::vector<BlockIndex> blocks;
   for (int z = 0; z < 6; ++z)
     for (int y = 0; y < 6; ++y)
@@ -24,7 +24,7 @@ OccupancyMap unknown_around(double free_radius) {
   map.layout = BlockLayout(blocks);
   map.state = VoxelField<VoxelState>(map.layout, VoxelState::kUnknown);
   for (VoxelId id = 0; id < map.layout.voxel_count(); ++id)
-    if ((centre_of(map.layout.index_of(id), kVoxel) - kCentre).norm() <= free_radius)
+    if ((centre_of(map.layout.index_of(id), kVoxelSize) - kCentre).norm() <= free_radius)
       map.state[id] = VoxelState::kFree;
   return map;
 }
@@ -45,7 +45,7 @@ TEST(ExpectedVolume, IsThatOfAllVoxelsInView) {
   const FieldOfView view;
   double brute = 0.0;
   for (VoxelId id = 0; id < map.layout.voxel_count(); ++id) {
-    const Eigen::Vector3d way = centre_of(map.layout.index_of(id), kVoxel) - kCentre;
+    const Eigen::Vector3d way = centre_of(map.layout.index_of(id), kVoxelSize) - kCentre;
     const double distance = way.norm();
     if (map.state[id] != VoxelState::kUnknown || distance > kRange) continue;
     if (std::abs(way.y()) > way.x() || std::abs(way.z()) > std::tan(0.5 * view.vertical) * way.x())
