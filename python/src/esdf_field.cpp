@@ -239,26 +239,26 @@ void add_fields(py::module_& module) {
           "Low corners of the blocks, (B, 3), metres, world.")
       .def_property_readonly(
           "block_states",
-          [](py::object self) {
+          [](const py::object& self) {
             return blocks_view<std::uint8_t>(self.cast<const EsdfFace&>().esdf->state, self);
           },
           "(B, 8, 8, 8) uint8 [block, x, y, z], read-only; the map's memory where it is in one "
           "piece.")
       .def_property_readonly(
           "block_squared",
-          [](py::object self) {
+          [](const py::object& self) {
             return blocks_view<std::uint32_t>(self.cast<const EsdfFace&>().esdf->squared, self);
           },
           "(B, 8, 8, 8) uint32: squared distances in half voxels, exact; 2^32 - 1: none is near.")
       .def_property_readonly(
           "block_sites",
-          [](py::object self) {
+          [](const py::object& self) {
             return blocks_view<std::int16_t>(self.cast<const EsdfFace&>().esdf->site, self);
           },
           "(B, 8, 8, 8, 3) int16: from each voxel to the nearest obstacle, voxels.")
       .def(
           "block",
-          [](py::object self, py::ssize_t slot) {
+          [](const py::object& self, py::ssize_t slot) {
             return block_view<std::uint32_t>(self.cast<const EsdfFace&>().esdf->squared, slot,
                                              self);
           },

@@ -80,13 +80,13 @@ void add_tsdf(py::module_& module) {
           "Low corners of the blocks, (B, 3), metres, world.")
       .def_property_readonly(
           "block_distances",
-          [](py::object self) {
+          [](const py::object& self) {
             return blocks_view<float>(self.cast<const TsdfFace&>().tsdf->distance, self);
           },
           "(B, 8, 8, 8) float32 [block, x, y, z], metres; of no meaning where the weight is 0.")
       .def_property_readonly(
           "block_weights",
-          [](py::object self) {
+          [](const py::object& self) {
             return blocks_view<float>(self.cast<const TsdfFace&>().tsdf->weight, self);
           },
           "(B, 8, 8, 8) float32: how well each is known; 0: never seen.")

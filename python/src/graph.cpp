@@ -25,7 +25,7 @@ py::array vertices(const GraphFace& face) {
   return array_of(std::move(positions));
 }
 
-py::array edges(py::object self) {
+py::array edges(const py::object& self) {
   const auto& all = self.cast<const GraphFace&>().graph->edges;
   static_assert(offsetof(Edge, to) == offsetof(Edge, from) + sizeof(std::uint32_t));
   if (all.empty()) return py::array_t<std::uint32_t>(std::vector<py::ssize_t>{0, 2});
@@ -78,19 +78,19 @@ void add_graph(py::module_& module) {
       .def_property_readonly("edges", &edges, "Vertices of each edge, (M, 2) uint32.")
       .def_property_readonly(
           "vertex_clearances",
-          [](py::object self) {
+          [](const py::object& self) {
             return column(self.cast<const GraphFace&>().graph->vertices, &Vertex::clearance, self);
           },
           "Distance of each vertex to the nearest obstacle, (N,), metres.")
       .def_property_readonly(
           "edge_lengths",
-          [](py::object self) {
+          [](const py::object& self) {
             return column(self.cast<const GraphFace&>().graph->edges, &Edge::length, self);
           },
           "(M,), metres.")
       .def_property_readonly(
           "edge_clearances",
-          [](py::object self) {
+          [](const py::object& self) {
             return column(self.cast<const GraphFace&>().graph->edges, &Edge::clearance, self);
           },
           "Smallest distance to an obstacle along each edge, (M,), metres.")

@@ -181,7 +181,7 @@ void add_writer(py::module_& module) {
            "The next scan: points (N, 3), metres, in the sensor's frame, its origin at 0; its pose "
            "(4, 4). Points that are\nnot finite are left out.")
       .def("finish", &ScanWriterFace::finish, "finish(self)\n--\n\nPuts the folder in its place.")
-      .def("__enter__", [](py::object self) { return self; })
+      .def("__enter__", [](const py::object& self) { return self; })
       .def("__exit__", [](ScanWriterFace& writer, py::handle error, py::handle,
                           py::handle) { writer.leave(error); })
       .def("__len__", &ScanWriterFace::count)

@@ -25,7 +25,7 @@ bool is_in_one_piece(const VoxelField<Value>& field) {
 /// value consists of, `parts` of them.
 template <typename Number, typename Value>
 py::array block_view(const VoxelField<Value>& field, py::ssize_t slot, py::handle owner) {
-  constexpr py::ssize_t parts = sizeof(Value) / sizeof(Number), step = sizeof(Value);
+  constexpr py::ssize_t step = sizeof(Value), part = sizeof(Number), parts = step / part;
   const auto blocks = static_cast<py::ssize_t>(field.size() / kBlockVoxels);
   if (slot < 0) slot += blocks;
   if (slot < 0 || slot >= blocks)
@@ -33,7 +33,7 @@ py::array block_view(const VoxelField<Value>& field, py::ssize_t slot, py::handl
   std::vector<py::ssize_t> shape = {8, 8, 8}, strides = {step, 8 * step, 64 * step};
   if (parts > 1) {
     shape.push_back(parts);
-    strides.push_back(sizeof(Number));
+    strides.push_back(part);
   }
   return view_of(reinterpret_cast<const Number*>(field.block(static_cast<std::uint32_t>(slot))),
                  std::move(shape), std::move(strides), owner);
@@ -43,13 +43,13 @@ py::array block_view(const VoxelField<Value>& field, py::ssize_t slot, py::handl
 /// piece, else (of live maps) a copy.
 template <typename Number, typename Value>
 py::array blocks_view(const VoxelField<Value>& field, py::handle owner) {
-  constexpr py::ssize_t parts = sizeof(Value) / sizeof(Number), step = sizeof(Value);
+  constexpr py::ssize_t step = sizeof(Value), part = sizeof(Number), parts = step / part;
   const auto blocks = static_cast<py::ssize_t>(field.size() / kBlockVoxels);
   std::vector<py::ssize_t> shape = {blocks, 8, 8, 8},
                            strides = {kBlockVoxels * step, step, 8 * step, 64 * step};
   if (parts > 1) {
     shape.push_back(parts);
-    strides.push_back(sizeof(Number));
+    strides.push_back(part);
   }
   if (blocks == 0) return py::array(py::dtype::of<Number>(), std::move(shape));
   if (is_in_one_piece(field))
