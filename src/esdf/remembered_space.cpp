@@ -130,12 +130,10 @@ void RememberedSpace::remember_moves(const VoxelMask& voxels) const {
   constexpr Cube27 kForward = kCells26 >> kCentre << kCentre;  // each move is one way
   const Point beside = Point::Constant(kBeside);
   const BlockLayout& layout = esdf_.layout;
-  for (std::uint32_t slot = 0; slot < layout.block_count(); ++slot) {
-    if (is_empty(voxels.block(slot))) continue;
+  voxels.for_each_slot([&](std::uint32_t slot) {
     const BlockIndex& b = layout.block(slot);
     const Point low = kBlockSide * Point(b.x, b.y, b.z);
-    if (!memory_->changed().touch(low - beside, low + Point::Constant(kBlockSide) + beside))
-      continue;
+    if (!memory_->changed().touch(low - beside, low + Point::Constant(kBlockSide) + beside)) return;
     for_each_member(voxels, slot, [&](VoxelId id) {
       for (Cube27 cells = cube_around(layout, voxels, id) & kForward; cells != 0;
            cells &= cells - 1) {
@@ -143,7 +141,7 @@ void RememberedSpace::remember_moves(const VoxelMask& voxels) const {
         move_clearance(id, layout.neighbour(id, d), d);
       }
     });
-  }
+  });
 }
 
 }  // namespace ridgeway::detail

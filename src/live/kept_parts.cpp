@@ -16,7 +16,7 @@ using NewNumbers = std::vector<VertexId>;
 
 /// By the order of their voxels: those of the first graph that stand in a set, all of the second.
 std::pair<NewNumbers, NewNumbers> number_together(const BlockLayout& layout,
-                                                  const SparseGraph& first, const VoxelMask& within,
+                                                  const SparseGraph& first, const Rest& within,
                                                   const SparseGraph& second) {
   const auto voxel_of = [&](const SparseGraph& graph, std::size_t v) {
     return layout.find(graph.vertices[v].voxel);
@@ -55,13 +55,29 @@ void take(const Roadmap& from, const NewNumbers& numbers, Roadmap& to) {
           {numbers[number(edge.from)], numbers[number(edge.to)], edge.length, edge.clearance});
 }
 
+/// In blocks that are as before the memory of the last one is shared.
+void add_kept_diagram(const VoxelMask& before, const Rest& rest,
+                      std::span<const std::uint32_t> changed, Roadmap& roadmap) {
+  VoxelMask all = before;
+  all.grow(roadmap.esdf.layout);
+  const VoxelMask& fresh = roadmap.diagram.voxels;
+  std::vector<std::uint32_t> slots = slots_of_any({rest.without, &fresh});
+  slots.insert(slots.end(), changed.begin(), changed.end());
+  for (const std::uint32_t slot : slots) {
+    VoxelMask::Block block = slot < before.block_count()
+                                 ? both(before.block(slot), rest.block(slot))
+                                 : VoxelMask::Block{};
+    for (std::size_t z = 0; z < kBlockSide; ++z) block[z] |= fresh.block(slot)[z];
+    if (block != std::as_const(all).block(slot)) all.block(slot) = block;
+  }
+  roadmap.diagram.voxels = std::move(all);
+}
+
 }  // namespace
 
-void add_kept_parts(const Roadmap& before, const VoxelMask& rest, Roadmap& roadmap) {
-  const VoxelMask& kept = before.diagram.voxels;
-  for (std::uint32_t slot = 0; slot < kept.block_count(); ++slot)
-    for (std::size_t z = 0; z < kBlockSide; ++z)
-      roadmap.diagram.voxels.block(slot)[z] |= kept.block(slot)[z] & rest.block(slot)[z];
+void add_kept_parts(const Roadmap& before, const Rest& rest, std::span<const std::uint32_t> changed,
+                    Roadmap& roadmap) {
+  add_kept_diagram(before.diagram.voxels, rest, changed, roadmap);
   const auto [of_before, of_now] =
       number_together(roadmap.esdf.layout, before.graph, rest, roadmap.graph);
   const auto kept_vertices =

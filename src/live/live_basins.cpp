@@ -181,13 +181,13 @@ Watershed watershed_of(const LiveBasins& basins, BasinNumbers numbers, VoxelFiel
   Watershed watershed;
   watershed.basins.next = std::move(next);
   watershed.basins.not_simple_at_first_turn =
-      common_members(basins.ways.not_simple_at_first_turn, among);
+      common_members(among, basins.ways.not_simple_at_first_turn);
   watershed.basins.basin = std::move(numbers);
   watershed.basins.peaks = basins.peaks;
   for (VoxelId& peak : watershed.basins.peaks)
     if (peak != kNoVoxel && !among.test(peak)) peak = kNoVoxel;
-  for (std::uint32_t rank = 0; rank < basins.saddles.size(); ++rank)
-    for (const CriticalVoxel& saddle : basins.saddles[field.esdf.layout.slot_at(rank)])
+  for (const std::uint32_t slot : among.slots_in_order(field.esdf.layout))
+    for (const CriticalVoxel& saddle : basins.saddles[slot])
       if (among.test(saddle.id)) watershed.critical.push_back(saddle);
   return watershed;
 }

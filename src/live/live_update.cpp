@@ -164,17 +164,19 @@ std::shared_ptr<const Roadmap> LiveRoadmap::State::built_on(Live& live, detail::
   };
   const auto watershed = [&] {
     space = touched_space_of(live, before != nullptr);
-    live.memory->rest = space.has_rest() ? &space.rest : nullptr;
+    live.memory->rest.reset();
+    if (space.has_rest) live.memory->rest = {&live.ridges.traversable, &space.touched};
     return detail::Space{
         space.touched,
         watershed_of(live.basins, std::move(live.memory->basin),
-                     ways_to_build_on(live.attach, field.esdf.layout, live.basins.ways.next, space),
+                     ways_to_build_on(live.attach, field.esdf.layout, live.basins.ways.next,
+                                      live.ridges.traversable, space),
                      field, space.touched)};
   };
   detail::build_on_watershed(edges, watershed, config.build, result, clock, live.memory.get());
-  live.memory->rest = nullptr;
-  if (space.has_rest()) {
-    detail::add_kept_parts(*before, space.rest, result.roadmap);
+  if (live.memory->rest) {
+    detail::add_kept_parts(*before, *live.memory->rest, field.changed.slots, result.roadmap);
+    live.memory->rest.reset();
     count_all_parts(live.basins.peaks, *live.memory, result);
   }
   BuildReport& built = result.report;

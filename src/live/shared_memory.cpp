@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "ridgeway/common/parallel.hpp"
-#include "voxel/cube_gather.hpp"
+#include "voxel/mask_sets.hpp"
 
 namespace ridgeway::detail {
 
@@ -39,7 +39,7 @@ Roadmap in_same_memory(const Roadmap& roadmap) {
 
 VoxelField<Direction> ways_to_build_on(LiveAttach& attach, const BlockLayout& layout,
                                        const VoxelField<Direction>& next,
-                                       const TouchedSpace& space) {
+                                       const VoxelMask& traversable, const TouchedSpace& space) {
   attach.next.grow(layout, AttachField::kNotTraversable);
   VoxelField<Direction> ways = attach.next.shared();
   parallel_for_each_index(
@@ -49,8 +49,9 @@ VoxelField<Direction> ways_to_build_on(LiveAttach& attach, const BlockLayout& la
         if (space.is_as_before[slot] != 0) return;
         ways.own_block(slot);
         std::copy_n(next.block(slot), kBlockVoxels, ways.block(slot));
-        if (!space.has_rest()) return;
-        for_each_member(space.rest, slot, [&](VoxelId id) { ways[id] = attach.next[id]; });
+        if (!space.has_rest) return;
+        for_each_in(Rest{&traversable, &space.touched}.block(slot), slot,
+                    [&](VoxelId id) { ways[id] = attach.next[id]; });
       },
       64);
   return ways;

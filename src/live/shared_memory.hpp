@@ -23,7 +23,7 @@ struct LiveAttach {
 /// which nothing is built again, elsewhere `next`.
 VoxelField<Direction> ways_to_build_on(LiveAttach& attach, const BlockLayout& layout,
                                        const VoxelField<Direction>& next,
-                                       const TouchedSpace& space);
+                                       const VoxelMask& traversable, const TouchedSpace& space);
 
 /// The field for a snapshot: in the memory of the last one where a block is the same.
 AttachField share(LiveAttach& attach, const BlockLayout& layout, const AttachField& now);

@@ -83,7 +83,7 @@ std::vector<std::uint8_t> touched_basins(const LiveBasins& basins, const BasinNu
 }  // namespace
 
 TouchedSpace all_touched(const LiveField& field, const LiveRidges& ridges) {
-  return {ridges.traversable, {}, std::vector<std::uint8_t>(field.esdf.layout.block_count())};
+  return {ridges.traversable, false, std::vector<std::uint8_t>(field.esdf.layout.block_count())};
 }
 
 TouchedSpace touched_space(const LiveBasins& basins, const BasinNumbers& numbers,
@@ -95,8 +95,7 @@ TouchedSpace touched_space(const LiveBasins& basins, const BasinNumbers& numbers
   for (std::size_t basin = 0; basin < is_touched.size(); ++basin)
     is_all_touched &= basins.peaks[basin] == kNoVoxel || is_touched[basin] != 0;
   if (is_all_touched) return all_touched(field, ridges);
-  TouchedSpace space{VoxelMask(layout), VoxelMask(layout),
-                     std::vector<std::uint8_t>(layout.block_count(), 1)};
+  TouchedSpace space{VoxelMask(layout), true, std::vector<std::uint8_t>(layout.block_count(), 1)};
   parallel_for_each_index(
       layout.block_count(),
       [&](std::size_t i) {
@@ -107,15 +106,14 @@ TouchedSpace touched_space(const LiveBasins& basins, const BasinNumbers& numbers
           any |= is_touched[basin] != 0;
           all &= is_touched[basin] != 0;
         });
-        if (any) space.is_as_before[slot] = 0;
-        const VoxelMask::Block& block = ridges.traversable.block(slot);
-        if (all || !any) {
-          (all ? space.touched : space.rest).block(slot) = block;
-        } else {
+        if (!any) return;
+        space.is_as_before[slot] = 0;
+        if (all)
+          space.touched.block(slot) = ridges.traversable.block(slot);
+        else
           for_each_member(ridges.traversable, slot, [&](VoxelId id) {
-            (is_touched[numbers[id]] != 0 ? space.touched : space.rest).set(id);
+            if (is_touched[numbers[id]] != 0) space.touched.set(id);
           });
-        }
       },
       64);
   for (const std::uint32_t slot : field.changed.slots) space.is_as_before[slot] = 0;

@@ -16,10 +16,8 @@ namespace ridgeway::detail {
 /// was made of it is as it was.
 struct TouchedSpace {
   VoxelMask touched;                       ///< parts to be built on again
-  VoxelMask rest;                          ///< the others
+  bool has_rest = false;                   ///< whether there are others
   std::vector<std::uint8_t> is_as_before;  ///< by block: what the last build left in it still holds
-
-  bool has_rest() const { return rest.block_count() > 0; }
 };
 
 /// All of it is touched, as if nothing had been built before.

@@ -149,8 +149,8 @@ Peeled peel(const RememberedSpace& space, Space parts, double min_clearance, Bui
   });
   VoxelMask peaks = significant_peaks(esdf, basins);
   VoxelMask kernel = memory != nullptr
-                         ? memory->peeling.peel(esdf, std::move(parts.traversable), not_simple,
-                                                peaks, memory->rest)
+                         ? memory->peeling.peel(esdf, parts.traversable, not_simple, peaks,
+                                                memory->rest ? &*memory->rest : nullptr)
                          : peel_levels(esdf, parts.traversable, std::move(not_simple), peaks);
   return {std::move(basins), std::move(peaks), std::move(kernel)};
 }
@@ -191,8 +191,9 @@ void build_on_watershed(const EdgesOf& edges_of, const SpaceOf& space_of, const 
   report.kernel_voxels = kernel.count();
   if (memory != nullptr) {
     note_highest(basins, *memory);
-    if (memory->rest != nullptr)
-      for (VoxelMask* mask : {&kernel, &edges}) remove_members(*mask, *memory->rest);
+    if (memory->rest)
+      for (VoxelMask* mask : {&kernel, &edges})
+        *mask = common_members(*memory->rest->without, *mask);
   }
   VoxelMask diagram;
   parallel_for_each_index(beside ? 2 : 1, [&](std::size_t task) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -27,8 +28,8 @@ struct BuildMemory {
   BasinNumbers basin;                    ///< of the watershed that was built on last
   std::vector<std::uint8_t> is_highest;  ///< by basin: no pass leads to a higher peak
   /// Whole 26-connected parts of traversable space that are left out of a build, as all about them
-  /// is as it was; null: none are.
-  const VoxelMask* rest = nullptr;
+  /// is as it was; none: none are.
+  std::optional<Rest> rest = {};
 };
 
 /// Times the stages one after the other and reports each to the caller.

@@ -80,7 +80,7 @@ DiagramCurves index_diagram(const EsdfMap& esdf, const VoxelMask& diagram, doubl
   const RememberedSpace space(esdf, memory);
   DiagramCurves curves;
   curves.layout = &esdf.layout;
-  curves.voxels = members_of_sparse(esdf.layout, diagram);
+  curves.voxels = diagram.members(esdf.layout);
   curves.first_of_block.assign(esdf.layout.block_count() + 1, 0);
   for (const VoxelId id : curves.voxels)
     ++curves.first_of_block[esdf.layout.rank(id / kBlockVoxels) + 1];

@@ -27,7 +27,7 @@ struct Contact {
 /// background by then fall into parts of their own.
 std::vector<Contact> find_contacts(const EsdfMap& esdf, const VoxelMask& voxels,
                                    const VoxelMask& not_simple) {
-  const std::vector<VoxelId> ids = detail::members_of_sparse(esdf.layout, not_simple);
+  const std::vector<VoxelId> ids = not_simple.members(esdf.layout);
   std::vector<Contact> contacts(ids.size());
   parallel_for_each_index(
       ids.size(),

@@ -91,8 +91,7 @@ BackgroundParts::BackgroundParts(const BlockLayout& layout, const VoxelMask& vox
 
 void BackgroundParts::find_blocks(const VoxelMask& voxels) {
   place_of_.assign(layout_.block_count(), BlockLayout::kNoBlock);
-  for (std::uint32_t rank = 0; rank < layout_.block_count(); ++rank) {
-    const std::uint32_t slot = layout_.slot_at(rank);
+  for (const std::uint32_t slot : voxels.slots_in_order(layout_)) {
     if (is_empty(voxels.block(slot))) continue;
     place_of_[slot] = static_cast<std::uint32_t>(slots_.size());
     slots_.push_back(slot);

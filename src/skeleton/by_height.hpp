@@ -21,7 +21,7 @@ inline std::uint64_t height(const EsdfMap& esdf, VoxelId id) {
 
 /// The members of a mask, the highest first.
 inline std::vector<VoxelId> highest_first(const EsdfMap& esdf, const VoxelMask& voxels) {
-  std::vector<VoxelId> ids = members_of_sparse(esdf.layout, voxels);
+  std::vector<VoxelId> ids = voxels.members(esdf.layout);
   std::vector<std::pair<std::uint64_t, VoxelId>> by_height;
   by_height.reserve(ids.size());
   for (const VoxelId id : ids) by_height.emplace_back(height(esdf, id), id);

@@ -9,17 +9,9 @@
 #include "join_diagram.hpp"
 #include "kernel_joiner.hpp"
 #include "redundant_voxels.hpp"
+#include "voxel/mask_sets.hpp"
 
 namespace ridgeway {
-namespace {
-
-VoxelMask united(VoxelMask a, const VoxelMask& b) {
-  for (std::uint32_t slot = 0; slot < a.block_count(); ++slot)
-    for (std::size_t z = 0; z < kBlockSide; ++z) a.block(slot)[z] |= b.block(slot)[z];
-  return a;
-}
-
-}  // namespace
 
 VoxelMask join_diagram(const EsdfMap& esdf, const VoxelMask& edges, const VoxelMask& kernel,
                        double min_clearance, Basins& basins) {

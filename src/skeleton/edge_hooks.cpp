@@ -45,8 +45,7 @@ class EdgeHooks {
 
  private:
   VoxelMask without_exact(VoxelMask edges) const {
-    for (std::uint32_t slot = 0; slot < edges.block_count(); ++slot)
-      for (std::size_t z = 0; z < kBlockSide; ++z) edges.block(slot)[z] &= ~exact_.block(slot)[z];
+    remove_members(edges, exact_);
     return edges;
   }
 

@@ -149,7 +149,8 @@ VoxelMask mask_by_block(const BlockLayout& layout, const BlockOf& block_of_slot)
       layout.block_count(),
       [&](std::size_t index) {
         const auto slot = static_cast<std::uint32_t>(index);
-        mask.block(slot) = block_of_slot(slot);
+        const VoxelMask::Block block = block_of_slot(slot);
+        if (!detail::is_empty(block)) mask.block(slot) = block;
       },
       kGrain);
   return mask;

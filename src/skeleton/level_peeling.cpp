@@ -30,8 +30,8 @@ class KnownNeighbours {
         known_(esdf.layout),
         blocks_(esdf.layout.block_count()) {
     std::vector<std::uint8_t> has_any(blocks_.size());
-    for (std::uint32_t slot = 0; slot < blocks_.size(); ++slot)
-      has_any[slot] = !is_empty(not_simple.block(slot));
+    not_simple.for_each_slot(
+        [&](std::uint32_t slot) { has_any[slot] = !is_empty(not_simple.block(slot)); });
     parallel_for_each_index(
         blocks_.size(),
         [&](std::size_t block) {
@@ -264,9 +264,7 @@ class LevelPeeling {
 
 VoxelMask peel_levels(const EsdfMap& esdf, const VoxelMask& traversable, VoxelMask not_simple,
                       const VoxelMask& keep, std::vector<LateVoxel>* late) {
-  for (std::uint32_t slot = 0; slot < keep.block_count(); ++slot)
-    for (std::size_t z = 0; z < kBlockSide; ++z) not_simple.block(slot)[z] |= keep.block(slot)[z];
-  return LevelPeeling(esdf, traversable, std::move(not_simple), keep, late).run();
+  return LevelPeeling(esdf, traversable, united(std::move(not_simple), keep), keep, late).run();
 }
 
 }  // namespace ridgeway::detail

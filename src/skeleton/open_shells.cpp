@@ -130,8 +130,7 @@ VoxelMask mask_of(const BlockLayout& layout, const std::vector<VoxelId>& ids) {
 
 void open_shells(const EsdfMap& esdf, VoxelMask& voxels, const VoxelMask& keep) {
   detail::ShellScratch scratch(esdf.layout);
-  detail::open_shells_among(esdf, voxels, keep, detail::members_of_sparse(esdf.layout, voxels),
-                            scratch);
+  detail::open_shells_among(esdf, voxels, keep, voxels.members(esdf.layout), scratch);
 }
 
 namespace detail {
@@ -180,7 +179,7 @@ std::vector<VoxelId> ShellMemory::touched(const BlockLayout& layout, const Voxel
     if (cube != 0) cube &= ~(cube_around(layout, keep, id) | cube_around(layout, seen, id));
     for (; cube != 0; cube &= cube - 1) take(layout.neighbour(id, std::countr_zero(cube)));
   };
-  for (std::uint32_t slot = 0; slot < layout.block_count(); ++slot)
+  for (const std::uint32_t slot : slots_of_any({&voxels, &keep, &voxels_before, &kept_before}))
     for (std::uint32_t z = 0; z < kBlockSide; ++z) {
       const std::uint64_t now = voxels.block(slot)[z], kept = keep.block(slot)[z];
       const std::uint64_t other = now ^ voxels_before.block(slot)[z];
@@ -210,9 +209,9 @@ VoxelMask ShellMemory::open(const EsdfMap& esdf, const VoxelMask& voxels, const 
   VoxelMask opened = mask_of(layout, opened_);
   const std::vector<VoxelId> among = touched(layout, voxels, keep, changed, opened, scratch.due);
   open_shells_among(esdf, opened, keep, among, scratch);
-  voxels_ = members_of_sparse(layout, voxels);
-  keep_ = members_of_sparse(layout, keep);
-  opened_ = members_of_sparse(layout, opened);
+  voxels_ = voxels.members(layout);
+  keep_ = keep.members(layout);
+  opened_ = opened.members(layout);
   return opened;
 }
 

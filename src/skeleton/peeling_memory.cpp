@@ -34,13 +34,8 @@ struct PeelingRule {
   bool may_go(VoxelId id, Cube27 cube, Turn) const { return !keep.test(id) && is_simple(cube); }
 };
 
-/// Voxels of a mask, and of which blocks they are.
-struct Marked {
-  VoxelMask voxels;
-  std::vector<std::uint32_t> slots;
-};
-
 /// The members and all beside them.
+template <typename Marked>
 Marked dilated(const BlockLayout& layout, const Marked& marked) {
   Marked result{VoxelMask(layout), {}};
   std::vector<std::uint8_t> is_named(layout.block_count());
@@ -63,16 +58,10 @@ Marked dilated(const BlockLayout& layout, const Marked& marked) {
   return result;
 }
 
-template <typename Body>
-void for_each_of(const VoxelMask::Block& block, std::uint32_t slot, const Body& body) {
-  for (std::uint32_t z = 0; z < kBlockSide; ++z)
-    for (std::uint64_t bits = block[z]; bits != 0; bits &= bits - 1)
-      body(slot * kBlockVoxels + z * 64 + static_cast<VoxelId>(std::countr_zero(bits)));
-}
-
 /// Voxels beside which one that did not go at its first turn is there for longer, or less long,
 /// than their base turn supposes. `fresh`: those whose base turn is to be their first one; that of
 /// before has not been forgotten yet.
+template <typename Marked>
 std::vector<VoxelId> disturbed(const BlockLayout& layout, const VoxelMask& traversable,
                                const VoxelMask& stayed, const Marked& fresh,
                                const PeelingRule& rule) {
@@ -92,7 +81,7 @@ std::vector<VoxelId> disturbed(const BlockLayout& layout, const VoxelMask& trave
       around.slots.size(),
       [&](std::size_t i) {
         const std::uint32_t slot = around.slots[i];
-        for_each_of(both(stayed.block(slot), around.voxels.block(slot)), slot,
+        for_each_in(both(stayed.block(slot), around.voxels.block(slot)), slot,
                     [&](VoxelId id) { look_at(id, of_block[i]); });
       },
       32);
@@ -111,29 +100,58 @@ void PeelingMemory::change(const BlockLayout& layout, const VoxelMask& changed,
     for (std::size_t z = 0; z < kBlockSide; ++z) changed_.block(slot)[z] |= changed.block(slot)[z];
 }
 
-const VoxelMask& PeelingMemory::peel(const EsdfMap& esdf, VoxelMask traversable,
-                                     const VoxelMask& not_simple, VoxelMask keep,
-                                     const VoxelMask* rest) {
-  if (rest != nullptr) {
-    add_members(traversable, traversable_, *rest);
-    add_members(keep, keep_, *rest);
+const VoxelMask& PeelingMemory::peel(const EsdfMap& esdf, const VoxelMask& traversable,
+                                     const VoxelMask& not_simple, const VoxelMask& keep,
+                                     const Rest* rest) {
+  if (knows_any_) {
+    peel_again(esdf, not_simple, take_over(esdf, traversable, keep, rest));
+  } else {
+    traversable_ = traversable;
+    keep_ = keep;
+    peel_all(esdf, not_simple);
   }
-  if (knows_any_)
-    peel_again(esdf, traversable, not_simple, keep);
-  else
-    peel_all(esdf, traversable, not_simple, keep);
   knows_any_ = true;
-  traversable_ = std::move(traversable);
-  keep_ = std::move(keep);
   squared_ = esdf.squared.shared();
   changed_ = {};
   return left_;
 }
 
-void PeelingMemory::peel_all(const EsdfMap& esdf, const VoxelMask& traversable,
-                             const VoxelMask& not_simple, const VoxelMask& keep) {
+/// What is to be peeled from now on; the voxels of which anything is another.
+PeelingMemory::Marked PeelingMemory::take_over(const EsdfMap& esdf, const VoxelMask& traversable,
+                                               const VoxelMask& keep, const Rest* rest) {
+  changed_.grow(esdf.layout);
+  Marked changed{std::move(changed_), {}};
+  const VoxelMask &old = traversable_, &old_keep = keep_;
+  const std::vector<std::uint32_t> slots =
+      rest != nullptr ? slots_of_any({rest->without, &changed.voxels})
+                      : slots_of_any({&traversable, &old, &keep, &old_keep, &changed.voxels});
+  for (const std::uint32_t slot : slots) {
+    VoxelMask::Block& block = changed.voxels.block(slot);
+    for_each_in(VoxelMask::Block(block), slot,
+                [&](VoxelId id) {  // of some only the site is another
+                  if (id < squared_.size() && esdf.squared[id] == squared_[id])
+                    changed.voxels.reset(id);
+                });
+    const VoxelMask::Block kept = rest != nullptr ? rest->block(slot) : VoxelMask::Block{};
+    const auto update = [&](VoxelMask& mask, const VoxelMask& given) {
+      VoxelMask::Block now = given.block(slot);
+      const VoxelMask::Block before = std::as_const(mask).block(slot);
+      for (std::size_t z = 0; z < kBlockSide; ++z) {
+        now[z] |= before[z] & kept[z];
+        block[z] |= now[z] ^ before[z];
+      }
+      if (now != before) mask.block(slot) = now;
+    };
+    update(traversable_, traversable);
+    update(keep_, keep);
+    if (!is_empty(block)) changed.slots.push_back(slot);
+  }
+  return changed;
+}
+
+void PeelingMemory::peel_all(const EsdfMap& esdf, const VoxelMask& not_simple) {
   std::vector<LateVoxel> late;
-  left_ = peel_levels(esdf, traversable, not_simple, keep, &late);
+  left_ = peel_levels(esdf, traversable_, not_simple, keep_, &late);
   stayed_ = left_;
   for (const LateVoxel& voxel : late) {
     stayed_.set(voxel.id);
@@ -141,29 +159,16 @@ void PeelingMemory::peel_all(const EsdfMap& esdf, const VoxelMask& traversable,
   }
 }
 
-void PeelingMemory::peel_again(const EsdfMap& esdf, const VoxelMask& traversable,
-                               const VoxelMask& not_simple, const VoxelMask& keep) {
+void PeelingMemory::peel_again(const EsdfMap& esdf, const VoxelMask& not_simple,
+                               const Marked& changed) {
   const BlockLayout& layout = esdf.layout;
-  changed_.grow(layout);
-  Marked changed{std::move(changed_), {}};
-  for (std::uint32_t slot = 0; slot < layout.block_count(); ++slot) {
-    VoxelMask::Block& block = changed.voxels.block(slot);
-    for_each_of(VoxelMask::Block(block), slot,
-                [&](VoxelId id) {  // of some only the site is another
-                  if (id < squared_.size() && esdf.squared[id] == squared_[id])
-                    changed.voxels.reset(id);
-                });
-    for (std::size_t z = 0; z < kBlockSide; ++z)
-      block[z] |= (traversable.block(slot)[z] ^ traversable_.block(slot)[z]) |
-                  (keep.block(slot)[z] ^ keep_.block(slot)[z]);
-    if (!is_empty(block)) changed.slots.push_back(slot);
-  }
+  const VoxelMask &traversable = traversable_, &keep = keep_;
   // Those whose base turn is their first one from now on.
   const Marked fresh = dilated(layout, changed);
   const PeelingRule rule{esdf, traversable, keep, stayed_, left_, late_};
   const std::vector<VoxelId> to_play = disturbed(layout, traversable, stayed_, fresh, rule);
   for (const std::uint32_t slot : fresh.slots)
-    for_each_of(both(stayed_.block(slot), fresh.voxels.block(slot)), slot, [&](VoxelId id) {
+    for_each_in(both(stayed_.block(slot), fresh.voxels.block(slot)), slot, [&](VoxelId id) {
       stayed_.reset(id);
       if (!left_.test(id)) late_.erase(id, mixed(id));
       left_.reset(id);
@@ -172,7 +177,7 @@ void PeelingMemory::peel_again(const EsdfMap& esdf, const VoxelMask& traversable
   Replay<PeelingRule> replay(layout, rule, scratch_);
   for (const std::uint32_t slot : fresh.slots)
     for (const VoxelMask* mask : {&not_simple, &keep})
-      for_each_of(both(mask->block(slot), fresh.voxels.block(slot)), slot,
+      for_each_in(both(mask->block(slot), fresh.voxels.block(slot)), slot,
                   [&](VoxelId id) { replay.play(id, 0); });
   for (const VoxelId id : to_play) replay.play(id, 0);
   replay.run();

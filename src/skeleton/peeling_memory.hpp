@@ -4,11 +4,13 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
 #include "turn_replay.hpp"
 #include "voxel/flat_table.hpp"
+#include "voxel/mask_sets.hpp"
 
 namespace ridgeway::detail {
 
@@ -24,14 +26,21 @@ class PeelingMemory {
   /// As peel_levels, for the map to which it has been changed. Its levels are kept, in the same
   /// memory, which nobody may write to from then on. `rest`: voxels of which nothing is given, as
   /// they, and those beside them, are as when it was peeled last.
-  const VoxelMask& peel(const EsdfMap& esdf, VoxelMask traversable, const VoxelMask& not_simple,
-                        VoxelMask keep, const VoxelMask* rest = nullptr);
+  const VoxelMask& peel(const EsdfMap& esdf, const VoxelMask& traversable,
+                        const VoxelMask& not_simple, const VoxelMask& keep,
+                        const Rest* rest = nullptr);
 
  private:
-  void peel_all(const EsdfMap& esdf, const VoxelMask& traversable, const VoxelMask& not_simple,
-                const VoxelMask& keep);
-  void peel_again(const EsdfMap& esdf, const VoxelMask& traversable, const VoxelMask& not_simple,
-                  const VoxelMask& keep);
+  /// Voxels of a mask, and of which blocks they are.
+  struct Marked {
+    VoxelMask voxels;
+    std::vector<std::uint32_t> slots;
+  };
+
+  Marked take_over(const EsdfMap& esdf, const VoxelMask& traversable, const VoxelMask& keep,
+                   const Rest* rest);
+  void peel_all(const EsdfMap& esdf, const VoxelMask& not_simple);
+  void peel_again(const EsdfMap& esdf, const VoxelMask& not_simple, const Marked& changed);
 
   bool knows_any_ = false;
   VoxelMask changed_;                  // since the last peel, maybe

@@ -151,7 +151,7 @@ void remove_redundant_voxels(const RememberedSpace& space, SquaredHalves thresho
            can_do_without(space, threshold, id, cube);
   };
   OrderedRound round(esdf, may_go, diagram);
-  for (std::vector<VoxelId> work = members_of_sparse(esdf.layout, diagram); !work.empty();)
+  for (std::vector<VoxelId> work = diagram.members(esdf.layout); !work.empty();)
     work = neighbours_of(esdf.layout, diagram, round.run(work));
 }
 

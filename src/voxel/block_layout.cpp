@@ -33,7 +33,7 @@ BlockLayout::BlockLayout(std::vector<BlockIndex> blocks) : blocks_(std::move(blo
   blocks_.erase(std::unique(blocks_.begin(), blocks_.end()), blocks_.end());
   require_legal();
   index_blocks();
-  neighbours_.resize(blocks_.size());
+  neighbours_.grow(block_count());
   parallel_for_each_index(
       blocks_.size(), [&](std::size_t slot) { find_neighbours(static_cast<std::uint32_t>(slot)); },
       256);
@@ -53,12 +53,12 @@ void BlockLayout::add(std::span<const BlockIndex> blocks) {
   }
   if (block_count() == before) return;
   index_blocks();
-  neighbours_.resize(blocks_.size());
+  neighbours_.grow(block_count());
   for (std::uint32_t slot = before; slot < blocks_.size(); ++slot) {
     find_neighbours(slot);
     for (int d = 0; d < 27; ++d)
       if (const std::uint32_t n = neighbour_block(slot, d); n != kNoBlock)
-        neighbours_[n][static_cast<std::size_t>(opposite(d))] = slot;
+        neighbours_.own(n)[static_cast<std::size_t>(opposite(d))] = slot;
   }
   order_blocks(before);
   stamp_ = stamped(stamp_, this->blocks().subspan(before));
@@ -83,10 +83,10 @@ void BlockLayout::require_legal() const {
 }
 
 void BlockLayout::find_neighbours(std::uint32_t slot) {
+  std::array<std::uint32_t, 27>& neighbours = neighbours_.own(slot);
   for (int d = 0; d < 27; ++d) {
     const VoxelIndex o = offset_of(d);
-    neighbours_[slot][static_cast<std::size_t>(d)] =
-        find_block(blocks_[slot] + BlockIndex{o.x, o.y, o.z});
+    neighbours[static_cast<std::size_t>(d)] = find_block(blocks_[slot] + BlockIndex{o.x, o.y, o.z});
   }
 }
 
@@ -155,7 +155,7 @@ std::uint32_t BlockLayout::find_hashed(const BlockIndex& block) const {
 std::size_t BlockLayout::memory_bytes() const {
   return blocks_.capacity() * sizeof(BlockIndex) +
          (table_.capacity() + rank_.capacity() + by_rank_.capacity()) * sizeof(std::uint32_t) +
-         neighbours_.capacity() * sizeof(neighbours_[0]);
+         neighbours_.memory_bytes();
 }
 
 }  // namespace ridgeway

@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <initializer_list>
 #include <vector>
 
 #include "ridgeway/voxel/voxel_mask.hpp"
@@ -39,38 +40,56 @@ inline std::size_t members_before(const VoxelMask::Block& block, VoxelId id) {
   return static_cast<std::size_t>(before);
 }
 
+/// Calls body(id) for the members of a block, in ascending order.
+template <typename Body>
+void for_each_in(const VoxelMask::Block& block, std::uint32_t slot, const Body& body) {
+  for (std::uint32_t z = 0; z < kBlockSide; ++z)
+    for (std::uint64_t bits = block[z]; bits != 0; bits &= bits - 1)
+      body(slot * kBlockVoxels + z * 64 + static_cast<VoxelId>(std::countr_zero(bits)));
+}
+
 /// The members of both of two sets of one layout.
 inline VoxelMask common_members(VoxelMask a, const VoxelMask& b) {
-  for (std::uint32_t slot = 0; slot < a.block_count(); ++slot)
-    for (std::size_t z = 0; z < kBlockSide; ++z) a.block(slot)[z] &= b.block(slot)[z];
+  a.for_each_slot([&](std::uint32_t slot) { a.block(slot) = both(a.block(slot), b.block(slot)); });
   return a;
 }
 
-inline void remove_members(VoxelMask& voxels, const VoxelMask& others) {
-  for (std::uint32_t slot = 0; slot < voxels.block_count(); ++slot)
-    for (std::size_t z = 0; z < kBlockSide; ++z) voxels.block(slot)[z] &= ~others.block(slot)[z];
+/// Those of either of two sets of one layout.
+inline VoxelMask united(VoxelMask a, const VoxelMask& b) {
+  b.for_each_slot([&](std::uint32_t slot) {
+    for (std::size_t z = 0; z < kBlockSide; ++z) a.block(slot)[z] |= b.block(slot)[z];
+  });
+  return a;
 }
 
-/// Adds those of `more` that are in `within`; `more` may be of a layout to which blocks were added
-/// since.
-inline void add_members(VoxelMask& voxels, const VoxelMask& more, const VoxelMask& within) {
-  for (std::uint32_t slot = 0; slot < more.block_count(); ++slot)
-    for (std::size_t z = 0; z < kBlockSide; ++z)
-      voxels.block(slot)[z] |= more.block(slot)[z] & within.block(slot)[z];
-}
+/// What is left of a set without the members of another one.
+struct Rest {
+  const VoxelMask* all = nullptr;
+  const VoxelMask* without = nullptr;
 
-/// VoxelMask::members, faster where most blocks have none.
-inline std::vector<VoxelId> members_of_sparse(const BlockLayout& layout, const VoxelMask& voxels) {
-  std::vector<VoxelId> ids;
-  for (std::uint32_t rank = 0; rank < layout.block_count(); ++rank) {
-    const std::uint32_t slot = layout.slot_at(rank);
-    const VoxelMask::Block& block = voxels.block(slot);
-    if (is_empty(block)) continue;
-    for (std::uint32_t z = 0; z < kBlockSide; ++z)
-      for (std::uint64_t bits = block[z]; bits != 0; bits &= bits - 1)
-        ids.push_back(slot * kBlockVoxels + z * 64 + static_cast<VoxelId>(std::countr_zero(bits)));
+  VoxelMask::Block block(std::uint32_t slot) const {
+    VoxelMask::Block block = all->block(slot);
+    for (std::size_t z = 0; z < kBlockSide; ++z) block[z] &= ~without->block(slot)[z];
+    return block;
   }
-  return ids;
+  bool test(VoxelId id) const { return all->test(id) && !without->test(id); }
+};
+
+inline void remove_members(VoxelMask& voxels, const VoxelMask& others) {
+  voxels.for_each_slot([&](std::uint32_t slot) {
+    for (std::size_t z = 0; z < kBlockSide; ++z) voxels.block(slot)[z] &= ~others.block(slot)[z];
+  });
+}
+
+/// Slots in which one of some sets of a layout has members, in ascending order.
+inline std::vector<std::uint32_t> slots_of_any(std::initializer_list<const VoxelMask*> sets) {
+  std::vector<std::uint8_t> has_any((*sets.begin())->block_count());
+  for (const VoxelMask* set : sets)
+    set->for_each_slot([&](std::uint32_t slot) { has_any[slot] = 1; });
+  std::vector<std::uint32_t> slots;
+  for (std::uint32_t slot = 0; slot < has_any.size(); ++slot)
+    if (has_any[slot] != 0) slots.push_back(slot);
+  return slots;
 }
 
 }  // namespace ridgeway::detail

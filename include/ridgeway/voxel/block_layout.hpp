@@ -9,6 +9,7 @@
 
 #include "ridgeway/voxel/index.hpp"
 #include "ridgeway/voxel/neighbourhood.hpp"
+#include "ridgeway/voxel/shared_pages.hpp"
 
 namespace ridgeway {
 
@@ -137,7 +138,7 @@ class BlockLayout {
   void order_blocks(std::uint32_t first_new);
 
   std::vector<BlockIndex> blocks_;
-  std::vector<std::array<std::uint32_t, 27>> neighbours_;
+  detail::SharedPages<std::array<std::uint32_t, 27>> neighbours_;
   // Empty where slots are in order: places in the order by slot, and slots by place.
   std::vector<std::uint32_t> rank_, by_rank_;
   // Slots, kNoBlock where there is none: by place in the box around all blocks, or where they are

@@ -14,6 +14,7 @@
 
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/voxel/block_layout.hpp"
+#include "ridgeway/voxel/shared_pages.hpp"
 
 namespace ridgeway {
 namespace detail {
@@ -73,12 +74,13 @@ class VoxelField {
   VoxelField& operator=(VoxelField&&) noexcept = default;  ///< Leaves an empty field.
   ~VoxelField() = default;
 
-  /// A field with the same values in the same memory, in time that follows the number of blocks.
-  /// Neither of the two may be written to from then on but for blocks that were made its own.
+  /// A field with the same values in the same memory, for 8 bytes a block. Neither of the two may
+  /// be written to from then on but for blocks that were made its own.
   VoxelField shared() const {
     VoxelField field;
     field.stamp_ = stamp_;
-    field.memory_ = memory_;
+    field.whole_ = whole_;
+    field.owners_ = owners_;
     field.blocks_ = blocks_;
     return field;
   }
@@ -87,22 +89,24 @@ class VoxelField {
   void own_block(std::uint32_t slot) {
     std::shared_ptr<void> own = detail::unset_memory(kBlockVoxels * sizeof(Value));
     std::copy_n(blocks_[slot], kBlockVoxels, static_cast<Value*>(own.get()));
-    blocks_[slot] = static_cast<Value*>(own.get());
-    memory_[slot] = std::move(own);
+    auto* const values = static_cast<Value*>(own.get());
+    owners_.own(slot) = std::move(own);
+    blocks_[slot] = values;
   }
 
   /// Follows a layout to which blocks were added since; their voxels get a value, the others keep
   /// theirs. From then on each block has memory of its own.
   void grow(const BlockLayout& layout, Value initial = {}) {
     assert(stamp_ == layout.stamp_of_first(static_cast<std::uint32_t>(blocks_.size())));
-    const std::size_t count = layout.block_count();
-    if (memory_.size() < blocks_.size()) memory_.resize(blocks_.size(), memory_.front());
-    while (blocks_.size() < count) {
+    const std::size_t before = blocks_.size(), count = layout.block_count();
+    owners_.grow(layout.block_count());
+    if (blocks_.capacity() < count) blocks_.reserve(std::max(count, 2 * blocks_.capacity()));
+    for (std::size_t slot = before; slot < count; ++slot) {
       std::shared_ptr<void> own = detail::unset_memory(kBlockVoxels * sizeof(Value));
-      if (memory_.size() == memory_.capacity()) memory_.reserve(2 * memory_.size() + 1);
-      blocks_.push_back(static_cast<Value*>(own.get()));
-      memory_.push_back(std::move(own));
-      std::fill_n(blocks_.back(), kBlockVoxels, initial);
+      auto* const values = static_cast<Value*>(own.get());
+      std::fill_n(values, kBlockVoxels, initial);
+      owners_.own(static_cast<std::uint32_t>(slot)) = std::move(own);
+      blocks_.push_back(values);
     }
     stamp_ = layout.stamp();
   }
@@ -140,8 +144,8 @@ class VoxelField {
   /// that do, so that none waits for all of them.
   void take_memory(std::size_t blocks, Pages pages) {
     if (blocks == 0) return;
-    memory_.push_back(detail::unset_memory(blocks * kBlockVoxels * sizeof(Value)));
-    auto* const first = static_cast<Value*>(memory_.front().get());
+    whole_ = detail::unset_memory(blocks * kBlockVoxels * sizeof(Value));
+    auto* const first = static_cast<Value*>(whole_.get());
     if constexpr (!std::is_trivially_copyable_v<Value>)
       std::uninitialized_value_construct_n(first, blocks * kBlockVoxels);
     blocks_.reserve(blocks);
@@ -150,9 +154,10 @@ class VoxelField {
     if (pages == Pages::kLarge) detail::ask_for_large_pages(first, size() * sizeof(Value));
   }
 
-  std::vector<std::shared_ptr<void>> memory_;  // of all blocks, or of each
-  std::vector<Value*> blocks_;                 // by slot
-  std::uint64_t stamp_ = 0;                    // of the layout
+  std::shared_ptr<void> whole_;  // memory of the blocks that have none of their own
+  detail::SharedPages<std::shared_ptr<void>> owners_;  // of those that have
+  std::vector<Value*> blocks_;                         // by slot
+  std::uint64_t stamp_ = 0;                            // of the layout
 };
 
 }  // namespace ridgeway

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cassert>
@@ -10,26 +11,39 @@
 #include <vector>
 
 #include "ridgeway/voxel/block_layout.hpp"
+#include "ridgeway/voxel/shared_pages.hpp"
 
 namespace ridgeway {
+namespace detail {
+
+/// One word for each layer [z], bit x + 8 y of it for each voxel.
+using MaskBlock = std::array<std::uint64_t, kBlockSide>;
+
+// One page of zeros for all, wherever it is used.
+extern template class SharedPages<MaskBlock>;
+
+}  // namespace detail
 
 /// A set of voxels: one bit a voxel, a row of eight along x is one byte, a block is 64 bytes
 /// (one z-layer is one 64-bit word). A whole map of it fits the cache, which is what makes
-/// thinning fast.
+/// thinning fast. Memory, and the time to make a set or to walk through it, follow the blocks that
+/// have members, but for an eighth of a byte for each other one. A copy is a set of its own, and
+/// shares the memory of what is the same in both.
 class VoxelMask {
  public:
   /// One word for each layer [z], bit x + 8 y of it for each voxel.
-  using Block = std::array<std::uint64_t, kBlockSide>;  // [z], bit x + 8 y
+  using Block = detail::MaskBlock;
 
   VoxelMask() = default;
   /// The empty set on a layout.
-  explicit VoxelMask(const BlockLayout& layout)
-      : blocks_(layout.block_count()), stamp_(layout.stamp()) {}
+  explicit VoxelMask(const BlockLayout& layout) : stamp_(layout.stamp()) {
+    blocks_.grow(layout.block_count());
+  }
 
   /// Follows a layout to which blocks were added since; none of their voxels is a member.
   void grow(const BlockLayout& layout) {
-    assert(stamp_ == layout.stamp_of_first(static_cast<std::uint32_t>(blocks_.size())));
-    blocks_.resize(layout.block_count());
+    assert(stamp_ == layout.stamp_of_first(blocks_.size()));
+    blocks_.grow(layout.block_count());
     stamp_ = layout.stamp();
   }
   /// Whether this is a mask of a layout, for assertions where both are handed in.
@@ -38,53 +52,82 @@ class VoxelMask {
   }
 
   /// Whether a voxel is a member.
-  bool test(VoxelId id) const { return word(id) >> (id & 63) & 1; }
+  bool test(VoxelId id) const { return block(id >> 9)[id >> 6 & 7] >> (id & 63) & 1; }
   /// Makes it one.
-  void set(VoxelId id) { word(id) |= 1ull << (id & 63); }
+  void set(VoxelId id) { block(id >> 9)[id >> 6 & 7] |= 1ull << (id & 63); }
   /// Makes it none.
-  void reset(VoxelId id) { word(id) &= ~(1ull << (id & 63)); }
+  void reset(VoxelId id) {
+    if (test(id)) block(id >> 9)[id >> 6 & 7] &= ~(1ull << (id & 63));
+  }
 
-  /// The members in a slot.
-  Block& block(std::uint32_t slot) { return blocks_[slot]; }
+  /// The members in a slot, to be written to: by any number of threads, each its own words, while
+  /// none reads others.
+  Block& block(std::uint32_t slot) { return blocks_.own(slot); }
   /// The members in a slot.
   const Block& block(std::uint32_t slot) const { return blocks_[slot]; }
   /// Blocks of the layout.
   std::size_t block_count() const { return blocks_.size(); }
 
+  /// Calls body(slot) for those with members, in ascending order.
+  template <typename Body>
+  void for_each_slot(const Body& body) const {
+    constexpr auto kBlocks = detail::SharedPages<Block>::kPerPage;
+    for (std::uint32_t page = 0; page < blocks_.page_count(); ++page) {
+      if (!blocks_.is_there(page)) continue;
+      const std::uint32_t end = std::min(blocks_.size(), (page + 1) * kBlocks);
+      for (std::uint32_t slot = page * kBlocks; slot < end; ++slot) {
+        std::uint64_t any = 0;
+        for (const std::uint64_t layer : block(slot)) any |= layer;
+        if (any != 0) body(slot);
+      }
+    }
+  }
+  /// Those slots in the order of their blocks (BlockLayout::rank).
+  std::vector<std::uint32_t> slots_in_order(const BlockLayout& layout) const {
+    assert(is_of(layout));
+    std::vector<std::uint32_t> slots;
+    for_each_slot([&](std::uint32_t slot) { slots.push_back(layout.rank(slot)); });
+    if (layout.is_in_order()) return slots;
+    std::sort(slots.begin(), slots.end());
+    for (std::uint32_t& slot : slots) slot = layout.slot_at(slot);
+    return slots;
+  }
+
   /// How many voxels are members.
   std::size_t count() const {
     std::size_t total = 0;
-    for (const Block& block : blocks_)
-      for (const std::uint64_t layer : block) total += static_cast<std::size_t>(bit_count(layer));
+    for_each_slot([&](std::uint32_t slot) {
+      for (const std::uint64_t layer : block(slot))
+        total += static_cast<std::size_t>(bit_count(layer));
+    });
     return total;
   }
 
   /// Members in the order of their voxels (BlockLayout::order_of).
   std::vector<VoxelId> members(const BlockLayout& layout) const {
-    assert(is_of(layout));
     std::vector<VoxelId> ids;
-    ids.reserve(count());
-    for (std::uint32_t rank = 0; rank < blocks_.size(); ++rank) {
-      const std::uint32_t slot = layout.slot_at(rank);
+    for (const std::uint32_t slot : slots_in_order(layout))
       for (std::uint32_t z = 0; z < kBlockSide; ++z)
-        for (std::uint64_t bits = blocks_[slot][z]; bits != 0; bits &= bits - 1)
+        for (std::uint64_t bits = block(slot)[z]; bits != 0; bits &= bits - 1)
           ids.push_back(slot * kBlockVoxels + z * 64 +
                         static_cast<VoxelId>(std::countr_zero(bits)));
-    }
     return ids;
   }
 
   /// The same members in the same slots.
-  friend bool operator==(const VoxelMask& a, const VoxelMask& b) { return a.blocks_ == b.blocks_; }
+  friend bool operator==(const VoxelMask& a, const VoxelMask& b) {
+    if (a.block_count() != b.block_count()) return false;
+    bool same = true;
+    a.for_each_slot([&](std::uint32_t slot) { same &= a.block(slot) == b.block(slot); });
+    b.for_each_slot([&](std::uint32_t slot) { same &= a.block(slot) == b.block(slot); });
+    return same;
+  }
   /// Bytes that the mask takes.
-  std::size_t memory_bytes() const { return blocks_.capacity() * sizeof(Block); }
+  std::size_t memory_bytes() const { return blocks_.memory_bytes(); }
 
  private:
-  std::uint64_t& word(VoxelId id) { return blocks_[id >> 9][id >> 6 & 7]; }
-  const std::uint64_t& word(VoxelId id) const { return blocks_[id >> 9][id >> 6 & 7]; }
-
-  std::vector<Block> blocks_;
-  std::uint64_t stamp_ = 0;  // of the layout
+  detail::SharedPages<Block> blocks_;  // by slot
+  std::uint64_t stamp_ = 0;            // of the layout
 };
 
 /// The voxels of a block for which holds(place in the block) is true. It should not branch: then
