@@ -9,8 +9,10 @@
 
 #include "common/number_text.hpp"
 #include "depth_surfaces.hpp"
+#include "missed_surfaces.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "voxel_look.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -129,89 +131,36 @@ class BlockUpdate {
  public:
   BlockUpdate(const DepthSurfaces& surfaces, const PinholeCamera& camera,
               const Eigen::Isometry3d& T_map_camera, const FusionConfig& config)
-      : surfaces_(surfaces),
-        image_(surfaces.image()),
+      : look_(surfaces, camera, config),
+        missed_(missed_surfaces(look_, T_map_camera, config)),
         T_camera_map_(T_map_camera.inverse()),
-        voxel_size_(config.voxel_size),
-        fx_(static_cast<float>(camera.fx)),
-        fy_(static_cast<float>(camera.fy)),
-        cx_(static_cast<float>(camera.cx)),
-        cy_(static_cast<float>(camera.cy)),
-        nearby_(static_cast<float>(1.0 * config.voxel_size)),
-        truncation_(static_cast<float>(config.truncation)),
-        behind_(static_cast<float>(config.depth_behind)),
         config_(config) {}
 
   void run(const BlockIndex& index, TsdfBlock& block) const {
-    const Eigen::Vector3f origin =
-        (T_camera_map_ * centre_of(voxel_of(index, 0), voxel_size_)).cast<float>();
-    const Eigen::Matrix3f step = (T_camera_map_.linear() * voxel_size_).cast<float>();
+    const double s = config_.voxel_size;
+    const Eigen::Vector3f origin = (T_camera_map_ * centre_of(voxel_of(index, 0), s)).cast<float>();
+    const Eigen::Matrix3f step = (T_camera_map_.linear() * s).cast<float>();
     int voxel = 0;
     for (int z = 0; z < kBlockSide; ++z)
       for (int y = 0; y < kBlockSide; ++y) {
         const Eigen::Vector3f row =
             origin + static_cast<float>(y) * step.col(1) + static_cast<float>(z) * step.col(2);
         for (int x = 0; x < kBlockSide; ++x, ++voxel)
-          update(row + static_cast<float>(x) * step.col(0), voxel, block);
+          if (const VoxelLook::Measured m = look_.at(row + static_cast<float>(x) * step.col(0));
+              m.gain > 0.0f)
+            block.add(voxel, m.value, m.gain, config_);
       }
+    const auto first = std::lower_bound(
+        missed_.begin(), missed_.end(), index,
+        [](const MissedSurface& m, const BlockIndex& wanted) { return m.block < wanted; });
+    for (auto m = first; m != missed_.end() && m->block == index; ++m)
+      block.add(m->voxel, m->measured.value, m->measured.gain, config_);
   }
 
  private:
-  struct Pixel {
-    int u = 0, v = 0;
-  };
-
-  /// The pixel that sees a point of the camera's frame; false outside the image.
-  bool project(const Eigen::Vector3f& p, Pixel& pixel) const {
-    constexpr float kNearest = 1e-3f;
-    if (p.z() < kNearest) return false;
-    const float u = fx_ * p.x() / p.z() + cx_ + 0.5f, v = fy_ * p.y() / p.z() + cy_ + 0.5f;
-    if (!(u >= 0.0f && v >= 0.0f && u < static_cast<float>(image_.width) &&
-          v < static_cast<float>(image_.height)))
-      return false;
-    pixel = {static_cast<int>(u), static_cast<int>(v)};
-    return true;
-  }
-
-  void update(const Eigen::Vector3f& p, int voxel, TsdfBlock& block) const {
-    Pixel pixel;
-    if (!project(p, pixel)) return;
-    const float depth = image_.at(pixel.u, pixel.v);
-    const Eigen::Vector3f ray((static_cast<float>(pixel.u) - cx_) / fx_,
-                              (static_cast<float>(pixel.v) - cy_) / fy_, 1.0f);
-    const float stretch = ray.norm();
-    const float beyond = (p.z() - depth) * stretch;
-    if (depth == 0.0f || beyond > behind_) return;
-    const Eigen::Vector3f surface = depth * ray;
-    const Eigen::Vector3f& normal = surfaces_.normal_at(pixel.u, pixel.v);
-    const float facing = -normal.dot(ray) / stretch;  // cosine of incidence; 0 without a normal
-    float value = facing > 0.0f ? normal.dot(p - surface) : -beyond;
-    if (std::abs(value) < truncation_ && facing > 0.0f &&
-        !is_surface(p - value * normal, surface)) {
-      if (value < 0.0f) return;
-      value = truncation_;
-    }
-    if (value <= -behind_ || (value >= truncation_ && !config_.carve)) return;
-    const float gain = gain_of(value, config_) *
-                       std::max(facing, static_cast<float>(kLeastFacing)) / (p.z() * p.z());
-    block.add(voxel, std::min(value, truncation_), gain, config_);
-  }
-
-  /// Whether the surface reaches as far as the foot of a perpendicular to its plane: seen at a
-  /// slant, the plane runs on where the surface has ended.
-  bool is_surface(const Eigen::Vector3f& foot, const Eigen::Vector3f& seen) const {
-    if ((foot - seen).squaredNorm() < nearby_ * nearby_) return true;
-    Pixel pixel;
-    if (!project(foot, pixel)) return true;
-    const float depth = image_.at(pixel.u, pixel.v);
-    return depth > 0.0f && std::abs(depth - foot.z()) < 0.5f * truncation_;
-  }
-
-  const DepthSurfaces& surfaces_;
-  const DepthImage& image_;
+  const VoxelLook look_;
+  const std::vector<MissedSurface> missed_;
   const Eigen::Isometry3d T_camera_map_;
-  const double voxel_size_;
-  const float fx_, fy_, cx_, cy_, nearby_, truncation_, behind_;
   const FusionConfig& config_;
 };
 

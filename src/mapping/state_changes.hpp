@@ -22,11 +22,13 @@ void for_each_in_sphere(const Point& place, double radius, double voxel_size, co
           body(VoxelIndex{x, y, z});
 }
 
-/// What was accepted of the states of a fusion's voxels, to tell what is new. `cleared`: where the
-/// robot has been, which is free.
+/// What was accepted of the states of a fusion's voxels, to tell what is new.
 struct AcceptedStates {
   struct Block {
-    VoxelMask::Block known{}, free{}, cleared{};
+    VoxelMask::Block known{};
+    VoxelMask::Block open{};     ///< before a surface, or cleared
+    VoxelMask::Block thin{};     ///< of these: occupied all the same, see thin_surfaces.hpp
+    VoxelMask::Block cleared{};  ///< the robot has been there
   };
   std::vector<Block> blocks;  ///< by number
   std::size_t places = 0;     ///< that `cleared` has
@@ -41,6 +43,15 @@ struct AcceptedStates {
   std::vector<VoxelChange> find(const TsdfBlocks& tsdf, const VoxelIndex& origin,
                                 const std::vector<Point>& all_places, const FusionConfig& config);
   void accept(TsdfBlocks& tsdf) noexcept;
+
+ private:
+  void find_touched(const TsdfBlocks& tsdf);
+  void add_blocks_beside(const TsdfBlocks& tsdf);
+  void find_thin(const TsdfBlocks& tsdf, const FusionConfig& config);
+  const VoxelMask::Block* open_in(const TsdfBlocks& tsdf, const BlockIndex& index) const;
+
+  static constexpr std::uint32_t kNotFound = 0xffffffffu;
+  std::vector<std::uint32_t> place_of_;  // by number: in `found`, or kNotFound
 };
 
 }  // namespace ridgeway::detail

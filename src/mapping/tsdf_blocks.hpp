@@ -13,6 +13,7 @@
 #include "memory_limit.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
+#include "thin_surfaces.hpp"
 
 namespace ridgeway::detail {
 
@@ -54,9 +55,14 @@ struct TsdfBlock {
   /// Counts a measurement; whether it is the last that it takes for a voxel to be forgotten.
   bool is_forgotten(int voxel, float value, const FusionConfig& config) {
     const auto v = static_cast<std::size_t>(voxel);
+    const auto s = static_cast<float>(config.voxel_size);
     const bool was_free = distance[v] > 0.0f, is_free = value > 0.0f;
-    const bool speaks_against = weight[v] > 0.0f && was_free != is_free &&
-                                std::abs(value) >= 0.5f * static_cast<float>(config.voxel_size);
+    // Where it was near, it may be occupied by a surface that is thin.
+    const bool was_near = was_free && distance[v] < static_cast<float>(kNearSurface) * s;
+    const bool speaks_against =
+        weight[v] > 0.0f &&
+        (was_free != is_free ? std::abs(value) >= 0.5f * s
+                             : was_near && value >= static_cast<float>(kNearSurface + 0.5) * s);
     doubts[v] = speaks_against ? static_cast<std::uint8_t>(doubts[v] + 1) : std::uint8_t{0};
     if (doubts[v] < config.forget_after) return false;
     doubts[v] = 0;
@@ -112,9 +118,15 @@ class TsdfBlocks {
   }
   /// A block, or nullptr.
   const TsdfBlock* find(const BlockIndex& index) const {
-    const auto place = table_.find(index);
-    return place == table_.end() ? nullptr : &blocks_[place->second];
+    const std::uint32_t number = number_of(index);
+    return number == kNone ? nullptr : &blocks_[number];
   }
+  /// A block's number, or kNone.
+  std::uint32_t number_of(const BlockIndex& index) const {
+    const auto place = table_.find(index);
+    return place == table_.end() ? kNone : place->second;
+  }
+  static constexpr std::uint32_t kNone = 0xffffffffu;
 
   /// Copies all into a map, on a layout of its own.
   void copy_to(TsdfMap& map) const {

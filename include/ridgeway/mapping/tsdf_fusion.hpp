@@ -28,7 +28,9 @@ struct TsdfMap {
 };
 
 /// Voxels whose centre lies behind the surface are occupied, those before it free, those never
-/// seen unknown. Normalised.
+/// seen unknown. What is thinner than a voxel may have no centre behind its surface: a voxel before
+/// one, nearer than 0.75 voxels, with free ones across all faces and edges is occupied, too.
+/// Normalised.
 OccupancyMap occupancy_of(const TsdfMap& tsdf);
 
 /// A surface as triangles, their fronts towards free space. `normals` is as long as `vertices`, and
