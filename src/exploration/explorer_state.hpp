@@ -33,6 +33,8 @@ struct Explorer::State {
     detail::Stop stop;
     detail::Access access;
     double from_robot = 0.0;  ///< metres
+    /// Unknown voxels that are expected to be measured there, and at no stop chosen before.
+    double expected = 0.0;
   };
 
   ExplorationStep decide(std::shared_ptr<const Roadmap> now, const FlightState& given);
@@ -65,6 +67,7 @@ struct Explorer::State {
   void look_on_the_way(Trajectory& trajectory, double until) const;
   void look_in_flight(const FlightState& state);
   std::vector<TourStop> cover(const detail::WaysFrom& ways, double least_gain) const;
+  double expected_at(const detail::Stop& stop) const;
   void keep_best(std::vector<TourStop>& stops, const FlightState& state) const;
   std::vector<std::size_t> order(const std::vector<TourStop>& stops, const FlightState& state,
                                  double& seconds) const;

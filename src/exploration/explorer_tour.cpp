@@ -5,8 +5,10 @@
 #include <limits>
 #include <queue>
 
+#include "expected_volume.hpp"
 #include "explorer_state.hpp"
 #include "legs.hpp"
+#include "ridgeway/common/parallel.hpp"
 #include "shaped_trajectory.hpp"
 
 namespace ridgeway {
@@ -16,10 +18,11 @@ using detail::Access;
 using detail::Place;
 using detail::Stop;
 
-constexpr double kBraking = 1.5;  // times the shortest way to rest: jerk is bounded, too
-constexpr double kLate = 0.3;     // seconds by which a turn may end after a stop is passed
-constexpr double kLook = 1.0;     // seconds that a stop takes at least
-constexpr double kAsGood = 0.8;   // of a stop's gain: a nearer place that sees as much takes it
+constexpr double kBraking = 1.5;   // times the shortest way to rest: jerk is bounded, too
+constexpr double kLate = 0.3;      // seconds by which a turn may end after a stop is passed
+constexpr double kLook = 1.0;      // seconds that a stop takes at least
+constexpr std::size_t kAsked = 2;  // times the stops of a tour: so many are asked what is expected
+constexpr double kAsGood = 0.8;    // of a stop's gain: a nearer place that sees as much takes it
 
 }  // namespace
 
@@ -89,16 +92,34 @@ std::vector<Explorer::State::TourStop> Explorer::State::cover(const detail::Ways
   return stops;
 }
 
+/// Of the volume that a look is expected to measure the share that its frontiers have in what is in
+/// view there: the others are seen from stops chosen before.
+double Explorer::State::expected_at(const Stop& stop) const {
+  const std::vector<std::uint64_t> none(views.parts(), 0);
+  const double in_view = views.gain_at(stop.place, stop.heading, none);
+  return stop.gain / in_view *
+         detail::expected_voxels(roadmap->esdf, config.view, config.within,
+                                 places[stop.place].position, views.yaw_of(stop.heading));
+}
+
 /// Leaves the stops that a tour is made of, the nearest first: those that give most for the time
-/// that it takes to get there.
+/// that it takes to get there. Of those that give most by their frontiers it is asked what volume
+/// is expected there.
 void Explorer::State::keep_best(std::vector<TourStop>& stops, const FlightState& state) const {
-  if (config.strategy == ExplorationStrategy::kTour && stops.size() > config.most_stops) {
+  const auto keep = [&](std::size_t most, const auto& worth_of) {
+    if (stops.size() <= most) return;
     const auto rate = [&](const TourStop& stop) {
-      return stop.stop.gain / (kLook + seconds_from_robot(stop, state));
+      return worth_of(stop) / (kLook + seconds_from_robot(stop, state));
     };
     std::stable_sort(stops.begin(), stops.end(),
                      [&](const TourStop& a, const TourStop& b) { return rate(a) > rate(b); });
-    stops.resize(config.most_stops);
+    stops.resize(most);
+  };
+  if (config.strategy == ExplorationStrategy::kTour) {
+    keep(kAsked * config.most_stops, [](const TourStop& stop) { return stop.stop.gain; });
+    parallel_for_each_index(stops.size(),
+                            [&](std::size_t i) { stops[i].expected = expected_at(stops[i].stop); });
+    keep(config.most_stops, [](const TourStop& stop) { return stop.expected; });
   }
   std::stable_sort(stops.begin(), stops.end(), [](const TourStop& a, const TourStop& b) {
     return a.from_robot < b.from_robot;
@@ -121,7 +142,7 @@ std::vector<std::size_t> Explorer::State::order(const std::vector<TourStop>& sto
           detail::turn_between(views.yaw_of(from.stop.heading), views.yaw_of(to.stop.heading))));
     costs.between.push_back(std::move(row));
   }
-  for (const TourStop& stop : stops) costs.gain.push_back(stop.stop.gain);
+  for (const TourStop& stop : stops) costs.gain.push_back(stop.expected);
   std::vector<std::size_t> tour = detail::best_tour(costs);
   seconds = detail::seconds_of(costs, tour);
   return tour;
@@ -161,7 +182,7 @@ void Explorer::State::refine_first(std::vector<TourStop>& stops,
     if (stop.gain < wanted) continue;
     if (std::find(refused.begin(), refused.end(), places[i].id) != refused.end()) continue;
     const Access access = detail::access_of(*roadmap, roadmap->esdf.layout.find(places[i].voxel));
-    const TourStop other = {stop, access, ways.to(places[i].position, access)};
+    const TourStop other = {stop, access, ways.to(places[i].position, access), first.expected};
     if (!std::isfinite(other.from_robot)) continue;
     if (const double cost = cost_of(other); cost < best_cost - 1e-6) {
       best_cost = cost;

@@ -13,7 +13,7 @@ struct TourCosts {
   std::vector<std::vector<double>> between;  ///< [from][to]
   std::vector<double> gain;                  ///< of each stop; none: they are alike and count not
   /// What waits behind all stops, as a share of their gain: how much the end of the tour counts.
-  double beyond = 0.5;
+  double beyond = 0.1;
 };
 
 /// An order of all stops, from the robot on, not back, with a small cost: insertion, then 2-opt and
