@@ -26,10 +26,8 @@ struct MarkedVoxels {
   void grow_voxels(const BlockLayout& layout) { voxels.grow(layout); }
 
   void clear() {
-    for (const std::uint32_t slot : slots) {
-      voxels.block(slot) = {};
-      if (lowered.block_count() > 0) lowered.block(slot) = {};
-    }
+    voxels.clear();
+    lowered.clear();
     slots.clear();
   }
 

@@ -184,9 +184,9 @@ void integrate_projective(const DepthSurfaces& surfaces, const PinholeCamera& ca
   std::vector<std::unique_ptr<TsdfBlock>> made(seen.size());
   parallel_for_each_index(seen.size(), [&](std::size_t i) {
     if (blocks.find(seen[i]) != nullptr) return;
-    TsdfBlock block;
+    TsdfBlock block = blocks.fresh();
     update.run(seen[i], block);
-    if (!block.is_empty()) made[i] = std::make_unique<TsdfBlock>(block);
+    if (!block.is_empty()) made[i] = std::make_unique<TsdfBlock>(std::move(block));
   });
   std::vector<TsdfBlock*> targets(seen.size());
   for (std::size_t i = 0; i < seen.size(); ++i)
@@ -195,7 +195,7 @@ void integrate_projective(const DepthSurfaces& surfaces, const PinholeCamera& ca
   if (config.can_undo) blocks.keep_touched();
   parallel_for_each_index(seen.size(), [&](std::size_t i) {
     if (made[i] != nullptr)
-      *targets[i] = *made[i];
+      *targets[i] = std::move(*made[i]);
     else if (targets[i] != nullptr)
       update.run(seen[i], *targets[i]);
   });

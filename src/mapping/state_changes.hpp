@@ -24,17 +24,25 @@ void for_each_in_sphere(const Point& place, double radius, double voxel_size, co
 
 /// What was accepted of the states of a fusion's voxels, to tell what is new.
 struct AcceptedStates {
+  /// Of the voxels of a block: neither is unknown, known alone is occupied, both are free, and open
+  /// alone is occupied by what is thin (thin_surfaces.hpp).
   struct Block {
     VoxelMask::Block known{};
-    VoxelMask::Block open{};     ///< before a surface, or cleared
-    VoxelMask::Block thin{};     ///< of these: occupied all the same, see thin_surfaces.hpp
+    VoxelMask::Block open{};  ///< before a surface, or the robot has been there
+
+    VoxelMask::Block free() const;
+  };
+  /// A block that is looked at, and what it is.
+  struct Found {
+    std::uint32_t number;
+    Block now;
     VoxelMask::Block cleared{};  ///< the robot has been there
   };
-  std::vector<Block> blocks;  ///< by number
-  std::size_t places = 0;     ///< that `cleared` has
+  std::vector<Block> blocks;              ///< by number
+  std::vector<VoxelMask::Block> cleared;  ///< by number; empty where the robot clears nothing
+  std::size_t places = 0;                 ///< that `cleared` has
 
-  std::vector<std::uint32_t> found;  ///< blocks that were looked at, by index, and what they are
-  std::vector<Block> now;
+  std::vector<Found> found;  ///< by index
   std::size_t places_now = 0;
   bool places_moved =
       false;  ///< where the robot has been is to be found anew, in what is looked at
@@ -45,7 +53,9 @@ struct AcceptedStates {
   void accept(TsdfBlocks& tsdf) noexcept;
 
  private:
-  void find_touched(const TsdfBlocks& tsdf);
+  void find_touched(const TsdfBlocks& tsdf, bool clears);
+  void add_found(std::uint32_t number);
+  void sort_found(const TsdfBlocks& tsdf);
   void add_blocks_beside(const TsdfBlocks& tsdf);
   void find_thin(const TsdfBlocks& tsdf, const FusionConfig& config);
   const VoxelMask::Block* open_in(const TsdfBlocks& tsdf, const BlockIndex& index) const;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <deque>
+#include <memory>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -29,12 +30,12 @@ inline float gain_of(float value, const FusionConfig& config) {
   return std::max(1.0f + value / static_cast<float>(config.depth_behind), 0.0f);
 }
 
-/// Distance and weight of the voxels of one block, x fastest, and how many measurements in a row
-/// have spoken against each.
+/// Distance and weight of the voxels of one block, x fastest, and, where anything is forgotten, how
+/// many measurements in a row have spoken against each.
 struct TsdfBlock {
   std::array<float, kBlockVoxels> distance{};
   std::array<float, kBlockVoxels> weight{};
-  std::array<std::uint8_t, kBlockVoxels> doubts{};
+  std::vector<std::uint8_t> doubts = {};
 
   /// Whether nothing was measured of any voxel.
   bool is_empty() const {
@@ -84,6 +85,14 @@ class TsdfBlocks {
     }
     return blocks_[number];
   }
+  /// As a block is at first.
+  TsdfBlock fresh() const {
+    TsdfBlock block;
+    if (keeps_doubts_) block.doubts.resize(kBlockVoxels);
+    return block;
+  }
+  /// Whether anything is forgotten.
+  void keep_doubts(bool keep) { keeps_doubts_ = keep; }
   /// Only these blocks are to be fused into; `only` must outlive this. Nullptr: any.
   void take_only(const std::unordered_set<BlockIndex, BlockHash>* only) { only_ = only; }
   bool takes(const BlockIndex& index) const { return only_ == nullptr || only_->contains(index); }
@@ -101,20 +110,26 @@ class TsdfBlocks {
 
   /// Keeps what the touched blocks hold, before they are written to, for restore().
   void keep_touched() {
-    kept_.resize(touched_.size());
+    std::vector<std::unique_ptr<TsdfBlock>> kept(touched_.size());
     parallel_for_each_index(
-        kept_.size(), [&](std::size_t i) { kept_[i] = blocks_[touched_[i]]; }, 16);
-    kept_numbers_ = touched_;
+        kept.size(),
+        [&](std::size_t i) { kept[i] = std::make_unique<TsdfBlock>(blocks_[touched_[i]]); }, 16);
+    std::vector<std::uint32_t> numbers = touched_;
+    kept_numbers_ = std::move(numbers);
+    kept_ = std::move(kept);
   }
   void restore() noexcept {
-    for (std::size_t i = 0; i < kept_numbers_.size(); ++i) blocks_[kept_numbers_[i]] = kept_[i];
+    for (std::size_t i = 0; i < kept_.size(); ++i) blocks_[kept_numbers_[i]] = std::move(*kept_[i]);
     drop_kept();
   }
-  void drop_kept() noexcept { kept_numbers_.clear(); }
+  void drop_kept() noexcept {
+    kept_.clear();
+    kept_numbers_.clear();
+  }
 
   /// Writes over a block that is touched and kept.
-  void write_over(const BlockIndex& index, const TsdfBlock& block) noexcept {
-    blocks_[table_.find(index)->second] = block;
+  void write_over(const BlockIndex& index, TsdfBlock&& block) noexcept {
+    blocks_[table_.find(index)->second] = std::move(block);
   }
   /// A block, or nullptr.
   const TsdfBlock* find(const BlockIndex& index) const {
@@ -146,7 +161,7 @@ class TsdfBlocks {
     try {
       if (indices_.size() == indices_.capacity()) indices_.reserve(2 * size() + 1);
       is_touched_.resize(size() + 1);
-      blocks_.emplace_back();
+      blocks_.push_back(fresh());
     } catch (...) {
       table_.erase(index);
       throw;
@@ -159,8 +174,9 @@ class TsdfBlocks {
   std::vector<BlockIndex> indices_;
   std::vector<bool> is_touched_;
   std::vector<std::uint32_t> touched_;
-  std::vector<TsdfBlock> kept_;
+  std::vector<std::unique_ptr<TsdfBlock>> kept_;  // as they were, of `kept_numbers_`
   std::vector<std::uint32_t> kept_numbers_;
+  bool keeps_doubts_ = false;
   const std::unordered_set<BlockIndex, BlockHash>* only_ = nullptr;
 };
 

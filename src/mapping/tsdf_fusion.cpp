@@ -209,6 +209,7 @@ TsdfFusion::TsdfFusion(const FusionConfig& config) : state_(std::make_unique<Sta
   if (config.depth_behind == 0.0)
     state_->config.depth_behind =
         std::min(kDefaultDepth * config.voxel_size, state_->config.truncation);
+  state_->blocks.keep_doubts(config.forget_after > 0);
 }
 TsdfFusion::~TsdfFusion() = default;
 TsdfFusion::TsdfFusion(TsdfFusion&&) noexcept = default;
@@ -259,6 +260,7 @@ std::vector<VoxelChange> TsdfFusion::find_changes() {
 
 void TsdfFusion::accept_changes() noexcept {
   State& s = *state_;
+  s.blocks.drop_kept();
   s.accepted.accept(s.blocks);
   s.is_undoable = s.took_over = false;
 }
@@ -290,6 +292,7 @@ TsdfFusion TsdfFusion::within_blocks(std::span<const BlockIndex> blocks) const {
   if (state_->origin) s.config.origin = state_->origin;
   if (!s.config.origin) throw std::logic_error("nothing was fused yet, and no origin given");
   s.config.can_undo = false;
+  s.blocks.keep_doubts(s.config.forget_after > 0);
   s.only.insert(blocks.begin(), blocks.end());
   s.blocks.take_only(&s.only);
   return part;
@@ -302,11 +305,12 @@ void TsdfFusion::take_over(const TsdfFusion& part, std::span<const Point> places
     places.push_back(moved(place, VoxelIndex{} - *s.origin, s.config.voxel_size));
   for (const BlockIndex& block : part.state_->only) s.blocks.find_or_add(block);
   s.blocks.keep_touched();
-  const detail::TsdfBlock nothing{};
+  std::vector<std::pair<BlockIndex, detail::TsdfBlock>> all;  // before any is written over
   for (const BlockIndex& block : part.state_->only) {
     const detail::TsdfBlock* fused = part.state_->blocks.find(block);
-    s.blocks.write_over(block, fused != nullptr ? *fused : nothing);
+    all.emplace_back(block, fused != nullptr ? *fused : s.blocks.fresh());
   }
+  for (auto& [index, block] : all) s.blocks.write_over(index, std::move(block));
   s.places_before = std::exchange(s.places, std::move(places));
   s.accepted.places_moved = s.is_undoable = s.took_over = true;
 }

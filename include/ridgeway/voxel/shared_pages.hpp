@@ -50,6 +50,11 @@ class SharedPages {
     pages_.resize(pages, nobodys());
     count_ = count;
   }
+  /// All zero again, at the same size.
+  void clear() noexcept {
+    for (std::size_t i = 0; i < pages_.size(); ++i) release(std::exchange(pages_[i], nobodys()));
+    std::fill(states_.begin(), states_.end(), std::uint8_t{kShared});
+  }
   std::uint32_t size() const { return count_; }
   std::size_t page_count() const { return pages_.size(); }
   /// Whether anybody has written to a page; else its values are zero.

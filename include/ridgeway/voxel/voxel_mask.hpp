@@ -46,6 +46,8 @@ class VoxelMask {
     blocks_.grow(layout.block_count());
     stamp_ = layout.stamp();
   }
+  /// Leaves it without members.
+  void clear() noexcept { blocks_.clear(); }
   /// Whether this is a mask of a layout, for assertions where both are handed in.
   bool is_of(const BlockLayout& layout) const {
     return stamp_ == layout.stamp() && blocks_.size() == layout.block_count();
