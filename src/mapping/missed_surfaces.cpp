@@ -84,9 +84,11 @@ class VoxelsAround {
 
 class Search {
  public:
-  Search(const VoxelLook& look, const Eigen::Isometry3d& T_map_camera, const FusionConfig& config)
+  Search(const VoxelLook& look, const DepthImage& raw, const Eigen::Isometry3d& T_map_camera,
+         const FusionConfig& config)
       : look_(look),
         image_(look.image()),
+        raw_(raw),
         voxel_size_(static_cast<float>(config.voxel_size)),
         voxels_(T_map_camera, config.voxel_size),
         jumps_(image_, 0.5f * voxel_size_) {
@@ -121,7 +123,7 @@ class Search {
     Eigen::Vector3f centre = Eigen::Vector3f::Zero();
     for (int u = first; u < end; ++u) {
       const float depth = image_.at(u, v);
-      if (depth == 0.0f) continue;
+      if (depth == 0.0f || std::abs(depth - raw_.at(u, v)) > 0.25f * voxel_size_) continue;
       const int reach = pixels_at(depth);
       if ((reach > kMany && (u + v) % 2 != 0) || !jumps_.any_around(u, u + 1, v, reach)) continue;
       const VoxelIndex voxel = voxels_.voxel_of(depth * look_.ray_of({u, v}));
@@ -142,7 +144,7 @@ class Search {
   }
 
   const VoxelLook& look_;
-  const DepthImage& image_;
+  const DepthImage &image_, &raw_;
   const float voxel_size_;
   const VoxelsAround voxels_;
   const Jumps jumps_;
@@ -151,10 +153,10 @@ class Search {
 
 }  // namespace
 
-std::vector<MissedSurface> missed_surfaces(const VoxelLook& look,
+std::vector<MissedSurface> missed_surfaces(const VoxelLook& look, const DepthImage& raw,
                                            const Eigen::Isometry3d& T_map_camera,
                                            const FusionConfig& config) {
-  const Search search(look, T_map_camera, config);
+  const Search search(look, raw, T_map_camera, config);
   std::vector<std::vector<MissedSurface>> of_row(static_cast<std::size_t>(look.image().height));
   parallel_for_each_index(
       of_row.size(), [&](std::size_t row) { of_row[row] = search.in_row(static_cast<int>(row)); },

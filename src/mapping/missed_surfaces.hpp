@@ -18,7 +18,8 @@ struct MissedSurface {
 };
 
 /// Each voxel once, by block and then by voxel: with the surface that is nearest to its centre.
-std::vector<MissedSurface> missed_surfaces(const VoxelLook& look,
+/// `raw`: the image as it was measured; where noise has moved a depth much, it counts for nothing.
+std::vector<MissedSurface> missed_surfaces(const VoxelLook& look, const DepthImage& raw,
                                            const Eigen::Isometry3d& T_map_camera,
                                            const FusionConfig& config);
 

@@ -129,10 +129,10 @@ std::vector<BlockIndex> blocks_in(const View& view) {
 /// Brings one image to the voxels of a block.
 class BlockUpdate {
  public:
-  BlockUpdate(const DepthSurfaces& surfaces, const PinholeCamera& camera,
+  BlockUpdate(const DepthSurfaces& surfaces, const DepthImage& raw, const PinholeCamera& camera,
               const Eigen::Isometry3d& T_map_camera, const FusionConfig& config)
       : look_(surfaces, camera, config),
-        missed_(missed_surfaces(look_, T_map_camera, config)),
+        missed_(missed_surfaces(look_, raw, T_map_camera, config)),
         T_camera_map_(T_map_camera.inverse()),
         config_(config) {}
 
@@ -166,9 +166,9 @@ class BlockUpdate {
 
 }  // namespace
 
-void integrate_projective(const DepthSurfaces& surfaces, const PinholeCamera& camera,
-                          const Eigen::Isometry3d& T_map_camera, const FusionConfig& config,
-                          TsdfBlocks& blocks) {
+void integrate_projective(const DepthSurfaces& surfaces, const DepthImage& raw,
+                          const PinholeCamera& camera, const Eigen::Isometry3d& T_map_camera,
+                          const FusionConfig& config, TsdfBlocks& blocks) {
   const View view(surfaces.image(), camera, T_map_camera, config);
   if (view.sees_nothing()) return;
   if (view.block_count() > kMostBlocks)
@@ -178,7 +178,7 @@ void integrate_projective(const DepthSurfaces& surfaces, const PinholeCamera& ca
   std::vector<BlockIndex> seen = blocks_in(view);
   std::erase_if(seen, [&](const BlockIndex& block) { return !blocks.takes(block); });
   require_room(blocks, static_cast<double>(seen.size()));
-  const BlockUpdate update(surfaces, camera, T_map_camera, config);
+  const BlockUpdate update(surfaces, raw, camera, T_map_camera, config);
   // Half of what may be in view is not: behind walls, and beside the image. No block is made for
   // it.
   std::vector<std::unique_ptr<TsdfBlock>> made(seen.size());

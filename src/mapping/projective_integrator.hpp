@@ -10,8 +10,8 @@ namespace ridgeway::detail {
 
 /// Updates every voxel that a pixel of an image sees. Depths outside the range limits are 0
 /// already.
-void integrate_projective(const DepthSurfaces& surfaces, const PinholeCamera& camera,
-                          const Eigen::Isometry3d& T_map_camera, const FusionConfig& config,
-                          TsdfBlocks& blocks);
+void integrate_projective(const DepthSurfaces& surfaces, const DepthImage& raw,
+                          const PinholeCamera& camera, const Eigen::Isometry3d& T_map_camera,
+                          const FusionConfig& config, TsdfBlocks& blocks);
 
 }  // namespace ridgeway::detail

@@ -221,9 +221,10 @@ void TsdfFusion::integrate(const DepthImage& image, const PinholeCamera& camera,
   validate_transform(T_world_camera);
   State& s = *state_;
   s.visit(T_world_camera, [&](const Eigen::Isometry3d& T_map_camera) {
-    const detail::DepthSurfaces surfaces(within_range(image, camera, s.config), camera);
+    const DepthImage raw = within_range(image, camera, s.config);
+    const detail::DepthSurfaces surfaces(raw, camera);
     if (s.config.integrator == Integrator::kProjective)
-      detail::integrate_projective(surfaces, camera, T_map_camera, s.config, s.blocks);
+      detail::integrate_projective(surfaces, raw, camera, T_map_camera, s.config, s.blocks);
     else
       detail::integrate_rays(points_of(surfaces, camera, T_map_camera), T_map_camera.translation(),
                              s.config, s.blocks);
