@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "live_basins.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <queue>
 #include <utility>
 
@@ -141,6 +143,29 @@ class Renumbering {
   std::priority_queue<std::pair<std::uint32_t, std::uint32_t>> due_;  // highest level, block
 };
 
+/// Where two voxels beside each other are in different basins, saddles join these: the higher one
+/// hangs together across faces, among what is higher than the lower one, with a neighbour by which
+/// the lower one joins, and these voxels are joined for the same reason.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> joined_by(
+    const BlockLayout& layout, const BasinNumbers& numbers,
+    const std::vector<CriticalVoxel>& saddles) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> joins;
+  for (const CriticalVoxel& saddle : saddles) {
+    const std::uint32_t own = numbers[saddle.id];
+    for (Cube27 left = saddle.higher; left != 0;) {
+      const Cube27 hanging_together = flood6(left & (~left + 1), left);
+      left &= ~hanging_together;
+      const std::uint32_t other =
+          numbers[layout.neighbour(saddle.id, std::countr_zero(hanging_together))];
+      if (other != own) joins.emplace_back(std::min(own, other), std::max(own, other));
+    }
+  }
+  std::sort(joins.begin(), joins.end());
+  joins.erase(std::unique(joins.begin(), joins.end()), joins.end());
+  joins.shrink_to_fit();
+  return joins;
+}
+
 /// Of blocks, and those beside them, in which ways or numbers became others.
 void find_saddles_beside(const BlockLayout& layout, const BasinNumbers& numbers,
                          const std::vector<std::uint32_t>& touched, LiveBasins& basins) {
@@ -152,6 +177,7 @@ void find_saddles_beside(const BlockLayout& layout, const BasinNumbers& numbers,
       basins.saddles[n].clear();
       for (const CriticalVoxel& voxel : basins.ways.blocks[n].critical)
         if (higher_in_others(layout, numbers, voxel) != 0) basins.saddles[n].push_back(voxel);
+      basins.joins[n] = joined_by(layout, numbers, basins.saddles[n]);
     }
 }
 
@@ -164,6 +190,7 @@ void update_basins(LiveBasins& basins, BasinNumbers& numbers, const LiveField& f
   basins.ways.grow(layout);
   basins.exits.resize(layout.block_count());
   basins.saddles.resize(layout.block_count());
+  basins.joins.resize(layout.block_count());
   numbers.whole.resize(layout.block_count(), kUnnumbered);
   numbers.several.resize(layout.block_count());
   std::vector<VoxelId> peaks;

@@ -2,6 +2,10 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <cstdint>
+#include <utility>
+#include <vector>
+
 #include "live_ridges.hpp"
 #include "skeleton/watershed.hpp"
 #include "voxel/flat_table.hpp"
@@ -15,6 +19,8 @@ struct LiveBasins {
   std::vector<VoxelId> peaks = {};  ///< by number; kNoVoxel for one that no basin has
   /// By block, of the critical voxels those that may join two basins.
   std::vector<std::vector<CriticalVoxel>> saddles = {};
+  /// By block, the pairs of basins that these join; they hang together.
+  std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> joins = {};
   std::vector<std::uint32_t> unused = {};  ///< those numbers
   FlatTable<VoxelId, std::uint32_t> number_of_peak = {};
 };

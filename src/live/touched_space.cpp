@@ -11,21 +11,11 @@
 namespace ridgeway::detail {
 namespace {
 
-/// By basin: a number that all basins of its 26-connected part share. Where two voxels beside each
-/// other are in different basins, saddles join these: the higher one hangs together across faces,
-/// among what is higher than the lower one, with a neighbour by which the lower one joins, and
-/// these voxels are joined for the same reason.
-std::vector<std::uint32_t> part_of_basins(const BlockLayout& layout, const LiveBasins& basins,
-                                          const BasinNumbers& numbers) {
+/// By basin: a number that all basins of its 26-connected part share.
+std::vector<std::uint32_t> part_of_basins(const LiveBasins& basins) {
   DisjointSets parts(basins.peaks.size());
-  for (const std::vector<CriticalVoxel>& saddles : basins.saddles)
-    for (const CriticalVoxel& saddle : saddles)
-      for (Cube27 left = saddle.higher; left != 0;) {
-        const Cube27 hanging_together = flood6(left & (~left + 1), left);
-        const VoxelId beside = layout.neighbour(saddle.id, std::countr_zero(hanging_together));
-        parts.join(numbers[saddle.id], numbers[beside]);
-        left &= ~hanging_together;
-      }
+  for (const auto& of_block : basins.joins)
+    for (const auto& [a, b] : of_block) parts.join(a, b);
   std::vector<std::uint32_t> part(basins.peaks.size());
   for (std::uint32_t basin = 0; basin < part.size(); ++basin) part[basin] = parts.find(basin);
   return part;
@@ -63,7 +53,7 @@ void for_each_basin(const BasinNumbers& numbers, std::uint32_t slot, const Body&
 /// By basin, whether its part is touched.
 std::vector<std::uint8_t> touched_basins(const LiveBasins& basins, const BasinNumbers& numbers,
                                          const BlockLayout& layout, const SegmentMemory& segments) {
-  const std::vector<std::uint32_t> part = part_of_basins(layout, basins, numbers);
+  const std::vector<std::uint32_t> part = part_of_basins(basins);
   std::vector<Extent> extents(part.size());
   for (std::uint32_t slot = 0; slot < layout.block_count(); ++slot) {
     const std::uint32_t top = basins.ways.blocks[slot].top;

@@ -60,7 +60,7 @@ class SharedPages {
   /// Whether anybody has written to a page; else its values are zero.
   bool is_there(std::size_t page) const { return pages_[page] != nobodys(); }
   std::size_t memory_bytes() const {
-    std::size_t bytes = pages_.capacity() * sizeof(Page*) + states_.capacity();
+    std::size_t bytes = pages_.capacity() * sizeof(void*) + states_.capacity();
     for (std::size_t page = 0; page < pages_.size(); ++page)
       if (is_there(page)) bytes += sizeof(Page);
     return bytes;
