@@ -143,7 +143,7 @@ bool Explorer::State::fly_tour(const std::vector<TourStop>& stops,
 
 void Explorer::State::go_on(const FlightState& state, bool arrived, ExplorationStep& step) {
   if (is_returning) {
-    go_home(state, arrived || step.was_in_doubt, step);
+    go_home(state, arrived, step);
     return;
   }
   if (goal) {

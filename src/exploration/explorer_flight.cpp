@@ -60,10 +60,11 @@ void Explorer::State::go_home(const FlightState& state, bool arrived, Exploratio
     step.status = is_out_of_time ? ExplorationStatus::kOutOfTime : ExplorationStatus::kComplete;
     return;
   }
-  if (is_returning && !arrived) return;  // on the way
+  if (is_returning && !arrived && !step.was_in_doubt) return;  // on the way
   if (fly_to(to_local(roadmap->esdf, *config.home), state.yaw, state, step)) {
     const bool is_late = state.time + step.trajectory.duration() > config.until;
-    if (is_late && !arrived) {  // what is flown now, and from its end home, is in time
+    // What is flown now, and from its end home, is in time.
+    if (is_late && !arrived && !step.was_in_doubt) {
       step.trajectory = {};
       return;
     }
