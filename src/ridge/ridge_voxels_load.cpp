@@ -11,6 +11,7 @@
 #include "ridge_sections.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "site_codec.hpp"
+#include "voxel/mask_sets.hpp"
 #include "voxel_chunks.hpp"
 
 namespace ridgeway {
@@ -126,12 +127,15 @@ void load_esdf_blocks(const RidgeReader& reader, const BlockRange& range, const 
 
 void load_diagram_blocks(const RidgeReader& reader, const BlockRange& range, const Worker& worker,
                          Roadmap& roadmap) {
-  std::memcpy(&roadmap.diagram.voxels.block(range.first), worker.diagram.data(),
-              worker.diagram.size());
+  const VoxelMask& obstacle = roadmap.esdf.obstacle;
   std::uint64_t inside = 0;
-  for (std::uint32_t slot = range.first; slot < range.last; ++slot)
-    for (std::size_t z = 0; z < kBlockSide; ++z)
-      inside |= roadmap.diagram.voxels.block(slot)[z] & roadmap.esdf.obstacle.block(slot)[z];
+  for (std::uint32_t slot = range.first; slot < range.last; ++slot) {
+    VoxelMask::Block block;
+    std::memcpy(&block, worker.diagram.data() + (slot - range.first) * sizeof(block),
+                sizeof(block));
+    for (std::size_t z = 0; z < kBlockSide; ++z) inside |= block[z] & obstacle.block(slot)[z];
+    if (!detail::is_empty(block)) roadmap.diagram.voxels.block(slot) = block;
+  }
   if (inside != 0) reader.damaged("diagram", "has a voxel inside an obstacle");
 }
 
