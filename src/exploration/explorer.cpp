@@ -9,6 +9,7 @@
 #include "explorer_state.hpp"
 #include "legs.hpp"
 #include "planning/endpoint.hpp"
+#include "planning/escape.hpp"
 #include "ridgeway/common/error.hpp"
 
 namespace ridgeway {
@@ -41,7 +42,14 @@ Explorer::State::State(const ExplorerConfig& given)
 
 Access Explorer::State::access_at(const Point& local) const {
   const FreeSpace space(roadmap->esdf);
-  const detail::Endpoint end = detail::find_endpoint(space, local, roadmap->min_clearance);
+  detail::Endpoint end = detail::find_endpoint(space, local, roadmap->min_clearance);
+  if (end.voxel ==
+      kNoVoxel) {  // where it does not fit any more trajectories from rest escape first
+    const detail::EscapeResult out =
+        detail::find_escape(space, local, roadmap->min_clearance, detail::Deadline::never());
+    if (out.status == detail::SearchStatus::kFound)
+      end = detail::find_endpoint(space, out.place, roadmap->min_clearance);
+  }
   return end.voxel == kNoVoxel ? Access{} : detail::access_of(*roadmap, end.voxel);
 }
 

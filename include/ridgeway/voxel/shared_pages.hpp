@@ -94,7 +94,7 @@ class SharedPages {
 
   void own_page(std::uint32_t index) {
     const std::atomic_ref state(states_[index]);
-    for (std::uint8_t expected = kShared; !state.compare_exchange_weak(expected, kBusy);
+    for (std::uint8_t expected = kShared; !state.compare_exchange_strong(expected, kBusy);
          expected = kShared)
       if (expected == kOwn) return;
     try {
