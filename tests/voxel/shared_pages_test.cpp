@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "ridgeway/voxel/shared_pages.hpp"
-
 #include <gtest/gtest.h>
 
 #include <memory>
 #include <random>
+#include <utility>
 
 #include "ridgeway/common/parallel.hpp"
+#include "ridgeway/voxel/block_layout.hpp"
 
 namespace ridgeway {
 namespace {

@@ -14,7 +14,6 @@
 
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/voxel/block_layout.hpp"
-#include "ridgeway/voxel/shared_pages.hpp"
 
 namespace ridgeway {
 namespace detail {

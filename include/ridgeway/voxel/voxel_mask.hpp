@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "ridgeway/voxel/block_layout.hpp"
-#include "ridgeway/voxel/shared_pages.hpp"
 
 namespace ridgeway {
 namespace detail {
