@@ -78,7 +78,7 @@ void add_blocks(LiveField& field, std::span<const BlockIndex> blocks);
 void apply_changes(LiveField& field, std::span<const VoxelChange> changes);
 
 /// Takes the states back to what they were before the last changes, whatever has failed since.
-/// Distances do not follow: a new field is to be made of map_of().
+/// Neither obstacles nor distances follow: a new field is to be made of map_of().
 void undo_changes(LiveField& field) noexcept;
 
 /// Brings the distances up to date after `esdf.obstacle` has changed where `flipped` says. Same

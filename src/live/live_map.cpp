@@ -10,17 +10,19 @@
 namespace ridgeway::detail {
 namespace {
 
-void set_state(LiveField& field, VoxelId id, VoxelState state) {
+void set_state(LiveField& field, VoxelId id, VoxelState state) noexcept {
   VoxelState& current = field.esdf.state[id];
   std::uint16_t& known = field.known[id / kBlockVoxels];
   known = static_cast<std::uint16_t>(known + (state != VoxelState::kUnknown) -
                                      (current != VoxelState::kUnknown));
   current = state;
-  if (is_obstacle(state, field.esdf.unknown)) {
+}
+
+void set_obstacle(LiveField& field, VoxelId id, VoxelState state) {
+  if (is_obstacle(state, field.esdf.unknown))
     field.esdf.obstacle.set(id);
-  } else {
+  else
     field.esdf.obstacle.reset(id);
-  }
 }
 
 /// Blocks that the layout lacks.
@@ -110,6 +112,7 @@ void apply_changes(LiveField& field, std::span<const VoxelChange> changes) {
     const VoxelState before = field.esdf.state[id];
     field.before.emplace_back(id, before);
     set_state(field, id, change.state);
+    set_obstacle(field, id, change.state);
     if (is_obstacle(before, field.esdf.unknown) == is_obstacle(change.state, field.esdf.unknown))
       continue;
     const std::uint32_t slot = id / kBlockVoxels;
