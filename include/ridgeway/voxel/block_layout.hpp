@@ -37,7 +37,8 @@ class SharedPages {
       : pages_(std::exchange(other.pages_, {})),
         states_(std::exchange(other.states_, {})),
         count_(std::exchange(other.count_, 0)) {}
-  SharedPages& operator=(SharedPages other) noexcept {
+  SharedPages& operator=(const SharedPages& other) { return *this = SharedPages(other); }
+  SharedPages& operator=(SharedPages&& other) noexcept {
     pages_.swap(other.pages_);
     states_.swap(other.states_);
     std::swap(count_, other.count_);
