@@ -43,8 +43,8 @@ Explorer::State::State(const ExplorerConfig& given)
 Access Explorer::State::access_at(const Point& local) const {
   const FreeSpace space(roadmap->esdf);
   detail::Endpoint end = detail::find_endpoint(space, local, roadmap->min_clearance);
-  if (end.voxel ==
-      kNoVoxel) {  // where it does not fit any more trajectories from rest escape first
+  // Where the robot does not fit any more trajectories from rest escape first.
+  if (end.voxel == kNoVoxel) {
     const detail::EscapeResult out =
         detail::find_escape(space, local, roadmap->min_clearance, detail::Deadline::never());
     if (out.status == detail::SearchStatus::kFound)

@@ -82,6 +82,7 @@ class VoxelsAround {
   const Eigen::Vector3f off_;  // of the camera from the centre of its voxel
 };
 
+/// Looks at the pixels of an image near jumps for voxels whose centres look past what they see.
 class Search {
  public:
   Search(const VoxelLook& look, const DepthImage& raw, const Eigen::Isometry3d& T_map_camera,

@@ -51,8 +51,8 @@ bool sides_changed(const VoxelMask::Block& before, const VoxelMask::Block& now) 
 VoxelMask::Block AcceptedStates::Block::free() const { return both(known, open); }
 
 void AcceptedStates::add_found(std::uint32_t number) {
-  place_of_[number] = 0;  // until they are sorted
   found.push_back({number, blocks[number], {}});
+  place_of_[number] = 0;  // until they are sorted
   if (!cleared.empty()) found.back().cleared = cleared[number];
 }
 

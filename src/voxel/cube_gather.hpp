@@ -5,15 +5,14 @@
 #include <array>
 
 #include "ridgeway/voxel/voxel_mask.hpp"
+#include "voxel/mask_sets.hpp"
 
 namespace ridgeway {
 
 /// Calls body(id) for every member of a mask in one block, in ascending order.
 template <typename Body>
 void for_each_member(const VoxelMask& mask, std::uint32_t slot, const Body& body) {
-  for (std::uint32_t z = 0; z < kBlockSide; ++z)
-    for (std::uint64_t bits = mask.block(slot)[z]; bits != 0; bits &= bits - 1)
-      body(slot * kBlockVoxels + z * 64 + static_cast<VoxelId>(std::countr_zero(bits)));
+  detail::for_each_in(mask.block(slot), slot, body);
 }
 
 /// A block of a mask with a border of one voxel: 10 x 10 rows of 10 bits, so that the 3x3x3 cube

@@ -39,9 +39,10 @@ class SharedPages {
         count_(std::exchange(other.count_, 0)) {}
   SharedPages& operator=(const SharedPages& other) { return *this = SharedPages(other); }
   SharedPages& operator=(SharedPages&& other) noexcept {
-    pages_.swap(other.pages_);
-    states_.swap(other.states_);
-    std::swap(count_, other.count_);
+    SharedPages taken(std::move(other));  // which is left empty
+    pages_.swap(taken.pages_);
+    states_.swap(taken.states_);
+    std::swap(count_, taken.count_);
     return *this;
   }
   ~SharedPages() {
