@@ -60,6 +60,7 @@ void SegmentMemory::change(const BlockLayout& layout, std::span<const std::uint3
   });
   most_answers_ = kAnswersABlock * layout.block_count() / kShards + 1;
   changed_ = ChangedBlocks(layout, changed);
+  changed_slots_.assign(changed.begin(), changed.end());
   flipped_ = ChangedBlocks(layout, flipped);
   if (changed_.are_all()) forget();
 }
@@ -128,12 +129,8 @@ SquaredHalves RememberedSpace::move_clearance(VoxelId from, VoxelId to, int dire
 void RememberedSpace::remember_moves(const VoxelMask& voxels) const {
   if (memory_ == nullptr) return;
   constexpr Cube27 kForward = kCells26 >> kCentre << kCentre;  // each move is one way
-  const Point beside = Point::Constant(kBeside);
   const BlockLayout& layout = esdf_.layout;
-  voxels.for_each_slot([&](std::uint32_t slot) {
-    const BlockIndex& b = layout.block(slot);
-    const Point low = kBlockSide * Point(b.x, b.y, b.z);
-    if (!memory_->changed().touch(low - beside, low + Point::Constant(kBlockSide) + beside)) return;
+  const auto remember = [&](std::uint32_t slot) {
     for_each_member(voxels, slot, [&](VoxelId id) {
       for (Cube27 cells = cube_around(layout, voxels, id) & kForward; cells != 0;
            cells &= cells - 1) {
@@ -141,7 +138,14 @@ void RememberedSpace::remember_moves(const VoxelMask& voxels) const {
         move_clearance(id, layout.neighbour(id, d), d);
       }
     });
-  });
+  };
+  static_assert(kBeside < kBlockSide);  // no answer elsewhere may be another
+  std::vector<std::uint8_t> is_done(layout.block_count());
+  for (const std::uint32_t changed : memory_->changed_slots())
+    for (int d = 0; d < 27; ++d)
+      if (const std::uint32_t slot = layout.neighbour_block(changed, d);
+          slot != BlockLayout::kNoBlock && std::exchange(is_done[slot], std::uint8_t{1}) == 0)
+        remember(slot);
 }
 
 }  // namespace ridgeway::detail

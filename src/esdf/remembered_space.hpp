@@ -61,6 +61,8 @@ class SegmentMemory {
 
   /// The blocks in which anything has changed.
   const ChangedBlocks& changed() const { return changed_; }
+  /// Those by slot, some maybe twice.
+  const std::vector<std::uint32_t>& changed_slots() const { return changed_slots_; }
   /// Whether an answer of before the last change may be another now. The box around its segment,
   /// and how far from there it looked at obstacles, are in voxels.
   bool may_be_another(const Point& low, const Point& high, double reach) const;
@@ -90,6 +92,7 @@ class SegmentMemory {
   std::array<Shard, kShards> shards_;
   std::size_t most_answers_ = 0;  // of a shard: memory follows the map
   ChangedBlocks changed_, flipped_;
+  std::vector<std::uint32_t> changed_slots_;
 };
 
 /// FreeSpace, with a memory or without. `moves`: those that have been measured already.

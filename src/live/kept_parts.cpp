@@ -3,6 +3,7 @@
 #include "kept_parts.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -55,29 +56,36 @@ void take(const Roadmap& from, const NewNumbers& numbers, Roadmap& to) {
           {numbers[number(edge.from)], numbers[number(edge.to)], edge.length, edge.clearance});
 }
 
-/// In blocks that are as before the memory of the last one is shared.
-void add_kept_diagram(const VoxelMask& before, const Rest& rest,
-                      std::span<const std::uint32_t> changed, Roadmap& roadmap) {
+/// In blocks that are as before the memory of the last one is shared. Returns how many voxels more
+/// it has.
+std::ptrdiff_t add_kept_diagram(const VoxelMask& before, const Rest& rest,
+                                std::span<const std::uint32_t> changed, Roadmap& roadmap) {
   VoxelMask all = before;
   all.grow(roadmap.esdf.layout);
   const VoxelMask& fresh = roadmap.diagram.voxels;
   std::vector<std::uint32_t> slots = slots_of_any({rest.without, &fresh});
   slots.insert(slots.end(), changed.begin(), changed.end());
+  std::ptrdiff_t more = 0;
   for (const std::uint32_t slot : slots) {
     VoxelMask::Block block = slot < before.block_count()
                                  ? both(before.block(slot), rest.block(slot))
                                  : VoxelMask::Block{};
     for (std::size_t z = 0; z < kBlockSide; ++z) block[z] |= fresh.block(slot)[z];
-    if (block != std::as_const(all).block(slot)) all.block(slot) = block;
+    const VoxelMask::Block& last = std::as_const(all).block(slot);
+    if (block == last) continue;
+    more +=
+        static_cast<std::ptrdiff_t>(count_of(block)) - static_cast<std::ptrdiff_t>(count_of(last));
+    all.block(slot) = block;
   }
   roadmap.diagram.voxels = std::move(all);
+  return more;
 }
 
 }  // namespace
 
-void add_kept_parts(const Roadmap& before, const Rest& rest, std::span<const std::uint32_t> changed,
-                    Roadmap& roadmap) {
-  add_kept_diagram(before.diagram.voxels, rest, changed, roadmap);
+std::ptrdiff_t add_kept_parts(const Roadmap& before, const Rest& rest,
+                              std::span<const std::uint32_t> changed, Roadmap& roadmap) {
+  const std::ptrdiff_t more = add_kept_diagram(before.diagram.voxels, rest, changed, roadmap);
   const auto [of_before, of_now] =
       number_together(roadmap.esdf.layout, before.graph, rest, roadmap.graph);
   const auto kept_vertices =
@@ -98,6 +106,7 @@ void add_kept_parts(const Roadmap& before, const Rest& rest, std::span<const std
   roadmap.graph = std::move(merged.graph);
   roadmap.tree = std::move(merged.tree);
   roadmap.landmarks = std::move(merged.landmarks);
+  return more;
 }
 
 }  // namespace ridgeway::detail

@@ -59,9 +59,13 @@ class Renumbering {
         numbers_(numbers),
         is_due_(layout.block_count()) {}
 
-  /// The blocks in which a number became another, some maybe twice.
-  std::vector<std::uint32_t> run(const std::vector<std::uint32_t>& slots) {
-    std::vector<std::uint32_t> renumbered;
+  /// What changed with the numbers.
+  struct Changes {
+    std::vector<std::uint32_t> slots;  ///< of blocks in which one became another, some maybe twice
+    std::vector<std::uint32_t> left;   ///< those that these had before, some maybe twice
+  };
+
+  Changes run(const std::vector<std::uint32_t>& slots) {
     for (const std::uint32_t slot : slots) {
       basins_.exits[slot] = find_exits(slot);
       add(slot);
@@ -71,13 +75,13 @@ class Renumbering {
       due_.pop();
       is_due_[slot] = 0;
       if (!number(slot)) continue;
-      renumbered.push_back(slot);
+      changes_.slots.push_back(slot);
       for (int d = 0; d < 27; ++d)
         if (const std::uint32_t n = layout_.neighbour_block(slot, d);
             n != BlockLayout::kNoBlock && (basins_.exits[n] >> opposite(d) & 1) != 0)
           add(n);
     }
-    return renumbered;
+    return std::move(changes_);
   }
 
  private:
@@ -109,6 +113,7 @@ class Renumbering {
     }
     if (whole != BasinNumbers::kSeveral) several = {};
     if (whole == numbers_.whole[slot] && several == numbers_.several[slot]) return false;
+    for_each_basin(numbers_, slot, [&](std::uint32_t basin) { changes_.left.push_back(basin); });
     numbers_.whole[slot] = whole;
     numbers_.several[slot] = std::move(several);
     return true;
@@ -141,6 +146,7 @@ class Renumbering {
   BasinNumbers& numbers_;
   std::vector<std::uint8_t> is_due_;                                  // by block
   std::priority_queue<std::pair<std::uint32_t, std::uint32_t>> due_;  // highest level, block
+  Changes changes_;
 };
 
 /// Where two voxels beside each other are in different basins, saddles join these: the higher one
@@ -166,19 +172,25 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> joined_by(
   return joins;
 }
 
-/// Of blocks, and those beside them, in which ways or numbers became others.
-void find_saddles_beside(const BlockLayout& layout, const BasinNumbers& numbers,
-                         const std::vector<std::uint32_t>& touched, LiveBasins& basins) {
+/// Of blocks in which ways or numbers became others, and those beside them; returns these, each
+/// once.
+std::vector<std::uint32_t> find_saddles_beside(const BlockLayout& layout,
+                                               const BasinNumbers& numbers,
+                                               const std::vector<std::uint32_t>& touched,
+                                               LiveBasins& basins) {
   std::vector<std::uint8_t> is_done(layout.block_count());
+  std::vector<std::uint32_t> slots;
   for (const std::uint32_t slot : touched)
     for (int d = 0; d < 27; ++d) {
       const std::uint32_t n = layout.neighbour_block(slot, d);
       if (n == BlockLayout::kNoBlock || std::exchange(is_done[n], std::uint8_t{1}) != 0) continue;
+      slots.push_back(n);
       basins.saddles[n].clear();
       for (const CriticalVoxel& voxel : basins.ways.blocks[n].critical)
         if (higher_in_others(layout, numbers, voxel) != 0) basins.saddles[n].push_back(voxel);
       basins.joins[n] = joined_by(layout, numbers, basins.saddles[n]);
     }
+  return slots;
 }
 
 }  // namespace
@@ -197,10 +209,10 @@ void update_basins(LiveBasins& basins, BasinNumbers& numbers, const LiveField& f
   for_each_peak(basins.ways, slots, [&](VoxelId id) { peaks.push_back(id); });
   look_at_blocks(field.esdf, ridges.traversable, slots, basins.ways);
   number_peaks(basins, peaks, slots);
-  std::vector<std::uint32_t> touched =
-      Renumbering(layout, ridges.traversable, basins, numbers).run(slots);
+  auto [touched, left] = Renumbering(layout, ridges.traversable, basins, numbers).run(slots);
   touched.insert(touched.end(), slots.begin(), slots.end());
-  find_saddles_beside(layout, numbers, touched, basins);
+  update_parts(basins.parts, layout, basins.ways.blocks, numbers, basins.joins,
+               find_saddles_beside(layout, numbers, touched, basins), left);
 }
 
 Watershed watershed_of(const LiveBasins& basins, BasinNumbers numbers, VoxelField<Direction> next,

@@ -8,6 +8,7 @@
 
 #include "live_ridges.hpp"
 #include "skeleton/watershed.hpp"
+#include "space_parts.hpp"
 #include "voxel/flat_table.hpp"
 
 namespace ridgeway::detail {
@@ -19,8 +20,8 @@ struct LiveBasins {
   std::vector<VoxelId> peaks = {};  ///< by number; kNoVoxel for one that no basin has
   /// By block, of the critical voxels those that may join two basins.
   std::vector<std::vector<CriticalVoxel>> saddles = {};
-  /// By block, the pairs of basins that these join; they hang together.
-  std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> joins = {};
+  BasinJoins joins = {};
+  SpaceParts parts = {};
   std::vector<std::uint32_t> unused = {};  ///< those numbers
   FlatTable<VoxelId, std::uint32_t> number_of_peak = {};
 };

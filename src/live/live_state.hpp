@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -48,6 +49,7 @@ struct LiveRoadmap::State {
     detail::LiveAttach attach;
     std::unique_ptr<detail::BuildMemory> memory;
     bool is_built = false;  ///< the last snapshot is of these, as they were before the last update
+    std::ptrdiff_t diagram_voxels = 0;  ///< of that snapshot
   };
 
   explicit State(const LiveConfig& given);

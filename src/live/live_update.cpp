@@ -35,7 +35,6 @@ void count_all_parts(const std::vector<VoxelId>& peaks, const detail::BuildMemor
   for (std::size_t basin = 0; basin < peaks.size(); ++basin)
     if (peaks[basin] != kNoVoxel) result.report.traversable_components += memory.is_highest[basin];
   result.report.graph_components = connected_components(result.roadmap.graph).count;
-  result.report.diagram_voxels = result.roadmap.diagram.voxels.count();
 }
 
 }  // namespace
@@ -175,16 +174,19 @@ std::shared_ptr<const Roadmap> LiveRoadmap::State::built_on(Live& live, detail::
   };
   detail::build_on_watershed(edges, watershed, config.build, result, clock, live.memory.get());
   if (live.memory->rest) {
-    detail::add_kept_parts(*before, *live.memory->rest, field.changed.slots, result.roadmap);
+    live.diagram_voxels +=
+        detail::add_kept_parts(*before, *live.memory->rest, field.changed.slots, result.roadmap);
+    result.report.diagram_voxels = static_cast<std::size_t>(live.diagram_voxels);
     live.memory->rest.reset();
     count_all_parts(live.basins.peaks, *live.memory, result);
   }
+  live.diagram_voxels = static_cast<std::ptrdiff_t>(result.report.diagram_voxels);
   BuildReport& built = result.report;
   built.gvd_voxels = live.ridges.gvd_count;
   built.edge_voxels = live.ridges.thick_count;
   built.seconds.gvd += edge_seconds;  // which are of the kernel's, that was peeled meanwhile
   built.seconds.kernel -= edge_seconds;
-  result.roadmap.attach = share(live.attach, field.esdf.layout, result.roadmap.attach);
+  result.roadmap.attach = share(live.attach, field.esdf.layout, std::move(result.roadmap.attach));
   live.is_built = true;
   return published(std::move(result), build);
 }

@@ -10,17 +10,27 @@
 namespace ridgeway::detail {
 
 EsdfMap in_same_memory(const EsdfMap& esdf) {
-  return {.voxel_size = esdf.voxel_size,
-          .origin = esdf.origin,
-          .unknown = esdf.unknown,
-          .max_distance = esdf.max_distance,
-          .limits = esdf.limits,
-          .planar = esdf.planar,
-          .layout = esdf.layout,
-          .state = esdf.state.shared(),
-          .squared = esdf.squared.shared(),
-          .site = esdf.site.shared(),
-          .obstacle = esdf.obstacle};
+  EsdfMap same{.voxel_size = esdf.voxel_size,
+               .origin = esdf.origin,
+               .unknown = esdf.unknown,
+               .max_distance = esdf.max_distance,
+               .limits = esdf.limits,
+               .planar = esdf.planar,
+               .layout = {},
+               .state = {},
+               .squared = {},
+               .site = {},
+               .obstacle = esdf.obstacle};
+  parallel_for_each_index(2, [&](std::size_t task) {  // each as many bytes
+    if (task == 0) {
+      same.layout = esdf.layout;
+    } else {
+      same.state = esdf.state.shared();
+      same.squared = esdf.squared.shared();
+      same.site = esdf.site.shared();
+    }
+  });
+  return same;
 }
 
 Roadmap in_same_memory(const Roadmap& roadmap) {
@@ -57,19 +67,20 @@ VoxelField<Direction> ways_to_build_on(LiveAttach& attach, const BlockLayout& la
   return ways;
 }
 
-AttachField share(LiveAttach& attach, const BlockLayout& layout, const AttachField& now) {
+AttachField share(LiveAttach& attach, const BlockLayout& layout, AttachField now) {
   parallel_for_each_index(
       layout.block_count(),
       [&](std::size_t i) {
         const auto slot = static_cast<std::uint32_t>(i);
         const Direction* fresh = now.next.block(slot);
         if (fresh == attach.next.block(slot)) return;
-        if (std::equal(fresh, fresh + kBlockVoxels, attach.next.block(slot))) return;
-        attach.next.own_block(slot);
-        std::copy_n(fresh, kBlockVoxels, attach.next.block(slot));
+        if (std::equal(fresh, fresh + kBlockVoxels, attach.next.block(slot)))
+          now.next.share_block(attach.next, slot);
+        else
+          attach.next.share_block(now.next, slot);
       },
       64);
-  return {attach.next.shared()};
+  return now;
 }
 
 }  // namespace ridgeway::detail

@@ -26,6 +26,6 @@ VoxelField<Direction> ways_to_build_on(LiveAttach& attach, const BlockLayout& la
                                        const VoxelMask& traversable, const TouchedSpace& space);
 
 /// The field for a snapshot: in the memory of the last one where a block is the same.
-AttachField share(LiveAttach& attach, const BlockLayout& layout, const AttachField& now);
+AttachField share(LiveAttach& attach, const BlockLayout& layout, AttachField now);
 
 }  // namespace ridgeway::detail

@@ -180,7 +180,6 @@ void build_on_watershed(const EdgesOf& edges_of, const SpaceOf& space_of, const 
     if (task == 0) {
       edges = edges_of();
       space.remember_moves(edges);  // the kernel takes longer
-      require_memory_for(edges, kKernelBytesPerEdgeVoxel);
     } else {
       peeled = peel(space, space_of(), config.min_clearance, memory);
     }
@@ -188,13 +187,14 @@ void build_on_watershed(const EdgesOf& edges_of, const SpaceOf& space_of, const 
   Basins& basins = peeled.basins;
   VoxelMask& kernel = peeled.kernel;
   report.traversable_components = basins.components();
-  report.kernel_voxels = kernel.count();
+  report.kernel_voxels = memory == nullptr ? kernel.count() : memory->peeling.left_count();
   if (memory != nullptr) {
     note_highest(basins, *memory);
     if (memory->rest)
       for (VoxelMask* mask : {&kernel, &edges})
         *mask = common_members(*memory->rest->without, *mask);
   }
+  require_memory_for(edges, kKernelBytesPerEdgeVoxel);
   VoxelMask diagram;
   parallel_for_each_index(beside ? 2 : 1, [&](std::size_t task) {
     if (task == 1) return beside();

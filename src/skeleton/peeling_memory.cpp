@@ -98,6 +98,7 @@ void PeelingMemory::change(const BlockLayout& layout, const VoxelMask& changed,
   for (VoxelMask* mask : {&changed_, &traversable_, &keep_, &left_, &stayed_}) mask->grow(layout);
   for (const std::uint32_t slot : slots)
     for (std::size_t z = 0; z < kBlockSide; ++z) changed_.block(slot)[z] |= changed.block(slot)[z];
+  slots_.insert(slots_.end(), slots.begin(), slots.end());
 }
 
 const VoxelMask& PeelingMemory::peel(const EsdfMap& esdf, const VoxelMask& traversable,
@@ -110,10 +111,23 @@ const VoxelMask& PeelingMemory::peel(const EsdfMap& esdf, const VoxelMask& trave
     keep_ = keep;
     peel_all(esdf, not_simple);
   }
+  keep_levels(esdf);
   knows_any_ = true;
-  squared_ = esdf.squared.shared();
   changed_ = {};
+  slots_.clear();
   return left_;
+}
+
+/// In the memory of the map.
+void PeelingMemory::keep_levels(const EsdfMap& esdf) {
+  if (!knows_any_) {
+    squared_ = esdf.squared.shared();
+    return;
+  }
+  const auto before = static_cast<std::uint32_t>(squared_.size() / kBlockVoxels);
+  squared_.follow(esdf.squared);
+  for (const std::uint32_t slot : slots_)
+    if (slot < before) squared_.share_block(esdf.squared, slot);
 }
 
 /// What is to be peeled from now on; the voxels of which anything is another.
@@ -152,6 +166,7 @@ PeelingMemory::Marked PeelingMemory::take_over(const EsdfMap& esdf, const VoxelM
 void PeelingMemory::peel_all(const EsdfMap& esdf, const VoxelMask& not_simple) {
   std::vector<LateVoxel> late;
   left_ = peel_levels(esdf, traversable_, not_simple, keep_, &late);
+  left_count_ = left_.count();
   stayed_ = left_;
   for (const LateVoxel& voxel : late) {
     stayed_.set(voxel.id);
@@ -168,11 +183,8 @@ void PeelingMemory::peel_again(const EsdfMap& esdf, const VoxelMask& not_simple,
   const PeelingRule rule{esdf, traversable, keep, stayed_, left_, late_};
   const std::vector<VoxelId> to_play = disturbed(layout, traversable, stayed_, fresh, rule);
   for (const std::uint32_t slot : fresh.slots)
-    for_each_in(both(stayed_.block(slot), fresh.voxels.block(slot)), slot, [&](VoxelId id) {
-      stayed_.reset(id);
-      if (!left_.test(id)) late_.erase(id, mixed(id));
-      left_.reset(id);
-    });
+    for_each_in(both(stayed_.block(slot), fresh.voxels.block(slot)), slot,
+                [&](VoxelId id) { forget(id); });
   scratch_.grow(layout);
   Replay<PeelingRule> replay(layout, rule, scratch_);
   for (const std::uint32_t slot : fresh.slots)
@@ -183,16 +195,26 @@ void PeelingMemory::peel_again(const EsdfMap& esdf, const VoxelMask& not_simple,
   replay.run();
   for (const auto& voxel : replay.played()) {
     const VoxelId id = voxel.id;
-    if (stayed_.test(id) && !left_.test(id)) late_.erase(id, mixed(id));
-    stayed_.reset(id);
-    left_.reset(id);
+    if (stayed_.test(id)) forget(id);
     if (voxel.gone == rule.first_turn(id)) continue;
     stayed_.set(id);
-    if (voxel.gone == kNever)
+    if (voxel.gone == kNever) {
       left_.set(id);
-    else
+      ++left_count_;
+    } else {
       late_.add(id, mixed(id), voxel.gone);
+    }
   }
+}
+
+/// That a voxel stayed at its first turn, which it did.
+void PeelingMemory::forget(VoxelId id) {
+  stayed_.reset(id);
+  if (left_.test(id))
+    --left_count_;
+  else
+    late_.erase(id, mixed(id));
+  left_.reset(id);
 }
 
 }  // namespace ridgeway::detail

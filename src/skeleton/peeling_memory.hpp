@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -29,6 +30,8 @@ class PeelingMemory {
   const VoxelMask& peel(const EsdfMap& esdf, const VoxelMask& traversable,
                         const VoxelMask& not_simple, const VoxelMask& keep,
                         const Rest* rest = nullptr);
+  /// How many voxels that left.
+  std::size_t left_count() const { return left_count_; }
 
  private:
   /// Voxels of a mask, and of which blocks they are.
@@ -41,14 +44,18 @@ class PeelingMemory {
                    const Rest* rest);
   void peel_all(const EsdfMap& esdf, const VoxelMask& not_simple);
   void peel_again(const EsdfMap& esdf, const VoxelMask& not_simple, const Marked& changed);
+  void forget(VoxelId id);
+  void keep_levels(const EsdfMap& esdf);
 
   bool knows_any_ = false;
   VoxelMask changed_;                  // since the last peel, maybe
+  std::vector<std::uint32_t> slots_;   // of these, some maybe twice
   VoxelField<std::uint32_t> squared_;  // levels of that
   VoxelMask traversable_, keep_;       // and what was peeled
   VoxelMask left_;                     // what it left
-  VoxelMask stayed_;                   // those that stayed at their first turn
-  FlatTable<VoxelId, Turn> late_;      // the turns at which those of them went that went
+  std::size_t left_count_ = 0;
+  VoxelMask stayed_;               // those that stayed at their first turn
+  FlatTable<VoxelId, Turn> late_;  // the turns at which those of them went that went
   ReplayScratch scratch_;
 };
 

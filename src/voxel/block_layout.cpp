@@ -31,7 +31,7 @@ bool is_legal(const BlockIndex& block) {
 BlockLayout::BlockLayout(std::vector<BlockIndex> blocks) : blocks_(std::move(blocks)) {
   std::sort(blocks_.begin(), blocks_.end());
   blocks_.erase(std::unique(blocks_.begin(), blocks_.end()), blocks_.end());
-  require_legal();
+  require_legal(0);
   index_blocks();
   neighbours_.grow(block_count());
   parallel_for_each_index(
@@ -46,13 +46,13 @@ void BlockLayout::add(std::span<const BlockIndex> blocks) {
     for (const BlockIndex& block : blocks)
       if (find_block(block) == kNoBlock) blocks_.push_back(block);
     drop_doubles(before);
-    require_legal();
+    require_legal(before);
   } catch (...) {
     blocks_.resize(before);
     throw;
   }
   if (block_count() == before) return;
-  index_blocks();
+  index_blocks_from(before);
   neighbours_.grow(block_count());
   for (std::uint32_t slot = before; slot < blocks_.size(); ++slot) {
     find_neighbours(slot);
@@ -73,11 +73,12 @@ void BlockLayout::drop_doubles(std::uint32_t first) {
                 blocks_.end());
 }
 
-void BlockLayout::require_legal() const {
+/// Of those from a slot on.
+void BlockLayout::require_legal(std::uint32_t first) const {
   if (blocks_.size() > kMostBlocks)
     throw InputError("map", "needs more than 8 million blocks of 8x8x8 voxels",
                      "use larger voxels, or cut the map down to a smaller box");
-  if (!std::all_of(blocks_.begin(), blocks_.end(), is_legal))
+  if (!std::all_of(blocks_.begin() + first, blocks_.end(), is_legal))
     throw InputError("map", "has a block farther than 1e9 voxels from its origin",
                      "move the map to its origin, or use larger voxels");
 }
@@ -126,12 +127,19 @@ void BlockLayout::index_blocks() {
   is_spread_ = volume > kMostPlaces * static_cast<double>(blocks_.size());
   if (is_spread_) return hash_blocks();
   table_.assign(static_cast<std::size_t>(volume), kNoBlock);
-  for (std::uint32_t slot = 0; slot < blocks_.size(); ++slot) {
-    const BlockIndex b = blocks_[slot] - low_;
-    table_[static_cast<std::size_t>(b.x) +
-           extent_[0] *
-               (static_cast<std::size_t>(b.y) + extent_[1] * static_cast<std::size_t>(b.z))] = slot;
-  }
+  for (std::uint32_t slot = 0; slot < blocks_.size(); ++slot)
+    table_[place_of(blocks_[slot])] = slot;
+}
+
+/// Adds those from a slot on; where they lie in the box around the others, in time that follows
+/// their number.
+void BlockLayout::index_blocks_from(std::uint32_t first) {
+  const auto begin = blocks_.begin() + first;
+  if (first == 0 || is_spread_ ||
+      !std::all_of(begin, blocks_.end(), [&](const BlockIndex& b) { return is_in_box(b); }))
+    return index_blocks();
+  for (std::uint32_t slot = first; slot < blocks_.size(); ++slot)
+    table_[place_of(blocks_[slot])] = slot;
 }
 
 void BlockLayout::hash_blocks() {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <random>
 #include <set>
 
@@ -188,6 +189,30 @@ TEST(VoxelField, SharesBlocksUntilTheyAreOwned) {
   other[0] = 1;
   EXPECT_EQ(shared[0], 5);
   EXPECT_TRUE(shared.values() == VoxelField<int>(shared).values());
+}
+
+TEST(VoxelField, TakesTheMemoryOfAnotherAndKeepsIt) {
+  BlockLayout layout = RandomLayout(7).layout;
+  const std::uint32_t before = layout.block_count();
+  auto whole = std::make_unique<VoxelField<int>>(layout, 5);  // in one piece
+  VoxelField<int> field = whole->shared();
+  layout.add(std::vector<BlockIndex>{{500, 0, 0}});
+  auto grown = std::make_unique<VoxelField<int>>(layout, 7);
+  grown->grow(layout);
+  grown->own_block(2);
+  (*grown)[2 * kBlockVoxels] = 8;
+  field.follow(*grown);
+  EXPECT_TRUE(field.is_of(layout));
+  EXPECT_EQ(field.block(1), whole->block(1));
+  EXPECT_EQ(field.block(before), grown->block(before));
+  field.share_block(*grown, 1);
+  field.share_block(*grown, 2);
+  whole.reset();
+  grown.reset();
+  EXPECT_EQ(field[0], 5);
+  EXPECT_EQ(field[kBlockVoxels], 7);
+  EXPECT_EQ(field[2 * kBlockVoxels], 8);
+  EXPECT_EQ(field[before * kBlockVoxels], 7);
 }
 
 TEST(BlockLayout, FieldsGrowWithItAndKeepTheirValues) {

@@ -179,10 +179,7 @@ class BlockLayout {
   /// Slot of a block, or kNoBlock.
   std::uint32_t find_block(const BlockIndex& block) const {
     if (is_spread_) return find_hashed(block);
-    const std::uint32_t x = steps(low_.x, block.x), y = steps(low_.y, block.y),
-                        z = steps(low_.z, block.z);
-    if (x >= extent_[0] || y >= extent_[1] || z >= extent_[2]) return kNoBlock;
-    return table_[x + std::size_t{extent_[0]} * (y + std::size_t{extent_[1]} * z)];
+    return is_in_box(block) ? table_[place_of(block)] : kNoBlock;
   }
   /// Slot of the block in one of 27 directions from a block, or kNoBlock.
   std::uint32_t neighbour_block(std::uint32_t slot, int direction) const {
@@ -245,9 +242,19 @@ class BlockLayout {
   static std::uint32_t steps(int from, int to) {
     return static_cast<std::uint32_t>(to) - static_cast<std::uint32_t>(from);
   }
-  void require_legal() const;
+  void require_legal(std::uint32_t first) const;
   void drop_doubles(std::uint32_t first);
   void index_blocks();
+  void index_blocks_from(std::uint32_t first);
+  bool is_in_box(const BlockIndex& block) const {
+    return steps(low_.x, block.x) < extent_[0] && steps(low_.y, block.y) < extent_[1] &&
+           steps(low_.z, block.z) < extent_[2];
+  }
+  std::size_t place_of(const BlockIndex& block) const {  // in the table of that box
+    return steps(low_.x, block.x) +
+           std::size_t{extent_[0]} *
+               (steps(low_.y, block.y) + std::size_t{extent_[1]} * steps(low_.z, block.z));
+  }
   void hash_blocks();
   std::uint32_t find_hashed(const BlockIndex& block) const;
   void find_neighbours(std::uint32_t slot);

@@ -93,6 +93,26 @@ class VoxelField {
     blocks_[slot] = values;
   }
 
+  /// Gives a field the memory that another one of its layout has for a block, for both as after
+  /// shared(); other threads may do so with other blocks. `grow` or `follow` has to have been
+  /// called before.
+  void share_block(const VoxelField& other, std::uint32_t slot) {
+    const bool is_own =
+        slot < other.owners_.size() && std::as_const(other.owners_)[slot] != nullptr;
+    owners_.own(slot) = is_own ? std::as_const(other.owners_)[slot] : other.whole_;
+    blocks_[slot] = other.blocks_[slot];
+  }
+
+  /// Follows another field, whose layout has more blocks by now, at the end: those in its memory.
+  void follow(const VoxelField& other) {
+    owners_.grow(static_cast<std::uint32_t>(other.blocks_.size()));
+    const std::size_t before = blocks_.size();
+    blocks_.resize(other.blocks_.size());
+    for (std::size_t slot = before; slot < blocks_.size(); ++slot)
+      share_block(other, static_cast<std::uint32_t>(slot));
+    stamp_ = other.stamp_;
+  }
+
   /// Follows a layout to which blocks were added since; their voxels get a value, the others keep
   /// theirs. From then on each block has memory of its own.
   void grow(const BlockLayout& layout, Value initial = {}) {
