@@ -97,6 +97,21 @@ Plane best_plane(const TileSums& sums, int x, int y, int reach) {
   return best;
 }
 
+/// Of the tiles around one, in ascending order, the one that a quarter of them come before.
+double lower_quartile(const std::vector<double>& values) {
+  constexpr std::size_t kMost = (2 * kAround + 1) * (2 * kAround + 1);
+  std::array<double, kMost / 4 + 1> least{};  // of those so far, as many as are of interest
+  const std::size_t wanted = values.size() / 4;
+  std::size_t count = 0;
+  for (const double value : values) {
+    if (count > wanted && value >= least[wanted]) continue;
+    std::size_t place = count > wanted ? wanted : count++;
+    for (; place > 0 && least[place - 1] > value; --place) least[place] = least[place - 1];
+    least[place] = value;
+  }
+  return least[wanted];
+}
+
 /// Standard deviation of the inverse depth's noise around each tile: that of the calmer quarter of
 /// the tiles there, each by a plane of its own. Edges of objects make the others look noisier.
 std::vector<double> noise_of(const TileSums& sums) {
@@ -104,9 +119,11 @@ std::vector<double> noise_of(const TileSums& sums) {
   constexpr double kCalmQuarter = 0.74;  // lower quartile of chi squared over its mean, 13 degrees
   const auto across = static_cast<std::size_t>(sums.across());
   std::vector<double> residual(across * static_cast<std::size_t>(sums.down()));
-  for (std::size_t i = 0; i < residual.size(); ++i)
-    residual[i] =
-        fit(sums.window(static_cast<int>(i % across), static_cast<int>(i / across), 0)).residual;
+  parallel_for_each_index(static_cast<std::size_t>(sums.down()), [&](std::size_t row) {
+    for (std::size_t x = 0; x < across; ++x)
+      residual[row * across + x] =
+          fit(sums.window(static_cast<int>(x), static_cast<int>(row), 0)).residual;
+  });
   std::vector<double> noise(residual.size(), 0.0);
   parallel_for_each_index(static_cast<std::size_t>(sums.down()), [&](std::size_t row) {
     const int y = static_cast<int>(row);
@@ -120,10 +137,8 @@ std::vector<double> noise_of(const TileSums& sums) {
           if (std::isfinite(r)) around.push_back(r);
         }
       if (around.empty()) continue;
-      const auto quarter = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 4);
-      std::nth_element(around.begin(), quarter, around.end());
       noise[row * across + static_cast<std::size_t>(x)] =
-          std::sqrt(*quarter / (kCalmQuarter * (1.0 - kUnknowns)));
+          std::sqrt(lower_quartile(around) / (kCalmQuarter * (1.0 - kUnknowns)));
     }
   });
   return noise;

@@ -22,8 +22,10 @@ class DepthSurfaces {
  public:
   DepthSurfaces(const DepthImage& raw, const PinholeCamera& camera);
 
-  /// Of length one, towards the camera, in its frame; zero where there is none.
-  const Eigen::Vector3f& normal_at(int u, int v) const { return normals_[tile_[pixel(u, v)]]; }
+  /// The tile whose plane a pixel takes; one that has none where it takes none.
+  std::uint32_t tile_at(int u, int v) const { return tile_[pixel(u, v)]; }
+  /// Of a tile, of length one, towards the camera, in its frame; zero where there is none.
+  const Eigen::Vector3f& normal(std::uint32_t tile) const { return normals_[tile]; }
 
   /// The image with each depth moved onto its plane where that is no farther than noise.
   const DepthImage& image() const { return image_; }

@@ -140,15 +140,14 @@ class BlockUpdate {
     const double s = config_.voxel_size;
     const Eigen::Vector3f origin = (T_camera_map_ * centre_of(voxel_of(index, 0), s)).cast<float>();
     const Eigen::Matrix3f step = (T_camera_map_.linear() * s).cast<float>();
-    int voxel = 0;
+    int voxel = 0;  // the first of a row
     for (int z = 0; z < kBlockSide; ++z)
-      for (int y = 0; y < kBlockSide; ++y) {
+      for (int y = 0; y < kBlockSide; ++y, voxel += kBlockSide) {
         const Eigen::Vector3f row =
             origin + static_cast<float>(y) * step.col(1) + static_cast<float>(z) * step.col(2);
-        for (int x = 0; x < kBlockSide; ++x, ++voxel)
-          if (const VoxelLook::Measured m = look_.at(row + static_cast<float>(x) * step.col(0));
-              m.gain > 0.0f)
-            block.add(voxel, m.value, m.gain, config_);
+        look_.along(row, step.col(0), [&](std::size_t x, const VoxelLook::Measured& m) {
+          block.add(voxel + static_cast<int>(x), m.value, m.gain, config_);
+        });
       }
     const auto first = std::lower_bound(
         missed_.begin(), missed_.end(), index,

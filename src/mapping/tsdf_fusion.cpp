@@ -65,8 +65,9 @@ std::vector<detail::SurfacePoint> points_of(const detail::DepthSurfaces& surface
     for (int u = 0; u < image.width; ++u) {
       const auto depth = static_cast<double>(image.at(u, v));
       if (depth > 0.0)
-        points.push_back({T_map_camera * Point(depth * camera.ray(u, v)),
-                          T_map_camera.linear() * surfaces.normal_at(u, v).cast<double>()});
+        points.push_back(
+            {T_map_camera * Point(depth * camera.ray(u, v)),
+             T_map_camera.linear() * surfaces.normal(surfaces.tile_at(u, v)).cast<double>()});
     }
   return points;
 }

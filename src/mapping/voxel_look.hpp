@@ -3,9 +3,14 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "depth_surfaces.hpp"
+#include "ridgeway/common/parallel.hpp"
 #include "tsdf_blocks.hpp"
 
 namespace ridgeway::detail {
@@ -32,57 +37,112 @@ class VoxelLook {
         nearby_(static_cast<float>(1.0 * config.voxel_size)),
         truncation_(static_cast<float>(config.truncation)),
         behind_(static_cast<float>(config.depth_behind)),
-        config_(config) {}
+        config_(config),
+        sights_(image_.depth.size()) {
+    for (int u = 0; u < image_.width; ++u) ray_x_.push_back((static_cast<float>(u) - cx_) / fx_);
+    for (int v = 0; v < image_.height; ++v) ray_y_.push_back((static_cast<float>(v) - cy_) / fy_);
+    parallel_for_each_index(static_cast<std::size_t>(image_.height), [&](std::size_t row) {
+      for (int u = 0; u < image_.width; ++u) {
+        const Pixel pixel{u, static_cast<int>(row)};
+        sights_[place_of(pixel)] = sight_of(pixel);
+      }
+    });
+  }
 
   const DepthImage& image() const { return image_; }
 
-  /// By the pixel that sees the point. Asked of a million voxels an image, in line.
-  [[gnu::always_inline]] Measured at(const Eigen::Vector3f& p) const {
+  /// By the pixel that sees the point.
+  Measured at(const Eigen::Vector3f& p) const {
     Pixel pixel;
-    if (!project(p, pixel)) return {};
-    const float depth = image_.at(pixel.u, pixel.v);
-    const Eigen::Vector3f ray = ray_of(pixel);
-    const float stretch = ray.norm();
-    const float beyond = (p.z() - depth) * stretch;
-    if (depth == 0.0f || beyond > behind_) return {};
-    const Eigen::Vector3f surface = depth * ray;
-    const Eigen::Vector3f& normal = surfaces_.normal_at(pixel.u, pixel.v);
-    const float facing = -normal.dot(ray) / stretch;  // cosine of incidence; 0 without a normal
-    float value = facing > 0.0f ? normal.dot(p - surface) : -beyond;
-    if (std::abs(value) < truncation_ && facing > 0.0f &&
-        !is_surface(p - value * normal, surface)) {
-      if (value < 0.0f) return {};
-      value = truncation_;
+    return project(p, pixel) ? at(p, pixel) : Measured{};
+  }
+
+  /// Calls body(i, measured) for those of eight points in a row, `step` apart, of which something
+  /// is measured. Asked of a million voxels an image: what all of them ask first branches nowhere,
+  /// for the compiler to ask it of several at once.
+  template <typename Body>
+  void along(const Eigen::Vector3f& first, const Eigen::Vector3f& step, const Body& body) const {
+    constexpr std::size_t kRow = 8;
+    std::array<float, kRow> x, y, z, u, v;
+    for (std::size_t i = 0; i < kRow; ++i) {
+      const auto steps = static_cast<float>(static_cast<int>(i));
+      x[i] = first.x() + steps * step.x();
+      y[i] = first.y() + steps * step.y();
+      z[i] = first.z() + steps * step.z();
+      u[i] = fx_ * x[i] / z[i] + cx_ + 0.5f;
+      v[i] = fy_ * y[i] / z[i] + cy_ + 0.5f;
     }
-    if (value <= -behind_ || (value >= truncation_ && !config_.carve)) return {};
-    return {std::min(value, truncation_), gain_at(value, facing, p)};
+    for (std::size_t i = 0; i < kRow; ++i) {
+      if (!is_in_view(z[i], u[i], v[i])) continue;
+      const Measured measured =
+          at({x[i], y[i], z[i]}, {static_cast<int>(u[i]), static_cast<int>(v[i])});
+      if (measured.gain > 0.0f) body(i, measured);
+    }
   }
 
   /// By the surface that a pixel sees, no farther off than `most`; it has to see one.
   Measured by(const Pixel& pixel, const Eigen::Vector3f& p, float most) const {
-    const Eigen::Vector3f ray = ray_of(pixel);
-    const float stretch = ray.norm(), depth = image_.at(pixel.u, pixel.v);
-    const Eigen::Vector3f& normal = surfaces_.normal_at(pixel.u, pixel.v);
-    const float facing = -normal.dot(ray) / stretch;
-    const float value = facing > 0.0f ? normal.dot(p - depth * ray) : (depth - p.z()) * stretch;
+    const Sight& sight = sights_[place_of(pixel)];
+    const float value = sight.facing > 0.0f
+                            ? surfaces_.normal(sight.tile).dot(p - sight.depth * ray_of(pixel))
+                            : (sight.depth - p.z()) * sight.stretch;
     const float near = std::clamp(value, -most, most);
-    return {near, gain_at(near, facing, p)};
+    return {near, gain_at(near, sight.facing, p)};
   }
 
   Eigen::Vector3f ray_of(const Pixel& pixel) const {
-    return {(static_cast<float>(pixel.u) - cx_) / fx_, (static_cast<float>(pixel.v) - cy_) / fy_,
+    return {ray_x_[static_cast<std::size_t>(pixel.u)], ray_y_[static_cast<std::size_t>(pixel.v)],
             1.0f};
   }
 
  private:
+  /// What points ask of the pixel that sees them, many of the same one.
+  struct Sight {
+    float depth;         ///< 0: it sees nothing
+    float stretch;       ///< the ray's length over its depth
+    float facing;        ///< cosine of incidence; 0 without a normal
+    std::uint32_t tile;  ///< whose normal it is
+  };
+
+  std::size_t place_of(const Pixel& pixel) const {
+    return static_cast<std::size_t>(pixel.v) * static_cast<std::size_t>(image_.width) +
+           static_cast<std::size_t>(pixel.u);
+  }
+
+  Sight sight_of(const Pixel& pixel) const {
+    const Eigen::Vector3f ray = ray_of(pixel);
+    const float stretch = ray.norm();
+    const std::uint32_t tile = surfaces_.tile_at(pixel.u, pixel.v);
+    return {image_.at(pixel.u, pixel.v), stretch, -surfaces_.normal(tile).dot(ray) / stretch, tile};
+  }
+
+  [[gnu::always_inline]] Measured at(const Eigen::Vector3f& p, const Pixel& pixel) const {
+    const Sight& sight = sights_[place_of(pixel)];
+    const float beyond = (p.z() - sight.depth) * sight.stretch;
+    if (sight.depth == 0.0f || beyond > behind_) return {};
+    const Eigen::Vector3f& normal = surfaces_.normal(sight.tile);
+    const Eigen::Vector3f surface = sight.depth * ray_of(pixel);
+    const bool has_normal = sight.facing > 0.0f;
+    float value = has_normal ? normal.dot(p - surface) : -beyond;
+    if (std::abs(value) < truncation_ && has_normal && !is_surface(p - value * normal, surface)) {
+      if (value < 0.0f) return {};
+      value = truncation_;
+    }
+    if (value <= -behind_ || (value >= truncation_ && !config_.carve)) return {};
+    return {std::min(value, truncation_), gain_at(value, sight.facing, p)};
+  }
+
+  /// Whether a pixel sees a point at that depth.
+  bool is_in_view(float z, float u, float v) const {
+    constexpr float kNearest = 1e-3f;
+    return z >= kNearest && u >= 0.0f && v >= 0.0f && u < static_cast<float>(image_.width) &&
+           v < static_cast<float>(image_.height);
+  }
+
   /// The pixel that sees a point of the camera's frame; false outside the image.
   bool project(const Eigen::Vector3f& p, Pixel& pixel) const {
-    constexpr float kNearest = 1e-3f;
-    if (p.z() < kNearest) return false;
     const float u = fx_ * p.x() / p.z() + cx_ + 0.5f, v = fy_ * p.y() / p.z() + cy_ + 0.5f;
-    if (!(u >= 0.0f && v >= 0.0f && u < static_cast<float>(image_.width) &&
-          v < static_cast<float>(image_.height)))
-      return false;
+    if (!is_in_view(p.z(), u, v)) return false;
     pixel = {static_cast<int>(u), static_cast<int>(v)};
     return true;
   }
@@ -106,6 +166,8 @@ class VoxelLook {
   const DepthImage& image_;
   const float fx_, fy_, cx_, cy_, nearby_, truncation_, behind_;
   const FusionConfig& config_;
+  std::vector<float> ray_x_, ray_y_;  // by column, and by row
+  std::vector<Sight> sights_;         // by pixel
 };
 
 }  // namespace ridgeway::detail

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
@@ -86,9 +87,9 @@ class VoxelField {
   /// Gives a field that shares its memory a copy of a block of its own; other threads may do so
   /// with other blocks. `grow` has to have been called before.
   void own_block(std::uint32_t slot) {
-    std::shared_ptr<void> own = detail::unset_memory(kBlockVoxels * sizeof(Value));
-    std::copy_n(blocks_[slot], kBlockVoxels, static_cast<Value*>(own.get()));
-    auto* const values = static_cast<Value*>(own.get());
+    auto own = std::make_shared<OwnBlock>();
+    Value* const values = own->values.data();
+    std::uninitialized_copy_n(blocks_[slot], kBlockVoxels, values);
     owners_.own(slot) = std::move(own);
     blocks_[slot] = values;
   }
@@ -121,9 +122,9 @@ class VoxelField {
     owners_.grow(layout.block_count());
     if (blocks_.capacity() < count) blocks_.reserve(std::max(count, 2 * blocks_.capacity()));
     for (std::size_t slot = before; slot < count; ++slot) {
-      std::shared_ptr<void> own = detail::unset_memory(kBlockVoxels * sizeof(Value));
-      auto* const values = static_cast<Value*>(own.get());
-      std::fill_n(values, kBlockVoxels, initial);
+      auto own = std::make_shared<OwnBlock>();
+      Value* const values = own->values.data();
+      std::uninitialized_fill_n(values, kBlockVoxels, initial);
       owners_.own(static_cast<std::uint32_t>(slot)) = std::move(own);
       blocks_.push_back(values);
     }
@@ -159,6 +160,17 @@ class VoxelField {
   }
 
  private:
+  /// Memory of one block, in one piece with the count of its owners: as it comes, to be written.
+  struct OwnBlock {
+    OwnBlock() noexcept {}
+    OwnBlock(const OwnBlock&) = delete;
+    OwnBlock& operator=(const OwnBlock&) = delete;
+    ~OwnBlock() {}
+    union {
+      std::array<Value, kBlockVoxels> values;
+    };
+  };
+
   /// All blocks in one piece. Pages are given to it when they are first written: by the threads
   /// that do, so that none waits for all of them.
   void take_memory(std::size_t blocks, Pages pages) {
