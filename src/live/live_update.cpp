@@ -186,7 +186,7 @@ std::shared_ptr<const Roadmap> LiveRoadmap::State::built_on(Live& live, detail::
   built.edge_voxels = live.ridges.thick_count;
   built.seconds.gvd += edge_seconds;  // which are of the kernel's, that was peeled meanwhile
   built.seconds.kernel -= edge_seconds;
-  result.roadmap.attach = share(live.attach, field.esdf.layout, std::move(result.roadmap.attach));
+  result.roadmap.attach = share(live.attach, space, std::move(result.roadmap.attach));
   live.is_built = true;
   return published(std::move(result), build);
 }

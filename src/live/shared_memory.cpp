@@ -53,10 +53,9 @@ VoxelField<Direction> ways_to_build_on(LiveAttach& attach, const BlockLayout& la
   attach.next.grow(layout, AttachField::kNotTraversable);
   VoxelField<Direction> ways = attach.next.shared();
   parallel_for_each_index(
-      layout.block_count(),
+      space.slots.size(),
       [&](std::size_t i) {
-        const auto slot = static_cast<std::uint32_t>(i);
-        if (space.is_as_before[slot] != 0) return;
+        const std::uint32_t slot = space.slots[i];
         ways.own_block(slot);
         std::copy_n(next.block(slot), kBlockVoxels, ways.block(slot));
         if (!space.has_rest) return;
@@ -67,13 +66,12 @@ VoxelField<Direction> ways_to_build_on(LiveAttach& attach, const BlockLayout& la
   return ways;
 }
 
-AttachField share(LiveAttach& attach, const BlockLayout& layout, AttachField now) {
+AttachField share(LiveAttach& attach, const TouchedSpace& space, AttachField now) {
   parallel_for_each_index(
-      layout.block_count(),
+      space.slots.size(),
       [&](std::size_t i) {
-        const auto slot = static_cast<std::uint32_t>(i);
+        const std::uint32_t slot = space.slots[i];
         const Direction* fresh = now.next.block(slot);
-        if (fresh == attach.next.block(slot)) return;
         if (std::equal(fresh, fresh + kBlockVoxels, attach.next.block(slot)))
           now.next.share_block(attach.next, slot);
         else

@@ -25,7 +25,8 @@ VoxelField<Direction> ways_to_build_on(LiveAttach& attach, const BlockLayout& la
                                        const VoxelField<Direction>& next,
                                        const VoxelMask& traversable, const TouchedSpace& space);
 
-/// The field for a snapshot: in the memory of the last one where a block is the same.
-AttachField share(LiveAttach& attach, const BlockLayout& layout, AttachField now);
+/// The field for a snapshot, built on `space`: in the memory of the last one where a block is the
+/// same.
+AttachField share(LiveAttach& attach, const TouchedSpace& space, AttachField now);
 
 }  // namespace ridgeway::detail

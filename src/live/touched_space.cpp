@@ -3,7 +3,10 @@
 #include "touched_space.hpp"
 
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 #include "ridgeway/common/parallel.hpp"
 
@@ -23,7 +26,10 @@ bool touches_change(const SpacePart& part, const SegmentMemory& segments) {
 }  // namespace
 
 TouchedSpace all_touched(const LiveField& field, const LiveRidges& ridges) {
-  return {ridges.traversable, false, std::vector<std::uint8_t>(field.esdf.layout.block_count())};
+  TouchedSpace space{ridges.traversable, false, {}};
+  space.slots.resize(field.esdf.layout.block_count());
+  std::iota(space.slots.begin(), space.slots.end(), 0u);
+  return space;
 }
 
 TouchedSpace touched_space(const LiveBasins& basins, const BasinNumbers& numbers,
@@ -31,26 +37,28 @@ TouchedSpace touched_space(const LiveBasins& basins, const BasinNumbers& numbers
                            const SegmentMemory& segments) {
   const BlockLayout& layout = field.esdf.layout;
   const SpaceParts& parts = basins.parts;
-  std::vector<std::uint8_t> is_touched(parts.parts.size());
-  std::vector<std::uint8_t> is_as_before(layout.block_count(), 1);
-  bool is_all_touched = true;
+  TouchedSpace space{VoxelMask(layout), false, {}};
+  std::vector<std::uint8_t> is_touched(parts.parts.size()), is_named(layout.block_count());
+  const auto name = [&](const std::vector<std::uint32_t>& slots) {
+    for (const std::uint32_t slot : slots)
+      if (std::exchange(is_named[slot], std::uint8_t{1}) == 0) space.slots.push_back(slot);
+  };
   for (std::size_t part = 0; part < is_touched.size(); ++part) {
     if (parts.parts[part].top == 0) continue;
     is_touched[part] = touches_change(parts.parts[part], segments);
-    is_all_touched &= is_touched[part] != 0;
-    if (is_touched[part] == 0) continue;
-    for (const std::uint32_t slot : parts.parts[part].slots) is_as_before[slot] = 0;
+    if (is_touched[part] != 0)
+      name(parts.parts[part].slots);
+    else
+      space.has_rest = true;
   }
-  if (is_all_touched) return all_touched(field, ridges);
-  TouchedSpace space{VoxelMask(layout), true, std::move(is_as_before)};
+  if (!space.has_rest) return all_touched(field, ridges);
   const auto basin_is_touched = [&](std::uint32_t basin) {
     return is_touched[parts.of_basin[basin]] != 0;
   };
   parallel_for_each_index(
-      layout.block_count(),
+      space.slots.size(),
       [&](std::size_t i) {
-        if (space.is_as_before[i] != 0) return;
-        const auto slot = static_cast<std::uint32_t>(i);
+        const std::uint32_t slot = space.slots[i];
         bool all = true;
         for_each_basin(numbers, slot, [&](std::uint32_t basin) { all &= basin_is_touched(basin); });
         if (all)
@@ -61,7 +69,7 @@ TouchedSpace touched_space(const LiveBasins& basins, const BasinNumbers& numbers
           });
       },
       64);
-  for (const std::uint32_t slot : field.changed.slots) space.is_as_before[slot] = 0;
+  name(field.changed.slots);
   return space;
 }
 

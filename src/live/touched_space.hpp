@@ -15,12 +15,13 @@ namespace ridgeway::detail {
 /// a segment inside the part than the part is wide: so where nothing has changed there, all that
 /// was made of it is as it was.
 struct TouchedSpace {
-  VoxelMask touched;                       ///< parts to be built on again
-  bool has_rest = false;                   ///< whether there are others
-  std::vector<std::uint8_t> is_as_before;  ///< by block: what the last build left in it still holds
+  VoxelMask touched;                 ///< parts to be built on again
+  bool has_rest = false;             ///< whether there are others
+  std::vector<std::uint32_t> slots;  ///< of the blocks that these reach into, or that have changed;
+                                     ///< in others what the last build left still holds
 };
 
-/// All of it is touched, as if nothing had been built before.
+/// All of it, and all blocks, as if nothing had been built before.
 TouchedSpace all_touched(const LiveField& field, const LiveRidges& ridges);
 
 /// After update_basins. `segments`: which knows the blocks that have changed since the last build.

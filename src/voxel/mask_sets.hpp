@@ -83,12 +83,14 @@ inline void remove_members(VoxelMask& voxels, const VoxelMask& others) {
 
 /// Slots in which one of some sets of a layout has members, in ascending order.
 inline std::vector<std::uint32_t> slots_of_any(std::initializer_list<const VoxelMask*> sets) {
-  std::vector<std::uint8_t> has_any((*sets.begin())->block_count());
+  std::vector<std::uint64_t> has_any((*sets.begin())->block_count() / 64 + 1);  // by bit
   for (const VoxelMask* set : sets)
-    set->for_each_slot([&](std::uint32_t slot) { has_any[slot] = 1; });
+    set->for_each_slot(
+        [&](std::uint32_t slot) { has_any[slot / 64] |= std::uint64_t{1} << slot % 64; });
   std::vector<std::uint32_t> slots;
-  for (std::uint32_t slot = 0; slot < has_any.size(); ++slot)
-    if (has_any[slot] != 0) slots.push_back(slot);
+  for (std::uint32_t word = 0; word < has_any.size(); ++word)
+    for (std::uint64_t bits = has_any[word]; bits != 0; bits &= bits - 1)
+      slots.push_back(word * 64 + static_cast<std::uint32_t>(std::countr_zero(bits)));
   return slots;
 }
 
