@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "ridgeway/exploration/explorer.hpp"
+
+#include <gtest/gtest.h>
+
+#include "ridgeway/live/live_roadmap.hpp"
+
+namespace ridgeway {
+namespace {
+
+constexpr double kExplorerVoxel = 0.2;
+
+LiveRoadmap live_for_explorers() {
+  return LiveRoadmap({.fusion = {.voxel_size = kExplorerVoxel},
+                      .build = {.min_clearance = 0.5, .max_distance = 2.0},
+                      .origin = VoxelIndex{}});
+}
+
+/// A layer of voxels across a room of 12 x 6 x 3 m, at an x, up to a y.
+std::vector<VoxelChange> layer(int x, int end_y, VoxelState state) {
+  std::vector<VoxelChange> changes;
+  for (int z = 0; z < 15; ++z)
+    for (int y = 0; y < end_y; ++y) changes.push_back({{x, y, z}, state});
+  return changes;
+}
+
+/// That room, free, between a wall at x = 0 and unknown space on the other sides.
+std::vector<VoxelChange> room_behind_a_wall() {
+  std::vector<VoxelChange> changes = layer(-1, 30, VoxelState::kOccupied);
+  for (int x = 0; x < 60; ++x) {
+    const std::vector<VoxelChange> free = layer(x, 30, VoxelState::kFree);
+    changes.insert(changes.end(), free.begin(), free.end());
+  }
+  return changes;
+}
+
+/// That room with walls, floor and ceiling, so that all is seen.
+std::vector<VoxelChange> closed_room() {
+  std::vector<VoxelChange> changes;
+  for (int z = -1; z <= 15; ++z)
+    for (int y = -1; y <= 30; ++y)
+      for (int x = -1; x <= 60; ++x) {
+        const bool is_wall = x < 0 || x == 60 || y < 0 || y == 30 || z < 0 || z == 15;
+        changes.push_back({{x, y, z}, is_wall ? VoxelState::kOccupied : VoxelState::kFree});
+      }
+  return changes;
+}
+
+FlightState state_at(const Trajectory& trajectory, double time) {
+  const TrajectoryState at = trajectory.at(time);
+  return {.time = time,
+          .position = at.position,
+          .velocity = at.velocity,
+          .acceleration = at.acceleration,
+          .yaw = at.yaw};
+}
+
+/// A robot at rest at a place that the map has nearer to an obstacle than the robot's radius.
+TEST(Explorer, GoesOnFromWhereItDoesNotFitAnyMore) {
+  LiveRoadmap live = live_for_explorers();
+  live.set_voxels(room_behind_a_wall());
+  for (const double from_wall : {0.6, 0.3}) {
+    Explorer explorer({});
+    const ExplorationStep step =
+        explorer.decide(live.snapshot(), {.position = {from_wall, 3.1, 1.5}});
+    EXPECT_EQ(step.status, ExplorationStatus::kFly) << name_of(step.status) << ", " << from_wall;
+    EXPECT_FALSE(step.trajectory.segments.empty()) << from_wall;
+  }
+}
+
+/// On its way home a robot meets a wall that leaves no room to brake along its way.
+TEST(Explorer, OnItsWayHomeItIsNotStuckWhileItFlies) {
+  LiveRoadmap live = live_for_explorers();
+  live.set_voxels(closed_room());
+  ExplorerConfig config;
+  config.home = Point(1.1, 3.1, 1.5);
+  Explorer explorer(config);
+  const ExplorationStep home = explorer.decide(live.snapshot(), {.position = {10.1, 3.1, 1.5}});
+  ASSERT_EQ(home.status, ExplorationStatus::kReturn) << name_of(home.status);
+  const FlightState fast = state_at(home.trajectory, 2.0);
+  ASSERT_GT(fast.velocity.norm(), 1.5);
+  const int wall = voxel_at(fast.position, kExplorerVoxel).x - 5;
+  live.set_voxels(layer(wall, 30, VoxelState::kOccupied));
+  const ExplorationStep blocked = explorer.decide(live.snapshot(), fast);
+  EXPECT_TRUE(blocked.was_in_doubt);
+  EXPECT_EQ(blocked.status, ExplorationStatus::kKeep) << name_of(blocked.status);
+  live.set_voxels(layer(wall, 30, VoxelState::kFree));
+  live.set_voxels(layer(wall - 15, 18, VoxelState::kOccupied));  // with a way around it
+  const ExplorationStep around = explorer.decide(live.snapshot(), state_at(home.trajectory, 2.1));
+  EXPECT_EQ(around.status, ExplorationStatus::kReturn) << name_of(around.status);
+}
+
+}  // namespace
+}  // namespace ridgeway
