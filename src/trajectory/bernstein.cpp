@@ -3,16 +3,31 @@
 #include "bernstein.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 namespace ridgeway::detail {
 namespace {
 
+constexpr int kHighest = 2 * (kCoefficients - 1);  // degree of a square
+
+using Triangle = std::array<std::array<double, kHighest + 1>, kHighest + 1>;
+
+constexpr Triangle pascals_triangle() {
+  Triangle triangle{};
+  for (std::size_t n = 0; n < triangle.size(); ++n) {
+    triangle[n][0] = 1.0;
+    for (std::size_t k = 1; k <= n; ++k)
+      triangle[n][k] = triangle[n - 1][k - 1] + (k < n ? triangle[n - 1][k] : 0.0);
+  }
+  return triangle;
+}
+
+constexpr Triangle kBinomials = pascals_triangle();
+
 double binomial(int n, int k) {
-  double value = 1.0;
-  for (int i = 1; i <= k; ++i) value = value * (n - k + i) / i;
-  return value;
+  return kBinomials[static_cast<std::size_t>(n)][static_cast<std::size_t>(k)];
 }
 
 using Squares = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 19>;
@@ -20,10 +35,12 @@ using Squares = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 19>
 /// Bernstein coefficients of the squared norm: the product of two such forms has such a form.
 Squares squared_norm(const BezierPoints& curve) {
   const int n = static_cast<int>(curve.cols()) - 1;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 10, 10> products(n + 1, n + 1);
+  for (int i = 0; i <= n; ++i)
+    for (int j = i; j <= n; ++j) products(i, j) = products(j, i) = curve.col(i).dot(curve.col(j));
   Squares squares = Squares::Zero(2 * n + 1);
   for (int i = 0; i <= n; ++i)
-    for (int j = 0; j <= n; ++j)
-      squares(i + j) += binomial(n, i) * binomial(n, j) * curve.col(i).dot(curve.col(j));
+    for (int j = 0; j <= n; ++j) squares(i + j) += binomial(n, i) * binomial(n, j) * products(i, j);
   for (int k = 0; k <= 2 * n; ++k) squares(k) /= binomial(2 * n, k);
   return squares;
 }
@@ -53,24 +70,30 @@ double largest_norm(const BezierPoints& curve) {
   constexpr double kLeast = 1e-18;
   constexpr int kDeepest = 40;
   struct Part {
+    explicit Part(int deep) : depth(deep) {}
     Squares squares;
+    double high = 0.0;  // the largest of them
     int depth;
   };
-  std::vector<Part> parts{{squared_norm(curve), 0}};
+  std::vector<Part> parts(1, Part(0));
+  parts.reserve(kDeepest + 1);
+  parts[0].squares = squared_norm(curve);
+  parts[0].high = parts[0].squares.maxCoeff();
   double reached = std::max(parts[0].squares(0), parts[0].squares(parts[0].squares.size() - 1));
   double bound = reached;
   while (!parts.empty()) {
     const Part part = parts.back();
     parts.pop_back();
-    const double high = part.squares.maxCoeff();
-    if (high <= reached * (1.0 + kShare) + kLeast || part.depth == kDeepest) {
-      bound = std::max(bound, high);
+    if (part.high <= reached * (1.0 + kShare) + kLeast || part.depth == kDeepest) {
+      bound = std::max(bound, part.high);
       continue;
     }
-    Part left{{}, part.depth + 1}, right{{}, part.depth + 1};
+    Part left(part.depth + 1), right(part.depth + 1);
     halve(part.squares, left.squares, right.squares);
+    left.high = left.squares.maxCoeff();
+    right.high = right.squares.maxCoeff();
     reached = std::max(reached, right.squares(0));
-    const bool left_first = left.squares.maxCoeff() > right.squares.maxCoeff();
+    const bool left_first = left.high > right.high;
     parts.push_back(left_first ? right : left);  // the higher one is on top: it raises `reached`
     parts.push_back(left_first ? left : right);
   }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "spline_objective.hpp"
 
+#include <array>
 #include <cmath>
 
 namespace ridgeway {
@@ -21,6 +22,30 @@ double excess(const Eigen::Vector3d& vector, double limit, double weight, Row&& 
   return weight * over * over;
 }
 
+SplineObjective::Basis make_basis(Smoothness smoothness) {
+  const auto& from_ends = unit_coefficients(smoothness);
+  const int n = static_cast<int>(from_ends.rows());
+  SplineObjective::Basis basis;
+  for (int i = 0; i <= SplineObjective::kSamples; ++i) {
+    const double u = static_cast<double>(i) / SplineObjective::kSamples;
+    Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 10> powers(4, n);
+    for (int order = 0; order < 4; ++order)
+      for (int k = 0; k < n; ++k) {
+        double factor = k < order ? 0.0 : std::pow(u, k - order);
+        for (int j = 0; j < order; ++j) factor *= k - j;
+        powers(order, k) = factor;
+      }
+    basis.emplace_back(powers * from_ends);
+  }
+  return basis;
+}
+
+const SplineObjective::Basis& sample_basis(Smoothness smoothness) {
+  static const SplineObjective::Basis jerk = make_basis(Smoothness::kJerk);
+  static const SplineObjective::Basis snap = make_basis(Smoothness::kSnap);
+  return smoothness == Smoothness::kJerk ? jerk : snap;
+}
+
 }  // namespace
 
 Potential obstacle_potential(double distance, double radius, double margin) {
@@ -36,21 +61,8 @@ SplineObjective::SplineObjective(SpaceSpline spline, const SplineCostConfig& con
       config_(config),
       field_(field),
       time_unit_(config.limits.max_speed / config.limits.max_acceleration),
-      length_unit_(config.limits.max_speed * time_unit_) {
-  const auto& from_ends = unit_coefficients(config_.smoothness);
-  const int n = static_cast<int>(from_ends.rows());
-  for (int i = 0; i <= kSamples; ++i) {
-    const double u = static_cast<double>(i) / kSamples;
-    Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 10> powers(4, n);
-    for (int order = 0; order < 4; ++order)
-      for (int k = 0; k < n; ++k) {
-        double factor = k < order ? 0.0 : std::pow(u, k - order);
-        for (int j = 0; j < order; ++j) factor *= k - j;
-        powers(order, k) = factor;
-      }
-    basis_.emplace_back(powers * from_ends);
-  }
-}
+      length_unit_(config.limits.max_speed * time_unit_),
+      basis_(sample_basis(config.smoothness)) {}
 
 std::size_t SplineObjective::variable_count() const {
   std::size_t count = spline_.durations.size();
@@ -112,11 +124,15 @@ void SplineObjective::add_segment(std::size_t segment) {
     ends.row(order) *= power;
     ends.row(rows + order) *= power;
   }
+  std::array<double, 5> powers{};  // of the duration
+  for (int order = 0; order < rows; ++order)
+    powers[static_cast<std::size_t>(order)] = std::pow(T, order);
   Ends by_ends = Ends::Zero(2 * rows, 3);
   for (int i = 0; i <= kSamples; ++i) {
     const auto& basis = basis_[static_cast<std::size_t>(i)];
     Sample at = basis * ends, gradient;
-    for (int order = 1; order < 4; ++order) at.row(order) /= std::pow(T, order);
+    for (int order = 1; order < 4; ++order)
+      at.row(order) /= powers[static_cast<std::size_t>(order)];
     const double share = (i == 0 || i == kSamples ? 0.5 : 1.0) / kSamples;
     const Density cost = density(at, gradient);
     terms_.collision += share * T * cost.collision;
@@ -124,7 +140,7 @@ void SplineObjective::add_segment(std::size_t segment) {
     double by_duration = cost.collision + cost.limits;
     for (int order = 1; order < 4; ++order) {
       by_duration -= order * gradient.row(order).dot(at.row(order));
-      gradient.row(order) /= std::pow(T, order);
+      gradient.row(order) /= powers[static_cast<std::size_t>(order)];
     }
     by_durations_[segment] += share * by_duration;
     by_ends += share * T * basis.transpose() * gradient;

@@ -56,6 +56,8 @@ Potential obstacle_potential(double distance, double radius, double margin);
 class SplineObjective {
  public:
   static constexpr int kSamples = 10;
+  /// For each sample: unit-time position and derivatives from the derivatives at the ends.
+  using Basis = std::vector<Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 10>>;
 
   /// References must outlive it. Throws as MinimumSpline does.
   SplineObjective(SpaceSpline spline, const SplineCostConfig& config, const DistanceField& field);
@@ -87,8 +89,7 @@ class SplineObjective {
   CostTerms terms_;
   Eigen::MatrixXd by_derivatives_;
   std::vector<double> by_durations_;
-  /// For each sample: unit-time position and derivatives from the derivatives at the ends.
-  std::vector<Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 10>> basis_;
+  const Basis& basis_;
 };
 
 }  // namespace ridgeway
