@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "field_along.hpp"
+
 namespace ridgeway::detail {
 namespace {
 
@@ -19,17 +21,16 @@ double volume_along(const EsdfMap& esdf, const VoxelRange& within, const Point& 
                     const Eigen::Vector3d& direction, double range) {
   const double s = esdf.voxel_size, step = std::max(kStep, s);
   const double kept = std::exp(-step / kMeanFree);
-  VoxelFinder finder(esdf.layout);
+  FieldAlong field(esdf);
   double volume = 0.0, gets_on = 1.0;
   for (double t = 0.0; t < range && gets_on > kNegligible;) {
     const VoxelIndex voxel = voxel_at(from + t * direction, s);
-    const VoxelId id = finder.find(voxel);
-    const VoxelState state = id == kNoVoxel ? VoxelState::kUnknown : esdf.state[id];
-    if (state == VoxelState::kOccupied) break;
-    if (state == VoxelState::kFree) {
-      t += std::max(esdf.distance(id) - 2.0 * s, step);
+    field.move_to(voxel);
+    if (field.squared() != 0) {  // free
+      t += std::max(field.distance() - 2.0 * s, step);
       continue;
     }
+    if (field.is_occupied()) break;
     if (!within.contains(voxel + esdf.origin)) break;
     const double share = t / range;
     volume += gets_on * (1.0 - share * share) * t * t * step;

@@ -6,6 +6,7 @@
 #include "explorer_state.hpp"
 #include "glances.hpp"
 #include "ray_walk.hpp"
+#include "ridgeway/common/parallel.hpp"
 #include "shaped_trajectory.hpp"
 
 namespace ridgeway {
@@ -34,21 +35,27 @@ void Explorer::State::count_looks(const Point& from, int heading, double share, 
                                   const Place* standing) {
   const double s = roadmap->esdf.voxel_size;
   const double reach = share * config.view.range;
-  std::vector<VoxelIndex> hopeless;
-  for (const FrontierPart& part : frontiers.parts()) {
-    if ((part.centroid - from).norm() > reach + kBlockSide * s) continue;
-    bool is_seen = false;
-    for (const VoxelIndex& target : part.targets) {
+  std::vector<const FrontierPart*> near;
+  for (const FrontierPart& part : frontiers.parts())
+    if ((part.centroid - from).norm() <= reach + kBlockSide * s) near.push_back(&part);
+  std::vector<std::vector<VoxelIndex>> seen(near.size());  // targets, by part
+  parallel_for_each_index(near.size(), [&](std::size_t i) {
+    for (const VoxelIndex& target : near[i]->targets) {
       const Point centre = centre_of(target, s);
-      if ((centre - from).norm() > reach) continue;
-      if ((views.headings_to(from, centre) >> heading & 1) == 0) continue;
-      if (!detail::sees(roadmap->esdf, from, target)) continue;
-      is_seen = true;
+      if ((centre - from).norm() <= reach &&
+          (views.headings_to(from, centre) >> heading & 1) != 0 &&
+          detail::sees(roadmap->esdf, from, target))
+        seen[i].push_back(target);
+    }
+  });
+  std::vector<VoxelIndex> hopeless;
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    for (const VoxelIndex& target : seen[i]) {
       int& count = looks[target];
       count += weight;
       if (count >= config.most_looks) hopeless.push_back(target);
     }
-    if (is_seen && standing != nullptr) views.ban(*standing, part);
+    if (!seen[i].empty() && standing != nullptr) views.ban(*standing, *near[i]);
   }
   if (hopeless.empty()) return;
   frontiers.ignore(hopeless);

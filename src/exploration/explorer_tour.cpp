@@ -66,15 +66,15 @@ std::vector<Explorer::State::TourStop> Explorer::State::cover(const detail::Ways
   };
   std::priority_queue<Stop, std::vector<Stop>, decltype(is_worse)> queue(is_worse);
   std::vector<TourStop> reach(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (views.from_places()[i].empty()) continue;
-    if (std::find(refused.begin(), refused.end(), places[i].id) != refused.end()) continue;
+  parallel_for_each_index(places.size(), [&](std::size_t i) {
+    if (views.from_places()[i].empty()) return;
+    if (std::find(refused.begin(), refused.end(), places[i].id) != refused.end()) return;
     const Access access = detail::access_of(*roadmap, roadmap->esdf.layout.find(places[i].voxel));
     const double length = ways.to(places[i].position, access);
-    if (!std::isfinite(length)) continue;
-    reach[i] = {{}, access, length};
-    if (const Stop stop = views.best_heading(i, covered); stop.gain > 0.0) queue.push(stop);
-  }
+    if (std::isfinite(length)) reach[i] = {views.best_heading(i, covered), access, length};
+  });
+  for (const TourStop& stop : reach)
+    if (stop.stop.gain > 0.0) queue.push(stop.stop);
   std::vector<TourStop> stops;
   while (!queue.empty()) {
     const Stop top = queue.top();
@@ -131,17 +131,17 @@ std::vector<std::size_t> Explorer::State::order(const std::vector<TourStop>& sto
                                                 const FlightState& state, double& seconds) const {
   detail::TourCosts costs;
   for (const TourStop& stop : stops) costs.first.push_back(seconds_from_robot(stop, state));
-  for (const TourStop& from : stops) {
+  costs.between.resize(stops.size());
+  parallel_for_each_index(stops.size(), [&](std::size_t i) {
+    const TourStop& from = stops[i];
     const Point& at = places[from.stop.place].position;
     const detail::WaysFrom ways(*roadmap, at, from.access);
-    std::vector<double> row;
-    row.reserve(stops.size());
+    costs.between[i].reserve(stops.size());
     for (const TourStop& to : stops)
-      row.push_back(detail::seconds_of_leg(
+      costs.between[i].push_back(detail::seconds_of_leg(
           config.limits, &from == &to ? 0.0 : ways.to(places[to.stop.place].position, to.access),
           detail::turn_between(views.yaw_of(from.stop.heading), views.yaw_of(to.stop.heading))));
-    costs.between.push_back(std::move(row));
-  }
+  });
   for (const TourStop& stop : stops) costs.gain.push_back(stop.expected);
   std::vector<std::size_t> tour = detail::best_tour(costs);
   seconds = detail::seconds_of(costs, tour);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "block_masks.hpp"
+#include "ridgeway/common/parallel.hpp"
 #include "ridgeway/voxel/neighbourhood.hpp"
 
 namespace ridgeway {
@@ -83,7 +84,9 @@ void Frontiers::update(std::shared_ptr<const Roadmap> roadmap) {
   }
   std::sort(affected.begin(), affected.end());
   affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
-  for (const BlockIndex& block : affected) remake(block);
+  std::vector<Entry> made(affected.size());
+  parallel_for_each_index(made.size(), [&](std::size_t i) { made[i] = entry_of(affected[i]); });
+  for (std::size_t i = 0; i < made.size(); ++i) replace(affected[i], std::move(made[i]));
   for (const BlockIndex& block : affected) link(block);
   gather();
 }
@@ -158,7 +161,8 @@ std::vector<FrontierPart> Frontiers::parts_in(const BlockIndex& block, Entry& en
   return parts;
 }
 
-void Frontiers::remake(const BlockIndex& block) {
+/// Of a block as it is now; its parts are of the versions in which they were the same.
+Frontiers::Entry Frontiers::entry_of(const BlockIndex& block) const {
   Entry entry;
   entry.version = version_;
   entry.made = parts_in(block, entry);
@@ -169,8 +173,13 @@ void Frontiers::remake(const BlockIndex& block) {
       for (FrontierPart& part : entry.made)
         if (old.voxels == part.voxels && old.centroid == part.centroid &&
             old.targets == part.targets)
-          part.version = old.version;  // it is the same
+          part.version = old.version;
     }
+  return entry;
+}
+
+void Frontiers::replace(const BlockIndex& block, Entry entry) {
+  const auto found = entries_.find(block);
   const auto drop_links_to = [&](const Entry& gone) {
     for (int d = 0; d < kCentre; ++d)
       if (const auto before = entries_.find(block_at(block, d)); before != entries_.end())

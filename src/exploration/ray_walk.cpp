@@ -4,10 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+
+#include "field_along.hpp"
 
 namespace ridgeway::detail {
 namespace {
+
+constexpr std::uint32_t kTwoVoxels = 16;  // squared half voxels
 
 /// How far along a ray its voxel is left, from where it is at a point.
 double way_out(const Point& p, const VoxelIndex& voxel, const Eigen::Vector3d& direction,
@@ -31,14 +36,15 @@ bool sees(const EsdfMap& esdf, const Point& from, const VoxelIndex& target) {
   if (length == 0.0) return true;
   const Eigen::Vector3d direction = (to - from) / length;
   const double nudge = 1e-7 * s;  // into the next voxel
-  VoxelFinder finder(esdf.layout);
+  FieldAlong field(esdf);
   for (double t = 0.0; t < length;) {
     const Point p = from + t * direction;
     const VoxelIndex voxel = voxel_at(p, s);
     if (voxel == target) return true;
-    const VoxelId id = finder.find(voxel);
-    if (id == kNoVoxel || esdf.state[id] != VoxelState::kFree) return false;
-    const double free = esdf.distance(id) - (p - centre_of(voxel, s)).norm();
+    field.move_to(voxel);
+    if (field.squared() == 0) return false;
+    const double free =
+        field.squared() > kTwoVoxels ? field.distance() - (p - centre_of(voxel, s)).norm() : 0.0;
     t += free > 2.0 * s ? free : way_out(p, voxel, direction, s) + nudge;
   }
   return true;

@@ -35,13 +35,26 @@ std::uint64_t id_of(const VoxelIndex& voxel) {
   return kOffDiagram | bits(voxel.z) << 42 | bits(voxel.y) << 21 | bits(voxel.x);
 }
 
-void offer(std::map<BlockIndex, Candidate>& best, const VoxelIndex& voxel, std::uint32_t squared,
-           int side) {
-  const auto [found, is_new] = best.try_emplace(cube_of(voxel, side), Candidate{voxel, squared});
-  Candidate& now = found->second;
-  if (!is_new && (squared > now.squared || (squared == now.squared && voxel < now.voxel)))
-    now = {voxel, squared};
-}
+/// The widest voxel of each cube, of those that are offered.
+class Widest {
+ public:
+  explicit Widest(int side) : side_(side) {}
+
+  void offer(const VoxelIndex& voxel, std::uint32_t squared) {
+    const BlockIndex cube = cube_of(voxel, side_);
+    if (last_ == of_cube_.end() || last_->first != cube)  // mostly it is that of the one before
+      last_ = of_cube_.try_emplace(cube, Candidate{voxel, squared}).first;
+    Candidate& now = last_->second;
+    if (squared > now.squared || (squared == now.squared && voxel < now.voxel))
+      now = {voxel, squared};
+  }
+  const std::map<BlockIndex, Candidate>& of_cube() const { return of_cube_; }
+
+ private:
+  int side_;
+  std::map<BlockIndex, Candidate> of_cube_;
+  std::map<BlockIndex, Candidate>::iterator last_ = of_cube_.end();
+};
 
 }  // namespace
 
@@ -51,7 +64,7 @@ void DiagramPlaces::update(const Roadmap& roadmap) {
   origin_ = esdf.origin;
   const int side = side_of(spacing_, esdf.voxel_size);
   const SquaredHalves threshold = least_clearance(roadmap.min_clearance, esdf.voxel_size);
-  std::map<BlockIndex, Candidate> best;
+  Widest best(side);
   for (std::uint32_t slot = 0; slot < esdf.layout.block_count(); ++slot)
     for (std::uint32_t z = 0; z < kBlockSide; ++z)
       for (std::uint64_t bits = roadmap.diagram.voxels.block(slot)[z]; bits != 0;
@@ -59,10 +72,10 @@ void DiagramPlaces::update(const Roadmap& roadmap) {
         const VoxelId id =
             slot * kBlockVoxels + z * 64 + static_cast<VoxelId>(std::countr_zero(bits));
         if (esdf.is_open(id) && esdf.squared[id] >= threshold)
-          offer(best, esdf.layout.index_of(id), esdf.squared[id], side);
+          best.offer(esdf.layout.index_of(id), esdf.squared[id]);
       }
   std::map<BlockIndex, Place> now;
-  for (const auto& [cube, candidate] : best) {
+  for (const auto& [cube, candidate] : best.of_cube()) {
     const auto before = of_cube_.find(cube);
     if (before != of_cube_.end()) {
       const VoxelId id = esdf.layout.find(before->second.voxel);
@@ -84,13 +97,13 @@ std::vector<Place> widest_places(const Roadmap& roadmap, double spacing) {
   const EsdfMap& esdf = roadmap.esdf;
   const int side = side_of(spacing, esdf.voxel_size);
   const SquaredHalves threshold = least_clearance(roadmap.min_clearance, esdf.voxel_size);
-  std::map<BlockIndex, Candidate> best;
+  Widest best(side);
   for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
     if (esdf.is_open(id) && esdf.squared[id] >= threshold)
-      offer(best, esdf.layout.index_of(id), esdf.squared[id], side);
+      best.offer(esdf.layout.index_of(id), esdf.squared[id]);
   std::vector<Place> places;
-  places.reserve(best.size());
-  for (const auto& [cube, candidate] : best)
+  places.reserve(best.of_cube().size());
+  for (const auto& [cube, candidate] : best.of_cube())
     places.push_back(
         {id_of(candidate.voxel), candidate.voxel, centre_of(candidate.voxel, esdf.voxel_size)});
   return places;

@@ -9,14 +9,11 @@
 #include <utility>
 
 #include "ray_walk.hpp"
+#include "ridgeway/common/parallel.hpp"
 
 namespace ridgeway::detail {
 namespace {
 
-constexpr std::size_t kTargets = 6;       // of a part, that are looked at
-constexpr std::size_t kMostTargets = 64;  // that coverage tells apart
-constexpr std::size_t kNearPlaces = 24;   // that are asked for every part
-constexpr std::size_t kFarPlaces = 64;    // and where none of these sees it
 constexpr double kEdge = 0.97;  // of the angles of view: what is at the edge may be missed
 
 Bounds bounds_of(const BlockIndex& block, double voxel_size) {
@@ -33,6 +30,7 @@ Views::Views(const FieldOfView& view, int headings, const VoxelRange& within, do
       within_(within),
       deepest_(deepest),
       steepest_(std::tan(0.5 * kEdge * view.vertical)),
+      steepest_to_edge_(std::tan(0.5 * view.vertical)),
       least_cosine_(std::cos(0.5 * kEdge * view.horizontal)) {
   for (int heading = 0; heading < headings; ++heading)
     forward_.emplace_back(std::cos(yaw_of(heading)), std::sin(yaw_of(heading)));
@@ -118,13 +116,17 @@ void Views::follow_places(std::span<const Place> places) {
 
 /// What was seen across a place that has changed is to be looked at again.
 void Views::mark_changed(const Roadmap& roadmap, const Bounds& changed) {
-  for (auto& [first, views] : of_part_) {
+  std::vector<std::pair<BlockIndex, PartViews*>> parts;
+  parts.reserve(of_part_.size());
+  for (auto& [first, views] : of_part_) parts.emplace_back(block_of(first), &views);
+  parallel_for_each_index(parts.size(), [&](std::size_t i) {
+    PartViews& views = *parts[i].second;
     if (places_changed_) {
       for (Candidate& candidate : views.candidates) candidate.place = now_at_[candidate.place];
       std::erase_if(views.candidates, [](const Candidate& c) { return c.place == kGone; });
     }
-    const Bounds part = bounds_of(block_of(first), roadmap.esdf.voxel_size);
-    if (!part.widened(view_.range).meets(changed)) continue;
+    const Bounds part = bounds_of(parts[i].first, roadmap.esdf.voxel_size);
+    if (!part.widened(view_.range).meets(changed)) return;
     for (const Candidate& candidate : views.candidates) {
       if (candidate.cached < 0) continue;
       Cached& cached = views.cached[static_cast<std::size_t>(candidate.cached)];
@@ -133,7 +135,7 @@ void Views::mark_changed(const Roadmap& roadmap, const Bounds& changed) {
       way.add(places_[candidate.place].position);
       cached.is_stale = way.meets(changed);
     }
-  }
+  });
 }
 
 bool Views::is_candidate(const EsdfMap& esdf, const FrontierPart& part, const Place& place,
@@ -146,7 +148,7 @@ bool Views::is_candidate(const EsdfMap& esdf, const FrontierPart& part, const Pl
   distance = std::sqrt(squared);
   if (distance < view_.nearest - extent) return false;
   const double level = std::sqrt(way.x() * way.x() + way.y() * way.y());
-  if (std::abs(way.z()) > std::tan(0.5 * view_.vertical) * (level + extent) + extent) return false;
+  if (std::abs(way.z()) > steepest_to_edge_ * (level + extent) + extent) return false;
   const double normal = part.normal.norm();
   return normal <= 0.5 || part.normal.dot(way) <= kBehind * normal * distance;
 }
@@ -176,6 +178,7 @@ std::vector<Views::Waiting> Views::follow_parts(const Roadmap& roadmap, const Fr
                                                 const Bounds& changed) {
   const std::span<const FrontierPart> parts = frontiers.parts();
   std::vector<Waiting> waiting;
+  std::vector<std::uint8_t> are_new;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const FrontierPart& part = parts[i];
     if (frontiers.clusters()[part.cluster].voxels < least) continue;
@@ -190,100 +193,21 @@ std::vector<Views::Waiting> Views::follow_parts(const Roadmap& roadmap, const Fr
         views.banned = found->second;
     }
     views.live = updates_;
-    find_candidates(roadmap.esdf, part, is_new, views);
-    const Bounds around = bounds_of(part.block, roadmap.esdf.voxel_size).widened(deepest_);
-    if (is_new || around.meets(changed))
-      views.worth = depth_behind(roadmap.esdf, within_, part, deepest_);
+    are_new.push_back(is_new);
     waiting.push_back({(part.centroid - near).squaredNorm(), i, &views});
   }
+  parallel_for_each_index(waiting.size(), [&](std::size_t i) {
+    const FrontierPart& part = parts[waiting[i].part];
+    PartViews& views = *waiting[i].views;
+    find_candidates(roadmap.esdf, part, are_new[i] != 0, views);
+    const Bounds around = bounds_of(part.block, roadmap.esdf.voxel_size).widened(deepest_);
+    if (are_new[i] != 0 || around.meets(changed))
+      views.worth = depth_behind(roadmap.esdf, within_, part, deepest_);
+  });
   std::sort(waiting.begin(), waiting.end(), [](const Waiting& a, const Waiting& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.part < b.part;
   });
   return waiting;
-}
-
-/// Calls visit(candidate) for the places that are asked for a part, as long as it says true.
-template <typename Visit>
-void Views::for_each_asked(PartViews& views, const Visit& visit) const {
-  bool is_seen = false;
-  std::size_t asked = 0;
-  for (Candidate& candidate : views.candidates) {
-    if (!views.thorough && asked >= (is_seen ? kNearPlaces : kFarPlaces)) return;
-    ++asked;
-    const auto& banned = views.banned;
-    if (!banned.empty() &&
-        std::find(banned.begin(), banned.end(), places_[candidate.place].id) != banned.end())
-      continue;
-    if (!visit(candidate)) return;
-    if (candidate.cached >= 0 &&
-        !views.cached[static_cast<std::size_t>(candidate.cached)].rays.empty())
-      is_seen = true;
-  }
-}
-
-/// Casts the rays that are missing, part by part, as long as there are some left.
-bool Views::serve(const Roadmap& roadmap, std::span<const FrontierPart> parts,
-                  std::span<const Waiting> waiting, std::size_t& rays_left) const {
-  for (const Waiting& next : waiting) {
-    bool is_served = true;
-    for_each_asked(*next.views, [&](Candidate& candidate) {
-      is_served = look(roadmap, parts[next.part], candidate, *next.views, rays_left);
-      return is_served;
-    });
-    if (!is_served) return false;
-    next.views->served = updates_ + 1;
-  }
-  return true;
-}
-
-/// What is seen of a part from a place, if that is not known; false where rays do not suffice.
-bool Views::look(const Roadmap& roadmap, const FrontierPart& part, Candidate& candidate,
-                 PartViews& views, std::size_t& rays_left) const {
-  if (candidate.cached >= 0 && !views.cached[static_cast<std::size_t>(candidate.cached)].is_stale)
-    return true;
-  const Point& from = places_[candidate.place].position;
-  const std::size_t count = part.targets.size();
-  const std::size_t looks = views.thorough ? count : std::min(count, kTargets);
-  if (rays_left < looks) return false;
-  if (candidate.cached < 0) {
-    candidate.cached = static_cast<std::int32_t>(views.cached.size());
-    views.cached.emplace_back();
-  }
-  Cached& cached = views.cached[static_cast<std::size_t>(candidate.cached)];
-  cached.rays.clear();
-  cached.is_stale = false;
-  cached.all_seen = true;
-  for (std::size_t i = 0; i < looks; ++i) {
-    const VoxelIndex& target = part.targets[i * count / looks];
-    const Point centre = centre_of(target, roadmap.esdf.voxel_size);
-    const std::uint32_t headings = headings_to(from, centre);
-    if (headings == 0) continue;  // does not depend on the map
-    --rays_left;
-    if (sees(roadmap.esdf, from, target))
-      cached.rays.push_back(
-          {headings, static_cast<std::uint8_t>(i % kMostTargets),
-           static_cast<float>(static_cast<double>(part.voxels) *
-                              share_from((centre - from).norm()) / static_cast<double>(looks))});
-    else
-      cached.all_seen = false;
-  }
-  return true;
-}
-
-/// What is seen from each place, of all that is known of that.
-void Views::gather(std::span<const Waiting> waiting) {
-  from_places_.assign(places_.size(), {});
-  for (const Waiting& next : waiting)
-    for_each_asked(*next.views, [&](const Candidate& candidate) {
-      if (candidate.cached < 0) return true;
-      const Cached& cached = next.views->cached[static_cast<std::size_t>(candidate.cached)];
-      if (!cached.rays.empty())
-        from_places_[candidate.place].push_back({next.part, cached.rays, next.views->worth});
-      return true;
-    });
-  for (std::vector<Sight>& sights : from_places_)
-    std::sort(sights.begin(), sights.end(),
-              [](const Sight& a, const Sight& b) { return a.part < b.part; });
 }
 
 bool Views::update(const Roadmap& roadmap, const Frontiers& frontiers, std::size_t least,
@@ -308,30 +232,6 @@ bool Views::update(const Roadmap& roadmap, const Frontiers& frontiers, std::size
   part_count_ = parts.size();
   gather(waiting);
   return all_served;
-}
-
-double Views::gain_now(const Roadmap& roadmap, const Frontiers& frontiers, std::size_t least,
-                       const Place& place, int heading) const {
-  double gain = 0.0;
-  for (const FrontierPart& part : frontiers.parts()) {
-    if (frontiers.clusters()[part.cluster].voxels < least) continue;
-    if (is_banned(place, part)) continue;
-    const double reach = view_.range + kBlockSide * roadmap.esdf.voxel_size;
-    if ((part.centroid - place.position).squaredNorm() > reach * reach) continue;
-    const std::size_t count = part.targets.size(), looks = std::min(count, kTargets);
-    double seen = 0.0;
-    for (std::size_t i = 0; i < looks; ++i) {
-      const VoxelIndex& target = part.targets[i * count / looks];
-      const Point centre = centre_of(target, roadmap.esdf.voxel_size);
-      if ((headings_to(place.position, centre) >> heading & 1) != 0 &&
-          sees(roadmap.esdf, place.position, target))
-        seen += share_from((centre - place.position).norm());
-    }
-    if (seen > 0.0)
-      gain += static_cast<double>(part.voxels) * seen / static_cast<double>(looks) *
-              depth_behind(roadmap.esdf, within_, part, deepest_);
-  }
-  return gain;
 }
 
 Stop Views::best_heading(std::size_t place, std::span<const std::uint64_t> covered) const {

@@ -139,6 +139,10 @@ class Views {
   void for_each_asked(PartViews& views, const Visit& visit) const;
   bool serve(const Roadmap& roadmap, std::span<const FrontierPart> parts,
              std::span<const Waiting> waiting, std::size_t& rays_left) const;
+  bool serve(const Roadmap& roadmap, const FrontierPart& part, PartViews& views,
+             std::size_t& rays_left) const;
+  static std::size_t looks_at(const FrontierPart& part, const PartViews& views);
+  static std::size_t most_rays_of(const FrontierPart& part, const PartViews& views);
   bool look(const Roadmap& roadmap, const FrontierPart& part, Candidate& candidate,
             PartViews& views, std::size_t& rays_left) const;
   void gather(std::span<const Waiting> waiting);
@@ -147,7 +151,7 @@ class Views {
   int headings_;
   VoxelRange within_;
   double deepest_;
-  double steepest_, least_cosine_;
+  double steepest_, steepest_to_edge_, least_cosine_;
   std::vector<Eigen::Vector2d> forward_;                      ///< by heading
   std::map<VoxelIndex, PartViews> of_part_;                   ///< by the part's first voxel
   std::map<PartVersion, std::vector<std::uint64_t>> banned_;  ///< ids of places

@@ -91,7 +91,8 @@ class Frontiers {
 
   std::vector<BlockIndex> find_changed(const Roadmap& now);
   VoxelMask::Block unknown_in(const BlockIndex& block) const;
-  void remake(const BlockIndex& block);
+  Entry entry_of(const BlockIndex& block) const;
+  void replace(const BlockIndex& block, Entry entry);
   std::vector<FrontierPart> parts_in(const BlockIndex& block, Entry& entry) const;
   void link(const BlockIndex& block);
   static void link(Entry& entry, const Entry& beyond, const VoxelIndex& step);
