@@ -14,6 +14,12 @@ struct CellEffort {
   double over;     ///< length of what is known over what may be expected: below, it is not done
 };
 
+/// How hard voxels are searched.
+struct VoxelEffort {
+  double weight;    ///< of A*'s heuristic
+  int most_voxels;  ///< taken before the search gives up: a thousand take a third of a millisecond
+};
+
 /// What queries, and the learning of corners for them, trade length against time by: every number
 /// that could as well be another one. Each says its unit and what more of it costs. Lengths are in
 /// voxels or radii; `docs/performance.md` has what each is worth.
@@ -22,19 +28,20 @@ struct PlanningConstants {
   double cell_room = 1.5;      ///< voxels beyond the widest radius that a cell's place may be wide
   double cell_centring = 0.5;  ///< voxels of width that a voxel off the middle is worth
   /// One after the other: the first finds most ways; one that goes straighter for the goal gets
-  /// there where that gave up; the last is wider, for what is still long.
-  std::array<CellEffort, 3> cell_efforts{{{1.35, 400, 1.05}, {2.0, 800, 1.05}, {1.2, 1500, 1.12}}};
+  /// there where that gave up.
+  std::array<CellEffort, 2> cell_efforts{{{1.35, 400, 1.05}, {2.0, 800, 1.05}}};
   /// Where those gave up and the graph's is long: straighter than the last, so that it gets there.
   CellEffort last_cell_effort{1.35, 16000, 1.15};
   double landmark_share = 0.93;  ///< of lengths by landmarks that paths are hardly shorter than
 
   // What a query tries (planning/answering.cpp). Lengths over what a path may be expected to have.
   double near = 1.05;  ///< good enough: nothing else is asked, nor ways past what blocks it tried
-  double far = 1.12;   ///< too long to be believed: the sparse graph is searched as well
-  double as_found = 1.1;       ///< a route over cells or corners over its tight path, at most
-  int voxel_reach = 40;        ///< voxels that ends are apart at most for a search over voxels
-  int most_voxels = 3700;      ///< taken by it before it gives up: a millisecond
-  double voxel_weight = 1.15;  ///< of A*'s heuristic over voxels: 1 seldom gets there in the limit
+  double far = 1.15;   ///< too long to be believed: the sparse graph is searched as well
+  double as_found = 1.1;  ///< a route over cells, corners or voxels over its tight path, at most
+  CellEffort guide{1.2, 700, 1.12};  ///< of the search over cells that guides one over voxels
+  VoxelEffort guided{0.97, 2500};    ///< of that one; what guides it says a little too much
+  int voxel_reach = 40;              ///< voxels that ends are apart at most for one without a guide
+  VoxelEffort unguided{1.15, 3700};  ///< of that one, the last of all: in clutter guides mislead
 
   // Ways past what blocks a stretch (planning/detour.cpp).
   int detour_rays = 6;             ///< around the stretch

@@ -12,6 +12,7 @@
 #include "paths/shorten.hpp"
 #include "query.hpp"
 #include "ridgeway/esdf/free_space.hpp"
+#include "roadmap/cell_guide.hpp"
 #include "roadmap/cell_search.hpp"
 #include "roadmap/open_parts.hpp"
 #include "route.hpp"
@@ -23,8 +24,6 @@ namespace {
 
 /// A query that is being answered.
 class Answering {
-  enum class Cells : std::uint8_t { kNone, kFound, kGaveUp };  // of the last search over them
-
  public:
   Answering(const Roadmap& roadmap, const FreeSpace& space, const Point& start, const Point& goal,
             double radius, const PlanConfig& config, const Deadline& deadline)
@@ -135,6 +134,7 @@ class Answering {
     if (wants_short() && is_over_graph && !space_.is_narrowed() && is_connected()) {
       lap(result_.seconds.attach);
       search_cells(known);
+      search_guided(known);
       lap(result_.seconds.shorten);
       if (is_plausible(known) && accept(known, {})) return PlanStatus::kOk;
     }
@@ -167,7 +167,7 @@ class Answering {
     for (const CellEffort& effort : kPlanning.cell_efforts) {
       if (effort.weight >= ended || over_expected(known) <= effort.over) continue;
       search_cells(known, effort);
-      if (cells_ != Cells::kGaveUp) ended = effort.weight;
+      if (!cells_gave_up_) ended = effort.weight;
     }
     known = improve(std::move(known));
   }
@@ -180,10 +180,7 @@ class Answering {
     // Most ends see cells that are connected: then how they go on into the graph is not needed.
     if (!attachment_) search({.voxels = {query_.from}}, {.voxels = {query_.to}});
     if (!cells.is_direct) search(attachment().from, attachment().to);
-    if (cells.gave_up)
-      cells_ = Cells::kGaveUp;
-    else  // where there is something known, the search was for something shorter
-      cells_ = cells.found || !known.empty() ? Cells::kFound : Cells::kNone;
+    cells_gave_up_ = cells.gave_up;
     known = shorter(known, cells.waypoints);
   }
 
@@ -193,13 +190,26 @@ class Answering {
     return over_expected(path) <= kPlanning.far;
   }
 
-  /// The same by way of voxels, where the cells are too coarse: over short distances, and where
-  /// nothing joins them at the radius.
-  void search_voxels(Route& known) const {
+  /// The same by way of voxels that cells guide, where places are too coarse; once.
+  void search_guided(Route& known) {
+    if (was_guided_ || over_expected(known) <= kPlanning.guide.over || deadline_.has_passed())
+      return;
+    was_guided_ = true;
+    CellGuide guide(roadmap_, space_, query_.radius, query_.from, query_.to);
+    if (!guide.find_way(kPlanning.guide)) return;
+    const double longest =
+        known.empty() ? std::numeric_limits<double>::infinity() : length_of(known);
+    known = shorter(known, path_over_voxels(roadmap_, space_, query_, longest, &guide, deadline_));
+  }
+
+  /// The same without a guide, over short distances: in clutter guides mislead.
+  void search_unguided(Route& known) const {
     const double reach = kPlanning.voxel_reach * esdf_.voxel_size;
-    const bool are_alone = cells_ == Cells::kNone;
-    if (!are_alone && (query_.goal - query_.start).norm() > reach) return;
-    known = shorter(known, path_over_voxels(esdf_, space_, query_, length_of(known), deadline_));
+    if (over_expected(known) <= kPlanning.far || deadline_.has_passed() ||
+        (query_.goal - query_.start).norm() > reach)
+      return;
+    known = shorter(
+        known, path_over_voxels(roadmap_, space_, query_, length_of(known), nullptr, deadline_));
   }
 
   Route shorter(const Route& a, const Route& b) const { return excess(b) < excess(a) ? b : a; }
@@ -214,9 +224,10 @@ class Answering {
         known.empty() ? std::numeric_limits<double>::infinity() : length_of(known);
     Route path = improve(shorten_below(space_, found, query_.radius, shortest, deadline_));
     path = shorter(known, path);
-    if (cells_ == Cells::kGaveUp && over_expected(path) > kPlanning.last_cell_effort.over)
+    if (cells_gave_up_ && over_expected(path) > kPlanning.last_cell_effort.over)
       search_cells(path, kPlanning.last_cell_effort);
-    if (over_expected(path) > kPlanning.far && !deadline_.has_passed()) search_voxels(path);
+    search_guided(path);
+    search_unguided(path);
     if (config_.within > 0.0 && excess(path) > config_.within && !deadline_.has_passed())
       path = shorter(path, improve(shortest_over_voxels(esdf_, space_, query_, deadline_)));
     return path;
@@ -252,7 +263,8 @@ class Answering {
   const PlanConfig& config_;
   const Deadline& deadline_;
   RouteQuery query_;
-  Cells cells_ = Cells::kNone;
+  bool cells_gave_up_ = false;  // the last search over them
+  bool was_guided_ = false;
   std::optional<Attachment> attachment_;
   PlanResult result_;
 };

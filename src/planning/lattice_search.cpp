@@ -25,6 +25,7 @@ constexpr std::array<double, 27> kLengths = [] {
         std::array{0.0, 1.0, kRoot2, kRoot3}[static_cast<std::size_t>(squared_length(d))];
   return lengths;
 }();
+constexpr double kNone = std::numeric_limits<double>::infinity();
 constexpr double kNoGain = 1e-9;  // voxels
 constexpr int kExpansionsBetweenLooks = 1024;
 
@@ -103,8 +104,11 @@ class LatticeSearch {
     Direction from;
   };
 
+  /// Of the way on from a voxel; kNone where the guide knows none.
   double estimate(const VoxelIndex& voxel) const {
-    return options_.weight * lattice_distance(voxel, target_);
+    const double distance = lattice_distance(voxel, target_);
+    if (options_.guide == nullptr) return options_.weight * distance;
+    return options_.weight * std::max(distance, options_.guide->rest_from(voxel));
   }
 
   bool is_taken(VoxelId id) const {
@@ -141,13 +145,16 @@ class LatticeSearch {
       const double cost = own + kLengths[static_cast<std::size_t>(d)];
       const double known = is_near ? block.cost[next % kBlockVoxels] : memory_.cost_of(next);
       if (cost > known - kNoGain) continue;
-      const double to_go = lattice_distance(here + offset_of(d), target_);
-      if (cost + to_go > options_.longest) continue;
-      if (next == kNoVoxel || !is_taken(next) || !space_.move_is_free(id, next, d, threshold_)) {
+      const VoxelIndex there = here + offset_of(d);
+      if (cost + lattice_distance(there, target_) > options_.longest) continue;
+      const bool is_legal =
+          next != kNoVoxel && is_taken(next) && space_.move_is_free(id, next, d, threshold_);
+      const double to_go = is_legal ? estimate(there) : kNone;
+      if (to_go == kNone) {
         all_free = false;
         continue;
       }
-      reach(next, {cost, static_cast<Direction>(opposite(d))}, cost + options_.weight * to_go);
+      reach(next, {cost, static_cast<Direction>(opposite(d))}, cost + to_go);
     }
     if (all_free) memory_.from(id) |= kOpen;
   }

@@ -8,6 +8,7 @@
 #include "paths/deadline.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
+#include "roadmap/cell_guide.hpp"
 
 namespace ridgeway::detail {
 
@@ -22,7 +23,9 @@ struct LatticePath {
 /// How a lattice is searched. The defaults give the exact shortest path.
 struct LatticeOptions {
   const VoxelMask* within = nullptr;  ///< only voxels of this set
-  double weight = 1.0;                ///< of the heuristic; above 1 faster, not the shortest
+  /// Ways to the goal: estimates from there on, and only voxels of cells that have one.
+  const CellGuide* guide = nullptr;
+  double weight = 1.0;  ///< of the heuristic; above 1 faster, not the shortest
   double longest = std::numeric_limits<double>::infinity();  ///< paths of interest, voxels
   int most_expansions = std::numeric_limits<int>::max();
 };

@@ -89,7 +89,7 @@ class CellSearch {
     return rest;
   }
 
-  void reach(float cost, CellId from, MetCells::Met& met, Direction back = kCentre) {
+  void reach(float cost, CellId from, MetCell& met, Direction back = kCentre) {
     met.cost = cost;
     met.from = from;
     open_.push({cost + static_cast<float>(query_.effort.weight) * met.rest, cost, met.cell, back});
@@ -99,7 +99,7 @@ class CellSearch {
   CellId search(CellApproach& out, CellApproach& in) {
     for (CellApproach::Join& join : out.joins())
       if (out.sees(join)) {
-        MetCells::Met& met = met_[join.cell];
+        MetCell& met = met_[join.cell];
         met.rest = rest_from(join.cell, place_of(join.cell));
         reach(join.length, join.cell, met);
       }
@@ -157,7 +157,7 @@ class CellSearch {
           place_in(next, first + VoxelIndex{CellGraph::kSide * o.x, CellGraph::kSide * o.y,
                                             CellGraph::kSide * o.z});
       const float cost = here.cost + (there - place).norm();
-      MetCells::Met& met = met_[next];
+      MetCell& met = met_[next];
       if (cost >= met.cost) continue;  // as most have
       if (met.rest < 0.0f) met.rest = rest_from(next, there);
       if (cost + met.rest < best && (width >= widths_.sure || is_free(here.cell, next)))
@@ -169,7 +169,7 @@ class CellSearch {
     for (const CellGraph::Bend& bend : bends_from(graph_, here.cell)) {
       if (bend.width < widths_.sure) continue;
       const float cost = here.cost + bend.length;
-      MetCells::Met& met = met_[bend.to];
+      MetCell& met = met_[bend.to];
       if (cost >= met.cost) continue;
       if (met.rest < 0.0f) met.rest = rest_from(bend.to, place_of(bend.to));
       if (cost + met.rest < best) reach(cost, here.cell, met);
@@ -231,7 +231,7 @@ class CellSearch {
   std::array<float, CellGraph::kLandmarks> goal_lengths_{};
   const Place goal_;
   const float longest_;
-  MetCells met_;
+  MetCells<> met_;
   std::priority_queue<Open> open_;
   int taken_ = 0;  ///< cells
 };

@@ -70,6 +70,21 @@ CellMask flood(CellMask from, CellMask room) {
   }
 }
 
+CellMask voxels_moved(CellMask voxels, int step, int move) {
+  const VoxelIndex &s = offset_of(step), &m = offset_of(move);
+  const std::array<int, 3> steps{s.x, s.y, s.z}, moves{m.x, m.y, m.z};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const unsigned one = 1u << 2 * axis, width = 3u << 2 * axis;
+    if (moves[axis] > 0)
+      voxels = steps[axis] > 0 ? (voxels & kLastLayer[axis]) >> width
+                               : (voxels & ~kLastLayer[axis]) << one;
+    if (moves[axis] < 0)
+      voxels = steps[axis] < 0 ? (voxels & kFirstLayer[axis]) << width
+                               : (voxels & ~kFirstLayer[axis]) >> one;
+  }
+  return voxels;
+}
+
 CellPair CellWalks::spread(const CellPair& voxels) const {
   const auto axis = static_cast<std::size_t>(axis_);
   const unsigned width = 3u << 2 * axis;

@@ -30,6 +30,10 @@ CellMask fitting_voxels(const FreeSpace& space, CellId cell, SquaredHalves thres
 /// The voxels that moves across faces lead to from others, all within `room`.
 CellMask flood(CellMask from, CellMask room);
 
+/// The voxels that a move leads to from those of a cell, in the same cell (`step` kCentre) or in
+/// the next one in a direction, along each axis of which the move goes.
+CellMask voxels_moved(CellMask voxels, int step, int move);
+
 /// Voxels of a cell and of the next one along an axis.
 struct CellPair {
   CellMask first = 0, second = 0;

@@ -10,23 +10,38 @@
 
 namespace ridgeway::detail {
 
+/// A cell that a search has met.
+struct MetCell {
+  CellId cell = kNoCell, from = kNoCell;
+  float cost = std::numeric_limits<float>::infinity();  ///< voxels
+  float rest = -1.0f;  ///< of the way to the goal, about, voxels; below 0: not known yet
+};
+
 /// What a search knows of the cells that it has met: a hash table, as they are few of many.
+template <typename Met = MetCell>
 class MetCells {
  public:
-  struct Met {
-    CellId cell = kNoCell, from = kNoCell;
-    float cost = std::numeric_limits<float>::infinity();  ///< voxels
-    float rest = -1.0f;  ///< of the way to the goal, about, voxels; below 0: not known yet
-  };
-
   Met& operator[](CellId cell) {
     if (2 * count_ >= table_.size()) grow();
     return place_of(cell);
   }
+  /// Null for one that was not met.
+  const Met* find(CellId cell) const {
+    std::size_t i = first_place(cell);
+    while (table_[i].cell != cell) {
+      if (table_[i].cell == kNoCell) return nullptr;
+      i = (i + 1) & (table_.size() - 1);
+    }
+    return &table_[i];
+  }
 
  private:
+  std::size_t first_place(CellId cell) const {
+    return cell * 2654435761u & (table_.size() - 1);  // Knuth's multiplicative hash
+  }
+
   Met& place_of(CellId cell) {
-    std::size_t i = cell * 2654435761u & (table_.size() - 1);  // Knuth's multiplicative hash
+    std::size_t i = first_place(cell);
     while (table_[i].cell != cell) {
       if (table_[i].cell == kNoCell) {
         table_[i].cell = cell;

@@ -61,6 +61,42 @@ OccupancyMap rooms_with_slits(unsigned seed) {
   });
 }
 
+/// Two rooms behind a thick wall, with a slanting tunnel through it, and a wide window far off.
+OccupancyMap rooms_with_a_tunnel(unsigned seed) {
+  std::mt19937 random(seed);
+  const auto share = [&] { return static_cast<double>(random() % 1000) / 1000.0; };
+  const Point mouth(40.0, 14.0 + 8.0 * share(), 9.0 + 4.0 * share());
+  const Point along = Point(1.0, share() - 0.5, 0.6 * share() - 0.3).normalized();
+  const double width = 3.6 + 1.4 * share();
+  return testing::make_map(kWindowVoxel, {0, 0, 0}, {96, 131, 23}, [&](const VoxelIndex& v) {
+    const bool hull = v.x == 0 || v.y == 0 || v.z == 0 || v.x == 96 || v.y == 131 || v.z == 23;
+    const bool wall = v.x >= 40 && v.x < 56;
+    const Point off = Point(v.x, v.y, v.z) - mouth;
+    const bool tunnel = (off - off.dot(along) * along).norm() < width;
+    const bool window = v.y >= 110;
+    return hull || (wall && !tunnel && !window) ? VoxelState::kOccupied : VoxelState::kFree;
+  });
+}
+
+TEST(PlanAtAnyRadius, FindsSlantingTunnelsFromAfar) {
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    const Roadmap roadmap =
+        build_roadmap(rooms_with_a_tunnel(seed), {.min_clearance = kSmallest}).roadmap;
+    for (const double factor :
+         {1.0, 1.1, 1.2, 1.25, 1.3, 1.4, 1.5, 1.55, 1.6, 1.7, 1.8, 1.9, 2.0}) {
+      const double radius = factor * kSmallest;
+      for (const double y : {1.2, 2.5}) {
+        const Point start(1.0, y, 1.1), goal(8.6, 3.2 - y, 1.3);
+        const PlanResult path = plan(roadmap, start, goal, {.radius = radius});
+        const PlanResult judge =
+            plan(roadmap, start, goal, {.planner = Planner::kEsdf, .radius = radius});
+        ASSERT_TRUE(path.ok() && judge.ok());
+        EXPECT_LE(path.length, 1.15 * judge.length) << "seed " << seed << ", factor " << factor;
+      }
+    }
+  }
+}
+
 TEST(PlanAtAnyRadius, IsAboutAsShortAsAStarBetweenTheLevelsToo) {
   int bent = 0;
   double sum = 0.0;
