@@ -38,8 +38,8 @@ struct PlanningConstants {
   double near = 1.05;  ///< good enough: nothing else is asked, nor ways past what blocks it tried
   double far = 1.15;   ///< too long to be believed: the sparse graph is searched as well
   double as_found = 1.1;  ///< a route over cells, corners or voxels over its tight path, at most
-  CellEffort guide{1.2, 700, 1.12};  ///< of the search over cells that guides one over voxels
-  VoxelEffort guided{1.0, 2500};     ///< of that one
+  CellEffort guide{1.3, 600, 1.12};  ///< of the search over cells that guides one over voxels
+  VoxelEffort guided{1.05, 1800};    ///< of that one
   int voxel_reach = 40;              ///< voxels that ends are apart at most for one without a guide
   VoxelEffort unguided{1.15, 3700};  ///< of that one, the last of all: in clutter guides mislead
 

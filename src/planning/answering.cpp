@@ -199,15 +199,13 @@ class Answering {
     if (!guide.find_way(kPlanning.guide)) return;
     const double longest =
         known.empty() ? std::numeric_limits<double>::infinity() : length_of(known);
-    const Route path = path_over_voxels(roadmap_, space_, query_, longest, &guide, deadline_);
-    guide_led_ = !path.empty();
-    known = shorter(known, path);
+    known = shorter(known, path_over_voxels(roadmap_, space_, query_, longest, &guide, deadline_));
   }
 
   /// The same without a guide, over short distances: in clutter guides mislead.
   void search_unguided(Route& known) const {
     const double reach = kPlanning.voxel_reach * esdf_.voxel_size;
-    if (guide_led_ || over_expected(known) <= kPlanning.far || deadline_.has_passed() ||
+    if (over_expected(known) <= kPlanning.far || deadline_.has_passed() ||
         (query_.goal - query_.start).norm() > reach)
       return;
     known = shorter(
@@ -266,7 +264,7 @@ class Answering {
   const Deadline& deadline_;
   RouteQuery query_;
   bool cells_gave_up_ = false;  // the last search over them
-  bool was_guided_ = false, guide_led_ = false;
+  bool was_guided_ = false;
   std::optional<Attachment> attachment_;
   PlanResult result_;
 };
