@@ -162,10 +162,7 @@ class VoxelField {
  private:
   /// Memory of one block, in one piece with the count of its owners: as it comes, to be written.
   struct OwnBlock {
-    OwnBlock() noexcept {}
-    OwnBlock(const OwnBlock&) = delete;
-    OwnBlock& operator=(const OwnBlock&) = delete;
-    ~OwnBlock() {}
+    OwnBlock() noexcept {}  // NOLINT(modernize-use-equals-default): which would set the values
     union {
       std::array<Value, kBlockVoxels> values;
     };
