@@ -98,35 +98,31 @@ void PeelingMemory::change(const BlockLayout& layout, const VoxelMask& changed,
   for (VoxelMask* mask : {&changed_, &traversable_, &keep_, &left_, &stayed_}) mask->grow(layout);
   for (const std::uint32_t slot : slots)
     for (std::size_t z = 0; z < kBlockSide; ++z) changed_.block(slot)[z] |= changed.block(slot)[z];
-  slots_.insert(slots_.end(), slots.begin(), slots.end());
 }
 
 const VoxelMask& PeelingMemory::peel(const EsdfMap& esdf, const VoxelMask& traversable,
                                      const VoxelMask& not_simple, const VoxelMask& keep,
                                      const Rest* rest) {
   if (knows_any_) {
-    peel_again(esdf, not_simple, take_over(esdf, traversable, keep, rest));
+    const Marked changed = take_over(esdf, traversable, keep, rest);
+    peel_again(esdf, not_simple, changed);
+    keep_levels(esdf, changed);
   } else {
     traversable_ = traversable;
     keep_ = keep;
     peel_all(esdf, not_simple);
+    squared_ = esdf.squared.shared();
   }
-  keep_levels(esdf);
   knows_any_ = true;
   changed_ = {};
-  slots_.clear();
   return left_;
 }
 
-/// In the memory of the map.
-void PeelingMemory::keep_levels(const EsdfMap& esdf) {
-  if (!knows_any_) {
-    squared_ = esdf.squared.shared();
-    return;
-  }
+/// In the memory of the map; other blocks have the levels that they had.
+void PeelingMemory::keep_levels(const EsdfMap& esdf, const Marked& changed) {
   const auto before = static_cast<std::uint32_t>(squared_.size() / kBlockVoxels);
   squared_.follow(esdf.squared);
-  for (const std::uint32_t slot : slots_)
+  for (const std::uint32_t slot : changed.slots)
     if (slot < before) squared_.share_block(esdf.squared, slot);
 }
 

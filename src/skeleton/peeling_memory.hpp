@@ -45,11 +45,10 @@ class PeelingMemory {
   void peel_all(const EsdfMap& esdf, const VoxelMask& not_simple);
   void peel_again(const EsdfMap& esdf, const VoxelMask& not_simple, const Marked& changed);
   void forget(VoxelId id);
-  void keep_levels(const EsdfMap& esdf);
+  void keep_levels(const EsdfMap& esdf, const Marked& changed);
 
   bool knows_any_ = false;
   VoxelMask changed_;                  // since the last peel, maybe
-  std::vector<std::uint32_t> slots_;   // of these, some maybe twice
   VoxelField<std::uint32_t> squared_;  // levels of that
   VoxelMask traversable_, keep_;       // and what was peeled
   VoxelMask left_;                     // what it left

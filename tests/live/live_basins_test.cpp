@@ -16,6 +16,14 @@
 namespace ridgeway {
 namespace {
 
+void change_at_random(std::mt19937& random, detail::LiveField& field, detail::LiveRidges& ridges,
+                      detail::LiveBasins& basins, BasinNumbers& numbers) {
+  apply_changes(field, testing::random_changes(random, {-34, -20, -22}, {30, 34, 20}));
+  update_distances(field);
+  update_traversable(ridges, field);
+  update_basins(basins, numbers, field, ridges);
+}
+
 /// By voxel of a set, a number of its 26-connected part; zero for the others.
 std::vector<std::uint32_t> flooded_parts(const BlockLayout& layout, const VoxelMask& voxels) {
   std::vector<std::uint32_t> part(layout.voxel_count());
@@ -81,10 +89,7 @@ TEST(SpaceParts, AfterRandomChangesAreThoseThatFloodsFind) {
     BasinNumbers numbers;
     for (int step = 0; step < 30; ++step) {
       SCOPED_TRACE(step);
-      apply_changes(field, testing::random_changes(random, {-34, -20, -22}, {30, 34, 20}));
-      update_distances(field);
-      update_traversable(ridges, field);
-      update_basins(basins, numbers, field, ridges);
+      change_at_random(random, field, ridges, basins, numbers);
       ASSERT_NO_FATAL_FAILURE(expect_parts(basins, numbers, field, ridges.traversable));
       parts += basins.parts.parts.size() - basins.parts.unused.size();
     }
@@ -104,10 +109,7 @@ TEST(LiveBasins, AfterRandomChangesAreThoseOfTheField) {
     std::vector<VoxelId> before;
     for (int step = 0; step < 30; ++step) {
       SCOPED_TRACE(step);
-      apply_changes(field, testing::random_changes(random, {-34, -20, -22}, {30, 34, 20}));
-      update_distances(field);
-      update_traversable(ridges, field);
-      update_basins(basins, numbers, field, ridges);
+      change_at_random(random, field, ridges, basins, numbers);
       const detail::Watershed live =
           watershed_of(basins, numbers, basins.ways.next, field, ridges.traversable);
       detail::Watershed fresh = detail::find_watershed(field.esdf, ridges.traversable);
