@@ -37,7 +37,8 @@ inline double lattice_distance(const VoxelIndex& a, const VoxelIndex& b) {
   return (kRoot3 - kRoot2) * least + (kRoot2 - 1.0) * middle + most;
 }
 
-/// Costs and parents of the voxels seen so far, a block at a time.
+/// Costs and parents of the voxels seen so far, a block at a time. Blocks are found through pages of
+/// pointers, so that a short search in a large map does not begin by clearing a pointer a block.
 class SearchMemory {
  public:
   struct Block {
@@ -46,23 +47,35 @@ class SearchMemory {
     Block() { cost.fill(std::numeric_limits<double>::infinity()); }
   };
 
-  explicit SearchMemory(std::uint32_t blocks) : blocks_(blocks) {}
+  explicit SearchMemory(std::uint32_t blocks) : pages_(blocks / kPageBlocks + 1) {}
 
   Block& block_of(VoxelId id) {
-    std::unique_ptr<Block>& block = blocks_[id / kBlockVoxels];
+    const std::uint32_t slot = id / kBlockVoxels;
+    std::unique_ptr<Page>& page = pages_[slot / kPageBlocks];
+    if (!page) page = std::make_unique<Page>();
+    std::unique_ptr<Block>& block = (*page)[slot % kPageBlocks];
     if (!block) block = std::make_unique<Block>();
     return *block;
   }
   /// Infinite for what was not reached, kNoVoxel with it.
   double cost_of(VoxelId id) const {
-    const Block* block = id == kNoVoxel ? nullptr : blocks_[id / kBlockVoxels].get();
+    const Block* block = id == kNoVoxel ? nullptr : find_block(id);
     return block == nullptr ? std::numeric_limits<double>::infinity()
                             : block->cost[id % kBlockVoxels];
   }
-  std::uint8_t& from(VoxelId id) { return blocks_[id / kBlockVoxels]->from[id % kBlockVoxels]; }
+  std::uint8_t& from(VoxelId id) { return block_of(id).from[id % kBlockVoxels]; }
 
  private:
-  std::vector<std::unique_ptr<Block>> blocks_;
+  static constexpr std::uint32_t kPageBlocks = 512;
+  using Page = std::array<std::unique_ptr<Block>, kPageBlocks>;
+
+  const Block* find_block(VoxelId id) const {
+    const std::uint32_t slot = id / kBlockVoxels;
+    const Page* page = pages_[slot / kPageBlocks].get();
+    return page == nullptr ? nullptr : (*page)[slot % kPageBlocks].get();
+  }
+
+  std::vector<std::unique_ptr<Page>> pages_;
 };
 
 /// Set beside a voxel's direction once it was expanded and each neighbour could be moved to, or had
