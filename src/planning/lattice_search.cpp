@@ -37,8 +37,8 @@ inline double lattice_distance(const VoxelIndex& a, const VoxelIndex& b) {
   return (kRoot3 - kRoot2) * least + (kRoot2 - 1.0) * middle + most;
 }
 
-/// Costs and parents of the voxels seen so far, a block at a time. Blocks are found through pages of
-/// pointers, so that a short search in a large map does not begin by clearing a pointer a block.
+/// Costs and parents of the voxels seen so far, a block at a time. Blocks are found through pages
+/// of pointers, so that a short search in a large map does not begin by clearing a pointer a block.
 class SearchMemory {
  public:
   struct Block {
