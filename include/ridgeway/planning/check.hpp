@@ -52,13 +52,16 @@ struct CheckReport {
   std::size_t edges = 0;  ///< of the graph, measured anew
   /// Whose clearance is less than the contract says, or is measured as
   std::size_t edges_below_clearance = 0;
-  std::size_t components = 0;             ///< of the graph
-  std::size_t queries = 0;                ///< that were answered: those asked for, unless cancelled
-  std::size_t graph_ok = 0;               ///< queries that the roadmap answered with a path
-  std::size_t esdf_ok = 0;                ///< queries that A* through the ESDF answered so
-  std::size_t disagreements = 0;          ///< one of them only
-  std::size_t paths_below_clearance = 0;  ///< nearer to an obstacle than the radius
-  std::size_t fallbacks = 0;              ///< answered beyond the graph
+  std::size_t components = 0;  ///< of the graph
+  std::size_t queries = 0;     ///< that were answered: those asked for, unless cancelled
+  std::size_t graph_ok = 0;    ///< queries that the roadmap answered with a path
+  std::size_t esdf_ok = 0;     ///< queries that A* through the ESDF answered so
+  /// One of them only; within limits the roadmap may find ways that moves between voxels do not
+  /// have
+  std::size_t disagreements = 0;
+  /// Nearer to an obstacle than the radius, or beyond the limits
+  std::size_t paths_below_clearance = 0;
+  std::size_t fallbacks = 0;  ///< answered beyond the graph
   // Of the queries answered with a path:
   Spread length_ratio;             ///< over the better of it and the ESDF's shortened
   Spread microseconds;             ///< shortened queries over the roadmap
