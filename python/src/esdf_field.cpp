@@ -185,7 +185,9 @@ void add_limits(py::module_& module) {
           "keep_in", [](const FlightLimits& limits) { return tuple_of(limits.keep_in); },
           "A box, infinite where nothing limits.")
       .def_property_readonly("keep_out", &boxes_of, "Boxes.")
-      .def("__eq__", [](const FlightLimits& a, const FlightLimits& b) { return a == b; })
+      .def(
+          "__eq__", [](const FlightLimits& a, const FlightLimits& b) { return a == b; },
+          py::is_operator())
       .def("__repr__", [](const FlightLimits& limits) {
         return "FlightLimits(keep_in=" + std::string(py::str(tuple_of(limits.keep_in))) +
                ", keep_out=" + std::string(py::str(boxes_of(limits))) + ")";

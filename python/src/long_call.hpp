@@ -28,7 +28,7 @@ class Watch {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       if (callback_.is_none()) return true;
       const py::object answer = callback_(py::str(stage.data(), stage.size()), share);
-      return answer.ptr() != Py_False;
+      return !is_false(answer);
     } catch (py::error_already_set& error) {
       error_.emplace(error);
       return false;
@@ -41,6 +41,15 @@ class Watch {
   }
 
  private:
+  /// Python's False, or numpy's; None is what functions return that say nothing.
+  static bool is_false(const py::object& answer) {
+    if (answer.ptr() == Py_False) return true;
+    const std::string type = py::str(py::type::of(answer).attr("__module__"));
+    return type == "numpy" &&
+           py::str(py::type::of(answer).attr("__name__")).cast<std::string>().starts_with("bool") &&
+           !py::bool_(answer);
+  }
+
   py::object callback_;
   std::optional<py::error_already_set> error_;
 };

@@ -85,7 +85,7 @@ std::string plan_repr(const PlanResult& plan) {
          std::string(name_of(plan.answered_by)) + "')";
 }
 
-py::dict plan_seconds(const PlanResult& plan) {
+py::dict plan_seconds(const PlanFace& plan) {
   py::dict seconds;
   seconds["attach"] = plan.seconds.attach;
   seconds["search"] = plan.seconds.search;
@@ -113,19 +113,18 @@ std::vector<Point> one_or_many(py::handle value, const char* name) {
   return points_from(value, name);
 }
 
-/// Runs `count` pieces of work on so many threads, a few at a time, and listens to Ctrl-C between.
+/// Runs `count` pieces of work on so many threads; Ctrl-C ends it after those under way.
 template <typename Work>
 void run_many(int threads, std::size_t count, const Work& work) {
-  constexpr std::size_t kAtOnce = 1024;
-  run_long(py::none(), threads, [&](const Progress& progress) {
-    for (std::size_t first = 0; first < count; first += kAtOnce) {
-      if (!progress("plan", static_cast<double>(first) / static_cast<double>(count)))
-        throw Cancelled();
-      parallel_for_each_index(std::min(kAtOnce, count - first),
-                              [&](std::size_t i) { work(first + i); });
-    }
-    return true;
-  });
+  run_stage(
+      [&] {
+        parallel_for_each_index(count, [&](std::size_t i) {
+          detail::stop_if_cancelled();
+          work(i);
+        });
+        return true;
+      },
+      threads);
 }
 
 py::list list_of(std::vector<PlanFace> plans) {

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Ridgeway authors
 //
 // The stages between distances and graph, one by one.
+#include <algorithm>
+
 #include "config.hpp"
 #include "faces.hpp"
 #include "long_call.hpp"
@@ -25,10 +27,29 @@ GraphFace graph_by(const std::shared_ptr<const EsdfMap>& esdf, const Stage& stag
   return {esdf, run_stage([&] { return std::make_shared<const SparseGraph>(stage()); })};
 }
 
+bool is_same_lattice(const EsdfMap& a, const EsdfMap& b) {
+  return a.voxel_size == b.voxel_size && a.origin == b.origin;
+}
+
 void require_same_map(const EsdfFace& esdf, const std::shared_ptr<const EsdfMap>& other,
                       const char* name) {
-  if (esdf.esdf.get() != other.get() && !(esdf.esdf->layout == other->layout))
+  if (esdf.esdf.get() != other.get() &&
+      !(esdf.esdf->layout == other->layout && is_same_lattice(*esdf.esdf, *other)))
     throw InputError(name, "is of another map than esdf", "give one that was made of this field");
+}
+
+/// Of the lattice, in an order that follows from the set alone, not from how a map's blocks lie.
+std::vector<VoxelIndex> sorted_voxels(const MaskFace& face) {
+  std::vector<VoxelIndex> voxels;
+  for (const VoxelId id : face.mask->members(face.esdf->layout))
+    voxels.push_back(face.esdf->layout.index_of(id) + face.esdf->origin);
+  std::sort(voxels.begin(), voxels.end());
+  return voxels;
+}
+
+bool is_same_set(const MaskFace& a, const MaskFace& b) {
+  return a.esdf->voxel_size == b.esdf->voxel_size && a.mask->count() == b.mask->count() &&
+         sorted_voxels(a) == sorted_voxels(b);
 }
 
 py::array voxels_of(const MaskFace& face) {
@@ -94,10 +115,7 @@ void add_mask(py::module_& module) {
                              "Their distances to the nearest obstacle, (N,), metres.")
       .def("to_numpy", &dense_mask, py::arg("bounds") = py::none(),
            "to_numpy(self, bounds=None)\n--\n\nAs a Grid of bool, (nx, ny, nz).")
-      .def("__eq__",
-           [](const MaskFace& a, const MaskFace& b) {
-             return a.esdf->layout == b.esdf->layout && *a.mask == *b.mask;
-           })
+      .def("__eq__", &is_same_set, py::is_operator())
       .def("__repr__", [](const MaskFace& face) {
         return "VoxelMask(" + std::to_string(face.mask->count()) +
                " voxels, voxel_size=" + literal(face.esdf->voxel_size) + ")";

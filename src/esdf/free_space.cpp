@@ -54,6 +54,7 @@ double FreeSpace::clearance(std::span<const Point> path, double at_most) const {
   };
   // A good bound first: then only the narrowest places are looked at closely.
   double best = at_most / s * (at_most / s);
+  if (best > squared_far(esdf_)) best = detail::kInfinity;  // as no site is known to be so far
   for_each_segment([&](SegmentMarch m) { best = m.upper_bound(best); });
   if (std::isinf(best)) {  // no site near any of it: farther than max_distance, if that is finite
     if (std::isinf(esdf_.max_distance)) return best;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "obstacle_scan.hpp"
 #include "ridgeway/esdf/distance_field.hpp"
 
 namespace ridgeway {
@@ -33,6 +34,25 @@ double depth(const EsdfMap& esdf, const VoxelIndex& voxel, double deepest) {
   return best;
 }
 
+/// Distance, metres, of a voxel beside the map, in whose block nothing is known and which is no
+/// obstacle: measured, as no field has it. At most `far`; that where nothing is known beside it.
+double distance_beside(const EsdfMap& esdf, const VoxelIndex& voxel, double far) {
+  const double s = esdf.voxel_size;
+  double most = far / s;
+  for (int d = 0; d < 27; ++d) {
+    const VoxelIndex o = offset_of(d);
+    const VoxelId id = esdf.layout.find(voxel + o);
+    if (id == kNoVoxel || esdf.squared[id] == kNoSite) continue;
+    const double off = Point(o.x, o.y, o.z).norm();
+    most = std::min(most, esdf.distance(id) / s + off);
+  }
+  if (most >= far / s) return far;
+  constexpr double kSlack = 1e-6;  // the scan looks for what is nearer
+  const Point centre = centre_of(voxel, 1.0);
+  const double squared = detail::ObstacleScan(esdf, centre, centre).run(most * most + kSlack);
+  return s * std::sqrt(squared);
+}
+
 }  // namespace
 
 double signed_distance(const EsdfMap& esdf, const VoxelIndex& voxel, double deepest) {
@@ -40,7 +60,7 @@ double signed_distance(const EsdfMap& esdf, const VoxelIndex& voxel, double deep
   const double far = std::min(esdf.max_distance, kFarthestSite * s);
   const VoxelId id = esdf.layout.find(voxel);
   if (esdf.is_obstacle(id)) return -s * depth(esdf, voxel, deepest / s);
-  return id == kNoVoxel ? far : std::min(esdf.distance(id), far);
+  return id == kNoVoxel ? distance_beside(esdf, voxel, far) : std::min(esdf.distance(id), far);
 }
 
 DistanceAndGradient interpolate_distance(const EsdfMap& esdf, const Point& point, double deepest) {
@@ -72,7 +92,10 @@ std::optional<DistanceAndGradient> distance_at(const EsdfMap& esdf, const Point&
   if (!has_voxel(local, esdf.voxel_size)) return std::nullopt;
   const VoxelId id = esdf.layout.find(voxel_at(local, esdf.voxel_size));
   if (id == kNoVoxel || esdf.state[id] == VoxelState::kUnknown) return std::nullopt;
-  return interpolate_distance(esdf, local, deepest);
+  DistanceAndGradient found = interpolate_distance(esdf, local, deepest);
+  // Where no obstacle is, whatever max_distance; optimisers do with the largest number there is.
+  if (found.distance >= kFarthestSite * esdf.voxel_size) found.distance = esdf.max_distance;
+  return found;
 }
 
 }  // namespace ridgeway

@@ -42,7 +42,10 @@ class ObstacleScan {
     ball_squared_ = 0.25 * esdf.squared[id];
   }
 
-  double run(double best) { return run_over(box_within(std::sqrt(best)), best); }
+  double run(double best) {
+    const BlockBox box = box_within(std::sqrt(best));
+    return has_many_more_than_all(box) ? run_over_all(best) : run_over(box, best);
+  }
 
   /// As run(), but of an obstacle whose distance is least at an end of the segment nothing needs to
   /// be known: what is between the two planes across the ends is looked at, a ring around the
@@ -84,6 +87,23 @@ class ObstacleScan {
   }
 
  private:
+  /// Whether it is quicker to go through the layout, where what is not in it is no obstacle.
+  bool has_many_more_than_all(const BlockBox& box) const {
+    constexpr double kMany = 1 << 20;
+    const auto side = [](int first, int last) { return static_cast<double>(last) - first + 1.0; };
+    const double blocks = side(box.first.x, box.last.x) * side(box.first.y, box.last.y) *
+                          side(box.first.z, box.last.z);
+    return !solid_.absent_is_solid && blocks > kMany &&
+           blocks > static_cast<double>(solid_.layout.blocks().size());
+  }
+
+  double run_over_all(double best) {
+    best_ = best;
+    reach_ = std::sqrt(best);
+    for (const BlockIndex& block : solid_.layout.blocks()) scan_block(block, BlockLayout::kNoBlock);
+    return best_;
+  }
+
   static BlockIndex block_at(const Eigen::Vector3d& p) { return block_of(voxel_at(p, 1.0)); }
 
   /// Blocks of a row along x, both inclusive, and those of them that lie in the free ball.

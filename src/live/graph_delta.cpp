@@ -73,6 +73,16 @@ double squared_distance(const Point& p, const Point& a, const Point& b) {
   return (a + t * along - p).squaredNorm();
 }
 
+/// What is no number compares as neither near nor far.
+void require_path(std::span<const Point> path, double radius, double voxel_size) {
+  if (path.empty()) throw InputError("path", "has no point", "give one at least");
+  for (const Point& p : path)
+    if (!has_voxel(p, voxel_size))
+      throw InputError("path", "has a point that is no place of the map", "give finite metres");
+  if (!(radius >= 0.0 && std::isfinite(radius)))
+    throw InputError("radius", "is no distance", "give metres, 0 or more");
+}
+
 }  // namespace
 
 GraphDelta delta_between(const Roadmap& before, const Roadmap& now) {
@@ -92,6 +102,7 @@ GraphDelta delta_between(const Roadmap& before, const Roadmap& now) {
 }
 
 bool may_be_invalid(std::span<const Point> path, double radius, const GraphDelta& delta) {
+  require_path(path, radius, delta.voxel_size);
   // A cube lies within half its diagonal around its centre; a voxel more for rounding in the world.
   const double reach = radius + (1.0 + 0.5 * std::sqrt(3.0)) * delta.voxel_size;
   return std::any_of(delta.closed.begin(), delta.closed.end(), [&](const VoxelIndex& voxel) {
@@ -104,14 +115,10 @@ bool may_be_invalid(std::span<const Point> path, double radius, const GraphDelta
 }
 
 bool still_safe(std::span<const Point> path, double radius, const Roadmap& now) {
+  require_path(path, radius, now.esdf.voxel_size);
   const FreeSpace space(now.esdf);
-  if (path.empty()) throw InputError("path", "has no point", "give one at least");
   std::vector<Point> local;
-  for (const Point& p : path) {
-    if (!has_voxel(p, now.esdf.voxel_size))
-      throw InputError("path", "has a point that is no place of the map", "give finite metres");
-    local.push_back(to_local(now.esdf, p));
-  }
+  for (const Point& p : path) local.push_back(to_local(now.esdf, p));
   if (!space.is_free(local.front(), radius)) return false;
   for (std::size_t i = 0; i + 1 < local.size(); ++i)
     if (!space.is_free(local[i], local[i + 1], radius)) return false;

@@ -109,7 +109,12 @@ UpdateReport LiveRoadmap::State::finish_correcting() {
   UpdateReport report;
   under_way.clear();
   const std::unique_ptr<detail::Correction> ended = std::move(correction);
-  if (!ended) return report;
+  if (!ended) {
+    report.version = version;
+    report.has_roadmap = snapshot != nullptr;
+    report.waiting_voxels = window.size();
+    return report;
+  }
   detail::CorrectedScans& scans = ended->finished(frames_of_blocks);
   std::vector<Point> places;
   places.reserve(scans.frames.poses.size());

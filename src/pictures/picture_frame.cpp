@@ -145,7 +145,7 @@ std::string grouped(std::size_t count) {
 }
 
 std::string short_number(double value, int decimals) {
-  std::array<char, 64> text;
+  std::array<char, 400> text;  // no number has as many digits
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
                                  std::chars_format::fixed, decimals);
   std::string number(text.data(), end.ptr);

@@ -59,7 +59,7 @@ class Answering {
     if (!is_as_wide(space_.inner_radius(radius), roadmap_.min_clearance))
       return PlanStatus::kRadiusTooSmall;
     const QueryEnds ends = find_ends(space_, start, goal, radius);
-    if (ends.status != PlanStatus::kOk) return ends.status;
+    if (ends.status != PlanStatus::kOk) return straight_or(ends.status);
     query_.from = ends.from;
     query_.to = ends.to;
     result_.answered_by = config_.planner;
@@ -72,6 +72,17 @@ class Answering {
         accept(tangents.waypoints, tangents.known))
       return PlanStatus::kOk;
     return search(std::move(tangents.waypoints));
+  }
+
+  /// Robots fit in places where no voxel's centre is free, and may see their goal from there.
+  PlanStatus straight_or(PlanStatus refused) {
+    const bool is_too_close =
+        refused == PlanStatus::kStartInCollision || refused == PlanStatus::kGoalInCollision;
+    const auto& [from, to, start, goal, radius, prefer_clearance] = query_;
+    if (!is_too_close || !space_.is_free(start, goal, radius) || !accept({start, goal}, {}))
+      return refused;
+    result_.answered_by = config_.planner;
+    return PlanStatus::kOk;
   }
 
   TangentPath path_over_corners() {

@@ -3,6 +3,7 @@
 #include "ridgeway/planning/blocked_route.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "open_inside.hpp"
@@ -42,6 +43,8 @@ RouteBlocks::RouteBlocks(const Roadmap& roadmap)
 std::optional<BlockedRoute> RouteBlocks::between(const Point& start, const Point& goal,
                                                  double radius,
                                                  const FlightLimits& limits_world) const {
+  PlanConfig{.radius = radius}.validate();
+  detail::validate_query(esdf_, start, goal, radius);
   const FlightLimits limits = detail::limits_of(esdf_, limits_world);
   const detail::QueryEnds ends =
       detail::find_ends(FreeSpace(esdf_, limits), detail::place_in_local(esdf_, start, radius),
@@ -61,7 +64,9 @@ std::optional<BlockedRoute> RouteBlocks::between(const Point& start, const Point
     return to_world(esdf_, centre_of(voxel, esdf_.voxel_size));
   };
   if (const std::optional<Pass> narrow = parts_.narrowest_move(ends.from, ends.to)) {
-    blocked.radius = narrow->clearance.metres(esdf_.voxel_size);
+    blocked.radius = narrow->clearance == SquaredHalves(kNoSite)
+                         ? std::numeric_limits<double>::infinity()
+                         : narrow->clearance.metres(esdf_.voxel_size);
     const SpaceParts::Narrow place = parts_.look_at(*narrow);
     blocked.place = place.place;
     blocked.by = place.by;

@@ -3,11 +3,38 @@
 #include "endpoint.hpp"
 
 #include <algorithm>
-#include <array>
+#include <vector>
 
 #include "layout_box.hpp"
 
 namespace ridgeway::detail {
+namespace {
+
+/// Voxels in each direction. Between obstacles a robot may fit where no centre of a voxel beside it
+/// is free, and where it sees one a little farther off.
+constexpr int kFarthestCentre = 3;
+
+std::vector<VoxelIndex> offsets_by_distance(const Point& point, const VoxelIndex& home,
+                                            double voxel_size, int reach) {
+  struct Candidate {
+    double distance;
+    VoxelIndex offset;
+  };
+  std::vector<Candidate> candidates;
+  for (int z = -reach; z <= reach; ++z)
+    for (int y = -reach; y <= reach; ++y)
+      for (int x = -reach; x <= reach; ++x)
+        candidates.push_back(
+            {(centre_of(home + VoxelIndex{x, y, z}, voxel_size) - point).squaredNorm(), {x, y, z}});
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
+  std::vector<VoxelIndex> offsets;
+  for (const Candidate& candidate : candidates) offsets.push_back(candidate.offset);
+  return offsets;
+}
+
+}  // namespace
+
 Endpoint find_endpoint(const FreeSpace& space, const Point& point, double radius) {
   const EsdfMap& esdf = space.map();
   if (!has_voxel(point, esdf.voxel_size)) return {};
@@ -32,23 +59,12 @@ Endpoint find_endpoint(const FreeSpace& space, const Point& point, double radius
            space.is_free(point, centre_of(esdf.layout.index_of(id), esdf.voxel_size), radius);
   };
   if (joins(home)) return {EndpointStatus::kOk, home};  // no centre is nearer
-  struct Candidate {
-    double distance;
-    int direction;
-  };
-  std::array<Candidate, 27> candidates;
-  for (int d = 0; d < 27; ++d) {
-    const VoxelIndex o = offset_of(d);
-    candidates[static_cast<std::size_t>(d)] = {
-        (centre_of(voxel + o, esdf.voxel_size) - point).squaredNorm(), d};
-  }
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return a.distance != b.distance ? a.distance < b.distance : a.direction < b.direction;
-  });
-  for (const Candidate& candidate : candidates) {
-    const VoxelId id = esdf.layout.neighbour(home, candidate.direction);
-    if (joins(id)) return {EndpointStatus::kOk, id};
-  }
+  // Centres around, the nearest first; farther ones only where no neighbour is in sight.
+  for (const int reach : {1, kFarthestCentre})
+    for (const VoxelIndex& o : offsets_by_distance(point, voxel, esdf.voxel_size, reach)) {
+      const VoxelId id = esdf.layout.find(voxel + o);
+      if (id != kNoVoxel && joins(id)) return {EndpointStatus::kOk, id};
+    }
   return {EndpointStatus::kInCollision, kNoVoxel};
 }
 

@@ -21,7 +21,8 @@ struct Endpoint {
 };
 
 /// The nearest traversable voxel centre, of the point's voxel and its 26 neighbours, that a
-/// straight free segment leads to. The same function serves every planner.
+/// straight free segment leads to; where there is none, of those up to three voxels off in each
+/// direction. The same function serves every planner.
 Endpoint find_endpoint(const FreeSpace& space, const Point& point, double radius);
 
 }  // namespace ridgeway::detail

@@ -12,6 +12,7 @@ namespace {
 constexpr double kSteepest = 1.875;     // largest slope of the rise 10 x^3 - 15 x^4 + 6 x^5
 constexpr double kRiseOfStage = 0.1;    // rise over (rise + hold)
 constexpr double kWithin = 1.0 - 1e-5;  // of a limit, so that certified peaks hold it
+constexpr double kRounding = 1e-12;     // of a rise: what is shorter is a difference that is none
 
 struct Profile {
   double rise = 0.0, hold = 0.0, cruise = 0.0;  ///< seconds
@@ -53,7 +54,6 @@ class LineBuilder {
 
   /// Acceleration goes smoothly from what it is to `acceleration`.
   void add(double duration, double acceleration) {
-    if (!(duration > 0.0)) return;
     const double change = acceleration - acceleration_, t = duration;
     std::array<double, kCoefficients> c{position_, speed_, 0.5 * acceleration_};
     c[5] = 0.5 * change / (t * t * t);
@@ -85,12 +85,16 @@ std::vector<TrajectorySegment> straight_motion(const Point& from, const Point& t
   if (!(length > 0.0)) return {};
   const Profile p = choose_profile(length, limits);
   LineBuilder line(from, (to - from) / length);
+  const double shortest = kRounding * p.rise;
+  const auto hold = [&](double duration, double acceleration) {
+    if (duration > shortest) line.add(duration, acceleration);
+  };
   line.add(p.rise, p.acceleration);
-  line.add(p.hold, p.acceleration);
+  hold(p.hold, p.acceleration);
   line.add(p.rise, 0.0);
-  line.add(p.cruise, 0.0);
+  hold(p.cruise, 0.0);
   line.add(p.rise, -p.acceleration);
-  line.add(p.hold, -p.acceleration);
+  hold(p.hold, -p.acceleration);
   line.add(p.rise, 0.0);
   return line.segments;
 }

@@ -90,5 +90,41 @@ TEST(DistanceAt, AnswersPlacesOfTheWorldThatWereSeen) {
   EXPECT_FALSE(distance_at(esdf, Point(std::nan(""), 0.0, 0.0)));
 }
 
+// Beside the map's blocks no field says how far obstacles are, where unknown space is none.
+TEST(SignedDistance, IsMeasuredBesideTheMap) {
+  int checked = 0;
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    for (const auto policy : {UnknownPolicy::kIgnore, UnknownPolicy::kFree}) {
+      const EsdfMap esdf = compute_esdf(testing::random_map(seed, 16), {.unknown = policy});
+      std::vector<VoxelIndex> obstacles;
+      for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
+        if (esdf.obstacle.test(id)) obstacles.push_back(esdf.layout.index_of(id));
+      for (VoxelId id = 0; id < esdf.layout.voxel_count(); id += 5)
+        for (int d = 0; d < 27; ++d) {
+          const VoxelIndex beside = esdf.layout.index_of(id) + offset_of(d);
+          if (esdf.layout.find(beside) != kNoVoxel || esdf.squared[id] == kNoSite) continue;
+          const double brute =
+              std::sqrt(testing::brute_squared_distance(centre_of(beside, 1.0), obstacles));
+          ASSERT_NEAR(signed_distance(esdf, beside), esdf.voxel_size * brute, 1e-9);
+          ++checked;
+        }
+    }
+  }
+  EXPECT_GT(checked, 1000);
+}
+
+TEST(DistanceAt, IsInfiniteWhereThereIsNoObstacle) {
+  const EsdfMap esdf =
+      compute_esdf(testing::make_map(0.1, {0, 0, 0}, {15, 15, 15},
+                                     [](const VoxelIndex&) { return VoxelState::kFree; }),
+                   {.unknown = UnknownPolicy::kFree});
+  for (const Point& p : {Point(0.5, 0.5, 0.5), Point(0.01, 0.8, 1.59)}) {
+    const auto found = distance_at(esdf, p);
+    ASSERT_TRUE(found);
+    EXPECT_TRUE(std::isinf(found->distance));
+    EXPECT_EQ(found->gradient, Point::Zero());
+  }
+}
+
 }  // namespace
 }  // namespace ridgeway

@@ -155,5 +155,24 @@ TEST(LiveRoadmap, IsPlannedOnWhileItIsUpdated) {
   EXPECT_EQ(unsafe, 0);
 }
 
+TEST(GraphDelta, RefusesPathsAndRadiiThatAreNone) {
+  LiveRoadmap live = two_rooms();
+  const auto before = live.snapshot();
+  live.set_voxels(door(VoxelState::kOccupied));
+  const auto now = live.snapshot();
+  const GraphDelta delta = delta_between(*before, *now);
+  const std::vector<Point> good{{1, 1.5, 1}, {7, 1.5, 1}};
+  EXPECT_TRUE(may_be_invalid(good, 0.3, delta));
+  for (const double radius : {-0.5, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    EXPECT_THROW(may_be_invalid(good, radius, delta), InputError);
+    EXPECT_THROW(still_safe(good, radius, *now), InputError);
+  }
+  for (const std::vector<Point>& path :
+       {std::vector<Point>{}, std::vector<Point>{{1, std::nan(""), 1}}, {{1e300, 1, 1}}}) {
+    EXPECT_THROW(may_be_invalid(path, 0.3, delta), InputError);
+    EXPECT_THROW(still_safe(path, 0.3, *now), InputError);
+  }
+}
+
 }  // namespace
 }  // namespace ridgeway

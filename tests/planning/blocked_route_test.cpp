@@ -247,5 +247,15 @@ TEST(BlockedRoute, LeavesBadPlacesToThePlan) {
   EXPECT_FALSE(blocks.between(Point(5, 1, 1), Point(0.15, 1, 1), 0.3).has_value());
 }
 
+TEST(BlockedRoute, RefusesRadiiThatAreNone) {
+  const Roadmap roadmap =
+      build_roadmap(testing::random_map(1, 16), {.min_clearance = kBlockedRadius}).roadmap;
+  const RouteBlocks blocks(roadmap);
+  for (const double radius :
+       {-1.0, 0.0, -1e308, std::nan(""), std::numeric_limits<double>::infinity(),
+        -std::numeric_limits<double>::infinity()})
+    EXPECT_THROW(blocks.between(Point(1, 1, 1), Point(2, 1, 1), radius), InputError) << radius;
+}
+
 }  // namespace
 }  // namespace ridgeway

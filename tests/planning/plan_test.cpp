@@ -10,6 +10,7 @@
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/planning/blocked_route.hpp"
 #include "ridgeway/planning/check.hpp"
 #include "ridgeway/roadmap/build_graph.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
@@ -140,6 +141,67 @@ TEST(Plan, PassesADoorOfExactlyTheRobotsWidthAndNoNarrower) {
   ASSERT_TRUE(fits.ok());
   const PlanResult too_wide = plan(roadmap, start, goal, {.radius = 0.36});
   EXPECT_EQ(too_wide.status, PlanStatus::kNoRoute);
+}
+
+/// Whether a place sees the centre of a traversable voxel, up to `reach` voxels off on each axis.
+bool sees_a_centre(const EsdfMap& esdf, const Point& place, double radius, int reach) {
+  const FreeSpace space(esdf);
+  const VoxelIndex home = voxel_at(place, esdf.voxel_size);
+  for (int z = -reach; z <= reach; ++z)
+    for (int y = -reach; y <= reach; ++y)
+      for (int x = -reach; x <= reach; ++x) {
+        const Point centre = centre_of(home + VoxelIndex{x, y, z}, esdf.voxel_size);
+        if (space.is_free(centre, radius) && space.is_free(place, centre, radius)) return true;
+      }
+  return false;
+}
+
+// Among specks a robot fits between places where no centre of a voxel beside it does.
+TEST(Plan, BeginsWhereACentreIsInSightThoughNoneBesideItIsFree) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> at(1.0, 15.0);
+  std::size_t farther = 0, alone = 0;
+  for (int map = 0; map < 20; ++map) {
+    const Roadmap roadmap = build(
+        testing::make_map(1.0, {0, 0, 0}, {15, 15, 15},
+                          [&](const VoxelIndex&) {
+                            return random() % 50 == 0 ? VoxelState::kOccupied : VoxelState::kFree;
+                          }),
+        1.7);
+    for (int i = 0; i < 2000; ++i) {
+      const Point place(at(random), at(random), at(random));
+      const Point local = to_local(roadmap.esdf, place);
+      if (!FreeSpace(roadmap.esdf).is_free(local, 1.7)) continue;
+      const bool is_refused = plan(roadmap, place, place).status == PlanStatus::kStartInCollision;
+      EXPECT_EQ(is_refused, !sees_a_centre(roadmap.esdf, local, 1.7, 3)) << place.transpose();
+      farther += !is_refused && !sees_a_centre(roadmap.esdf, local, 1.7, 1);
+      alone += is_refused;
+    }
+  }
+  EXPECT_GT(farther, 20u);
+  EXPECT_GT(alone, 0u);
+}
+
+// A corridor whose axis fits the robot, but lies between the centres of voxels.
+TEST(Plan, FliesStraightWhereNoCentreOfAVoxelFits) {
+  const Roadmap roadmap = build(
+      testing::make_map(0.1, {0, 0, 0}, {39, 11, 11},
+                        [](const VoxelIndex& v) {
+                          const bool is_corridor =
+                              v.x > 0 && v.x < 39 && v.y > 2 && v.y < 9 && v.z > 2 && v.z < 9;
+                          const bool is_room =
+                              v.x > 0 && v.x < 12 && v.y > 0 && v.y < 11 && v.z > 0 && v.z < 11;
+                          return is_corridor || is_room ? VoxelState::kFree : VoxelState::kOccupied;
+                        }),
+      0.28);
+  const Point room(0.6, 0.6, 0.6), inside(3.0, 0.6, 0.6), end(3.4, 0.6, 0.6);
+  for (const Planner planner : {Planner::kGraph, Planner::kEsdf, Planner::kDiagram})
+    for (const auto& [from, to] : {std::pair(inside, end), std::pair(room, end)}) {
+      const PlanResult result = plan(roadmap, from, to, {.planner = planner});
+      ASSERT_TRUE(result.ok()) << name_of(result.status);
+      EXPECT_NEAR(result.clearance, 0.3, 1e-9);
+    }
+  EXPECT_EQ(plan(roadmap, inside, Point(0.45, 0.45, 0.9)).status, PlanStatus::kStartInCollision);
 }
 
 TEST(Plan, FliesStraightWhereStartAndGoalSeeEachOther) {

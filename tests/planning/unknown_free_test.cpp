@@ -96,5 +96,24 @@ TEST(UnknownIsFree, AnswersAsFloodingDoesAndKeepsItsPathsOffWhatIsOccupied) {
   EXPECT_GT(through, 30);
 }
 
+// Nothing is near anything there, and no look for obstacles goes as far as numbers do.
+TEST(UnknownIsFree, AMapWithoutObstaclesIsPlannedIn) {
+  const OccupancyMap map = testing::make_map(0.1, {0, 0, 0}, {19, 19, 19},
+                                             [](const VoxelIndex&) { return VoxelState::kFree; });
+  for (const double max_distance : {std::numeric_limits<double>::infinity(), 1000.0, 2.0}) {
+    const Roadmap roadmap = build_roadmap(map, {.min_clearance = 0.2,
+                                                .unknown = UnknownPolicy::kFree,
+                                                .max_distance = max_distance})
+                                .roadmap;
+    const CheckReport report = check_roadmap(roadmap, {.queries = 20});
+    EXPECT_TRUE(report.is_clean());
+    EXPECT_EQ(report.graph_ok, 20u);
+    const PlanResult result =
+        plan(roadmap, Point(0.25, 0.25, 0.25), Point(1.7, 1.2, 0.3), {.shorten = false});
+    ASSERT_TRUE(result.ok());
+    EXPECT_GE(result.clearance, std::min(max_distance, 1000.0) - 0.01);
+  }
+}
+
 }  // namespace
 }  // namespace ridgeway

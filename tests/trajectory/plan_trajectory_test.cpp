@@ -175,6 +175,27 @@ TEST(PlanTrajectory, StopAndGoFollowsThePathExactly) {
   }
 }
 
+// Limits for which holding an acceleration, or a speed, takes no time but for rounding.
+TEST(PlanTrajectory, StopAndGoHoldsTheLimitOfYawWhereAPieceWouldTakeNoTime) {
+  const std::vector<Point> path{{2, 4, 2}, {4.5, 4.5, 2}, {4, 1.5, 2}};
+  for (const double speed : {0.2, 0.5, 1.0, 2.0})
+    for (const double acceleration : {0.3, 1.0, 3.0, 10.0})
+      for (const double jerk : {0.5, 1.0, 5.0, 20.0}) {
+        TrajectoryConfig config;
+        config.stop_and_go = true;
+        config.limits.max_speed = speed;
+        config.limits.max_acceleration = acceleration;
+        config.limits.max_jerk = jerk;
+        const TrajectoryResult result = plan_trajectory(esdf(), path, config);
+        ASSERT_TRUE(result.ok());
+        EXPECT_LE(result.peaks.yaw_rate, config.limits.max_yaw_rate * (1 + 1e-9));
+        EXPECT_LE(result.peaks.speed, speed * (1 + 1e-9));
+        EXPECT_LE(result.peaks.jerk, jerk * (1 + 1e-9));
+        for (const TrajectorySegment& segment : result.trajectory.segments)
+          EXPECT_GT(segment.duration, 1e-9);
+      }
+}
+
 TEST(PlanTrajectory, PassesADoorOfExactlyTheRobotsWidth) {
   const EsdfMap map = compute_esdf(testing::test_shape("door_of_the_robots_width").map());
   TrajectoryConfig config;

@@ -13,8 +13,8 @@ namespace ridgeway {
 /// cube outside obstacles; the negative of the distance to the nearest voxel cube that is no
 /// obstacle inside them. Distances inside are searched for on the spot, no deeper than `deepest`
 /// metres (then -deepest): nobody flies there, so no memory is spent on them. Voxels that are not
-/// allocated count as obstacles (`deepest` inside) or, where unknown is ignored, as far from
-/// everything.
+/// allocated count as obstacles (`deepest` inside) or, where unknown space is none, are measured
+/// beside the map's blocks, and farther off count as far from everything.
 double signed_distance(const EsdfMap& esdf, const VoxelIndex& voxel, double deepest = 1.0);
 
 /// How far obstacles are from a place, and in which direction that grows.

@@ -44,7 +44,8 @@ GraphDelta delta_between(const Roadmap& before, const Roadmap& now);
 
 /// Whether a path (metres, world) that was free at a radius before may not be so any more: whether
 /// a voxel that has closed since comes near it. False is certain; where true, ask still_safe().
-/// Takes no look at the map, so that it can be asked many times a second.
+/// Takes no look at the map, so that it can be asked many times a second. Throws InputError for a
+/// path without points or beyond all maps, and a radius that is no distance.
 bool may_be_invalid(std::span<const Point> path, double radius, const GraphDelta& delta);
 
 /// Whether a sphere of a radius (metres) can move along a path (metres, world; at least one point),
