@@ -172,7 +172,8 @@ TEST(Plan, BeginsWhereACentreIsInSightThoughNoneBesideItIsFree) {
       const Point place(at(random), at(random), at(random));
       const Point local = to_local(roadmap.esdf, place);
       if (!FreeSpace(roadmap.esdf).is_free(local, 1.7)) continue;
-      const bool is_refused = plan(roadmap, place, place).status == PlanStatus::kStartInCollision;
+      const bool is_refused =
+          describe_place(roadmap, place).status == PlanStatus::kStartInCollision;
       EXPECT_EQ(is_refused, !sees_a_centre(roadmap.esdf, local, 1.7, 3)) << place.transpose();
       farther += !is_refused && !sees_a_centre(roadmap.esdf, local, 1.7, 1);
       alone += is_refused;
