@@ -216,7 +216,7 @@ void add_fuse_command(Command& program) {
       .required();
   command.path("-o,--output", options->output, "Map to write, .ridge").required();
   command.number("--voxel-size", fusion.voxel_size, kLengths, "Metres");
-  command.number("--truncation", options->truncation, kLengths,
+  command.number("--truncation", options->truncation, kLengthsFromZero,
                  "Distances to surfaces are kept up to here, metres (default: four voxels)");
   command.number("--min-range", fusion.min_range, kLengthsFromZero,
                  "Nothing nearer is taken, metres");

@@ -59,7 +59,7 @@ class Pace {
     if (!keeps_) return;
     if (!first_) first_ = time;
     const double due = time - *first_;
-    for (double left; (left = due - replay.watch.seconds()) > 0.0;) {
+    for (double left = 0.0; (left = due - replay.watch.seconds()) > 0.0;) {
       bar.show("wait", 0.0);
       std::this_thread::sleep_for(std::chrono::duration<double>(std::min(left, 0.05)));
     }
@@ -211,9 +211,18 @@ LiveOptions completed(const LiveOptions& options, RecordingKind kind) {
   return all;
 }
 
+/// A folder that is followed need not be a recording yet.
+RecordingKind kind_of(const LiveOptions& options) {
+  const bool is_followed = options.follow > 0.0;
+  if ((is_followed || !options.until.empty()) && holds_scans(options.folder) &&
+      !holds_depth_images(options.folder))
+    throw InputError(is_followed ? "--follow" : "--until",
+                     "is for depth images, and " + options.folder + " holds scans", "leave it out");
+  return is_followed ? RecordingKind::kImages : kind_of_recording(options.folder);
+}
+
 int run(const LiveOptions& given, const Globals& globals) {
-  const RecordingKind kind =
-      given.follow > 0.0 ? RecordingKind::kImages : kind_of_recording(given.folder);
+  const RecordingKind kind = kind_of(given);
   std::vector<std::filesystem::path> outputs = {given.output};
   if (!given.csv.empty()) outputs.emplace_back(given.csv);
   for (const std::filesystem::path& output : outputs) require_outside(output, given.folder);
@@ -232,7 +241,9 @@ int run(const LiveOptions& given, const Globals& globals) {
   const std::shared_ptr<const Roadmap> snapshot = run.live.settled();
   if (!snapshot)
     throw InputError(options.folder, "shows no place that the robot fits",
-                     "give a smaller --min-clearance, or --unknown ignore");
+                     options.limits.any()
+                         ? "give wider limits of the flight, or a smaller --min-clearance"
+                         : "give a smaller --min-clearance, or --unknown ignore");
   const LiveReplay& replay = run.replay;
   if (replay.unreadable > 0)
     warn(globals, count_text(replay.unreadable) +
@@ -241,6 +252,9 @@ int run(const LiveOptions& given, const Globals& globals) {
     note(globals, count_text(replay.without_pose) + " frames have no pose and were passed over");
   save_roadmap(*snapshot, options.output);
   if (!options.csv.empty()) write_text_file(options.csv, csv_of(replay));
+  if (options.verify > 0 && replay.verified == 0)
+    warn(globals, "nothing was verified, as the recording has less than " +
+                      std::to_string(options.verify) + " frames (--verify)");
   print(replay, *snapshot, options.output, globals);
   if (replay.identical != replay.verified)
     throw std::logic_error("after " + replay.first_other + " a batch build gives another roadmap");

@@ -133,14 +133,22 @@ int run_batch(const PlanOptions& options, const Roadmap& roadmap, const Globals&
 
 /// Of what answers with several paths or chooses among goals, what does not go together.
 void require_one_form(const PlanOptions& options) {
+  if (options.alternatives && !options.queries.empty())
+    throw InputError("--alternatives", "is for one start and goal", "leave out --queries");
   const bool several = options.alternatives || options.to.size() > 1;
   if (options.alternatives && (options.to.size() > 1 || options.nearest))
     throw InputError("--alternatives", "is for one goal", "give one --to, without --nearest");
   if (options.nearest && options.to.empty())
     throw InputError("--nearest", "chooses among goals", "give several --to X,Y,Z");
-  if ((several || options.nearest) && (is_sampling(options.chosen()) || options.repeat > 1))
-    throw InputError("plan", "samples and repeats for one start and one goal alone",
-                     "leave out --repeat and --planner " + options.planner);
+  const char* form = options.alternatives ? "--alternatives"
+                     : options.nearest    ? "--nearest"
+                                          : "several goals";
+  if ((several || options.nearest) && is_sampling(options.chosen()))
+    throw InputError("--planner " + options.planner, "is for one path to one goal",
+                     std::string("leave it out with ") + form);
+  if ((several || options.nearest) && options.repeat > 1)
+    throw InputError("--repeat", "is for one path to one goal",
+                     std::string("leave it out with ") + form);
   if (options.to.size() > 1 && !options.nearest && !options.output.empty())
     throw InputError("--output", "is for one goal", "use --json for several");
 }

@@ -69,6 +69,10 @@ PlanResult given_path(const Roadmap& roadmap, std::vector<Point> waypoints,
       throw InputError(where, "has a waypoint far outside the map", "give metres, in its frame");
   }
   path.clearance = FreeSpace(roadmap.esdf).clearance(local);
+  const double straight = (path.waypoints.back() - path.waypoints.front()).norm();
+  path.within = straight > 0.0      ? std::max(path.length / straight, 1.0)
+                : path.length > 0.0 ? std::numeric_limits<double>::infinity()
+                                    : 1.0;
   return path;
 }
 
@@ -155,7 +159,8 @@ std::string AnswerFacts::reason(const Query& query, PlanStatus status) {
              " and more, asked for " + metres(query.radius) +
              ": give a larger --radius, or build the map with a smaller --min-clearance";
     case PlanStatus::kTimeout:
-      return "the limit came before a path was found: give a larger --time-limit";
+      return "the limit came before a path was found: give a larger --time-limit, or "
+             "--iteration-limit";
     default:
       return explain_endpoint(query, status);
   }

@@ -61,11 +61,35 @@ TrajectoryConfig trajectory_config(const TrajectoryOptions& options, double radi
   return config;
 }
 
-std::string explain_no_trajectory(const TrajectoryResult& result) {
+/// Of the first leg that is not free.
+std::string explain_not_free(const EsdfMap& esdf, const std::vector<Point>& path,
+                             const TrajectoryConfig& config) {
+  const FreeSpace space(esdf, both_of(esdf.limits, limits_in_local(esdf, config.flight_limits)),
+                        config.radius, config.robot_height);
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Point &from = path[i == 0 ? 0 : i - 1], &to = path[i];
+    const Point a = to_local(esdf, from), b = to_local(esdf, to);
+    if (space.is_free(a, b, config.radius)) continue;
+    const std::string leg =
+        "the path is not free between " + point_text(from) + " and " + point_text(to) + ": ";
+    if (!space.is_within_limits(a, b))
+      return leg + "it leaves the limits of the flight: give wider ones, or another path";
+    const double clearance = space.clearance(a, b);
+    if (clearance >= config.radius)
+      return leg + "the robot does not fit, or space is unknown there: plan the path on this map";
+    return leg + "it comes within " + text_of(rounded_down(clearance)) +
+           " m of an obstacle, and the robot's radius is " + text_of(config.radius) +
+           " m: give a smaller --radius, or plan the path on this map";
+  }
+  return "the path is not free at the radius";
+}
+
+std::string explain_no_trajectory(const EsdfMap& esdf, const std::vector<Point>& path,
+                                  const TrajectoryConfig& config, const TrajectoryResult& result) {
   if (result.status == TrajectoryStatus::kCannotStopInTime)
     return "the robot can neither follow the path from its motion nor brake in free space: give a "
            "lower --from-velocity or a higher --max-acceleration";
-  return "the path is not free at the radius";
+  return explain_not_free(esdf, path, config);
 }
 
 void print_result(const PlanResult& path, const TrajectoryResult& flown, double radius) {
@@ -117,11 +141,12 @@ PlanConfig plan_config(const TrajectoryOptions& options, double radius) {
 struct Course {
   PlanResult path;
   Query query;
+  std::string leg;  // which part of the course the query is
 };
 
 Course find_course(const TrajectoryOptions& options, const Roadmap& roadmap, double radius) {
   if (!options.path.empty()) {
-    Course course{given_path(roadmap, read_path(options.path), options.path), {}};
+    Course course{given_path(roadmap, read_path(options.path), options.path), {}, {}};
     course.query = {course.path.waypoints.front(), course.path.waypoints.back(), radius};
     return course;
   }
@@ -129,7 +154,12 @@ Course find_course(const TrajectoryOptions& options, const Roadmap& roadmap, dou
   places.insert(places.end(), options.via.begin(), options.via.end());
   places.push_back(*options.to);
   ViaPlan via = plan_via(roadmap, places, plan_config(options, radius));
-  return {std::move(via.plan), {places[via.leg], places[via.leg + 1], radius}};
+  Course course{std::move(via.plan), {places[via.leg], places[via.leg + 1], radius}, {}};
+  if (!options.via.empty())
+    course.leg = "on leg " + count_text(via.leg + 1) + " of " + count_text(places.size() - 1) +
+                 ", from " + point_text(course.query.start) + " to " +
+                 point_text(course.query.goal) + ": ";
+  return course;
 }
 
 void require_one_course(const TrajectoryOptions& options) {
@@ -145,6 +175,8 @@ void require_one_course(const TrajectoryOptions& options) {
 
 int run(const TrajectoryOptions& options, const Globals& globals) {
   require_one_course(options);
+  if (options.stop_and_go && options.from_velocity && *options.from_velocity != Point::Zero())
+    throw InputError("--stop-and-go", "begins at rest", "leave out --from-velocity");
   trajectory_config(options, options.radius.value_or(1.0));  // bad limits, before the file is read
   plan_config(options, options.radius.value_or(1.0));
   std::vector<std::filesystem::path> written, read{options.file};
@@ -167,12 +199,14 @@ int run(const TrajectoryOptions& options, const Globals& globals) {
   const PlanResult& path = course.path;
   if (!path.ok())
     return report_none(std::string(name_of(path.status)),
-                       AnswerFacts(roadmap, options.escape, config.flight_limits)
-                           .reason(as_planned(course.query, path), path.status),
+                       course.leg + AnswerFacts(roadmap, options.escape, config.flight_limits,
+                                                options.robot_height)
+                                        .reason(as_planned(course.query, path), path.status),
                        Json::parse(plan_json(path)), globals);
   const TrajectoryResult flown = fly_plan(roadmap.esdf, path, config);
   if (!flown.ok())
-    return report_none(std::string(name_of(flown.status)), explain_no_trajectory(flown),
+    return report_none(std::string(name_of(flown.status)),
+                       explain_no_trajectory(roadmap.esdf, path.waypoints, config, flown),
                        Json::parse(trajectory_json(path, flown, options.step)), globals);
 
   stop_if_interrupted();
@@ -202,7 +236,9 @@ void add_trajectory_command(Command& program) {
   command.path("roadmap", options->file, "Roadmap, .ridge").required();
   command.point("--from", options->from, "Start X,Y,Z, metres");
   command.point("--to", options->to, "Goal X,Y,Z, metres");
-  command.points("--via", options->via, "Place X,Y,Z on the way, metres; may be repeated");
+  command.points("--via", options->via,
+                 "Place X,Y,Z on the way, metres, as it is (--snap and --escape are of start and "
+                 "goal); may be repeated");
   command.path("--path", options->path,
                "Path to fly in place of one from a start to a goal, .json or .csv of plan");
   command.flag("--escape", options->escape,

@@ -92,6 +92,15 @@ def test_interrupts_are_heard_within_a_stage(side, setup, work):
     assert output == "interrupted\n"
 
 
+def test_numpy_says_no_as_python_does(rooms):
+    occupancy = ridgeway.OccupancyMap.from_numpy(rooms, 0.1)
+    for no in (False, np.False_, np.array(1.0) < 0):
+        with pytest.raises(ridgeway.Cancelled):
+            ridgeway.build(occupancy, min_clearance=0.25, progress=lambda stage, share: no)
+    for yes in (None, True, np.True_, 0):
+        ridgeway.build(occupancy, min_clearance=0.25, progress=lambda stage, share: yes)
+
+
 def test_other_threads_run_meanwhile(real_file):
     stop, turns = threading.Event(), []
 

@@ -305,3 +305,39 @@ def test_what_things_say_of_themselves(roadmap):
     for thing in things:
         assert repr(thing).startswith(type(thing).__name__ + "(")
         assert type(thing).__module__ == "ridgeway"
+
+
+def properties_of(value):
+    """All that can be read of it without a call."""
+    kinds = [kind for kind in type(value).__mro__ if kind is not object]
+    return {name: getattr(value, name) for kind in kinds for name, member in vars(kind).items() if isinstance(member, property)}
+
+
+def test_every_property_can_be_read(roadmap):
+    start, goal = (1, 1, 1), (5, 3, 1)
+    plan = roadmap.plan(start, goal)
+    assert set(plan.seconds) == {"attach", "search", "shorten", "total"}
+    things = [roadmap, roadmap.esdf, roadmap.graph, roadmap.diagram, plan, roadmap.alternatives(start, goal),
+              roadmap.trajectory(plan.waypoints), roadmap.explain(start, goal, radius=0.45), ridgeway.FlightLimits()]
+    for thing in things:
+        assert properties_of(thing), thing
+
+
+def test_masks_are_sets_of_voxels(rooms, roadmap):
+    def diagram(voxel_size, origin):
+        occupancy = ridgeway.OccupancyMap.from_numpy(rooms, voxel_size, origin)
+        return ridgeway.compute_skeleton(ridgeway.compute_esdf(occupancy), 2.5 * voxel_size)
+
+    here, again = diagram(0.1, (0, 0, 0)), diagram(0.1, (0, 0, 0))
+    assert here == again and here != diagram(0.1, (1, 0, 0)) and here != diagram(0.05, (0, 0, 0))
+    assert here != None and here != 1 and here not in [1, "x"]  # noqa: E711
+    assert ridgeway.FlightLimits() != "x" and ridgeway.FlightLimits() == ridgeway.FlightLimits()
+    elsewhere = ridgeway.compute_esdf(ridgeway.OccupancyMap.from_numpy(rooms, 0.05, (100, 200, 0)))
+    with pytest.raises(ridgeway.InputError, match="another map"):
+        ridgeway.build_graph(elsewhere, here)
+
+
+def test_radii_that_are_none_are_refused(roadmap):
+    for radius in (-1, 0, -1e308, float("nan"), float("inf")):
+        with pytest.raises(ridgeway.InputError):
+            roadmap.explain((1, 1, 1), (5, 3, 1), radius=radius)

@@ -129,6 +129,11 @@ void require_room(const EsdfMap& esdf, const FlightLimits& limits) {
     const double low = limits.keep_in.min[axis], high = limits.keep_in.max[axis];
     const double first = std::ceil((low - kOnTheFace) / s - 0.5) + 0.5;  // centre, voxels
     if (first * s <= high + kOnTheFace) continue;
+    if (low > high)
+      throw InputError(
+          "flight limits",
+          std::string("do not meet those that the map was built with along ") + "xyz"[axis],
+          "give limits that lie within them");
     throw InputError("flight limits",
                      std::string("hold the centre of no voxel along ") + "xyz"[axis],
                      "give limits that are at least a voxel apart");

@@ -54,7 +54,8 @@ double FreeSpace::clearance(std::span<const Point> path, double at_most) const {
   };
   // A good bound first: then only the narrowest places are looked at closely.
   double best = at_most / s * (at_most / s);
-  if (best > squared_far(esdf_)) best = detail::kInfinity;  // as no site is known to be so far
+  if (std::isinf(esdf_.max_distance) && best > squared_far(esdf_))
+    best = detail::kInfinity;  // no site is so far
   for_each_segment([&](SegmentMarch m) { best = m.upper_bound(best); });
   if (std::isinf(best)) {  // no site near any of it: farther than max_distance, if that is finite
     if (std::isinf(esdf_.max_distance)) return best;
@@ -144,8 +145,8 @@ bool FreeSpace::is_known_free(const Point& a, const Point& b) const {
 bool FreeSpace::cylinder_fits(VoxelId from, VoxelId to) const {
   const double s = esdf_.voxel_size;
   const VoxelIndex a = esdf_.layout.index_of(from), b = esdf_.layout.index_of(to), o = b - a;
-  const SquaredHalves bound =
-      move_bound(esdf_.squared[from], esdf_.squared[to], o.x * o.x + o.y * o.y + o.z * o.z);
+  const SquaredHalves bound = move_bound(esdf_.known_squared(from), esdf_.known_squared(to),
+                                         o.x * o.x + o.y * o.y + o.z * o.z);
   return bound >= least_clearance(outer_radius(radius_), s) ||
          is_free(centre_of(a, s), centre_of(b, s), radius_);
 }

@@ -176,6 +176,7 @@ void Explorer::State::go_on(const FlightState& state, bool arrived, ExplorationS
     const bool sees_after_all = choose(state, true, step);
     if (!is_searching) thorough_looks = 0;
     if (!sees_after_all) {
+      has_seen_all = !is_out_of_time;
       goal.reset();
       go_home(state, arrived, step);
       return;

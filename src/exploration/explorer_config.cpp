@@ -72,7 +72,8 @@ std::string_view name_of(ExplorationStatus status) {
 }
 
 std::string_view name_of(UnseenReason reason) {
-  constexpr std::array<std::string_view, 3> kNames{"too_narrow", "out_of_view", "looked_in_vain"};
+  constexpr std::array<std::string_view, 4> kNames{"too_narrow", "out_of_view", "looked_in_vain",
+                                                   "not_visited"};
   return name_in(kNames, reason);
 }
 

@@ -59,6 +59,7 @@ struct Explorer::State {
   int thorough_looks = 0;  ///< in a row, so far: at all there is, from everywhere
   bool is_returning = false;
   bool is_out_of_time = false;
+  bool has_seen_all = false;  ///< no viewpoint sees anything, by the thorough look
 
  private:
   bool look_around(const Point& here, bool thorough);

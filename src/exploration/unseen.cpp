@@ -46,6 +46,7 @@ std::vector<UnseenFrontier> Explorer::unseen() const {
     const FrontierCluster& cluster = state.frontiers.clusters()[c];
     if (cluster.voxels < state.config.least_frontier) continue;
     UnseenFrontier found = {to_world(esdf, cluster.centroid), cluster.voxels};
+    if (!state.has_seen_all) found.reason = UnseenReason::kNotVisited;
     std::size_t looked_at = 0, targets = 0;
     for (const std::size_t i : cluster.parts)
       for (const VoxelIndex& target : state.frontiers.parts()[i].targets) {

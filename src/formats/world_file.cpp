@@ -84,7 +84,8 @@ class WorldReader {
   double scalar(const YAML::Node& node, const char* key) const {
     double value = 0.0;
     if (!node.IsScalar() || !YAML::convert<double>::decode(node, value) || !std::isfinite(value))
-      fail(node.Mark(), "has a " + std::string(key) + " that is no number", "give metres");
+      fail(node.Mark(), "has a " + std::string(key) + " that is no number",
+           "give one, without its unit");
     return value;
   }
 

@@ -52,8 +52,11 @@ std::vector<Query> draw_queries(const Roadmap& roadmap, const CheckConfig& confi
         places[k].push_back(id);
     }
   }
+  if (places[0].empty() && config.queries > 0)
+    throw InputError("check", "finds no place within the limits where the robot fits",
+                     "give wider limits or a lower robot, or ask for no queries");
   std::mt19937_64 random(config.seed);
-  std::vector<Query> queries(places[0].empty() ? 0 : config.queries);
+  std::vector<Query> queries(config.queries);
   for (Query& query : queries) {
     std::size_t k = random() % places.size();
     if (places[k].empty()) k = 0;

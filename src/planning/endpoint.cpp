@@ -20,7 +20,9 @@ std::vector<VoxelIndex> offsets_by_distance(const Point& point, const VoxelIndex
     double distance;
     VoxelIndex offset;
   };
+  const auto side = static_cast<std::size_t>(2 * reach + 1);
   std::vector<Candidate> candidates;
+  candidates.reserve(side * side * side);
   for (int z = -reach; z <= reach; ++z)
     for (int y = -reach; y <= reach; ++y)
       for (int x = -reach; x <= reach; ++x)
@@ -29,6 +31,7 @@ std::vector<VoxelIndex> offsets_by_distance(const Point& point, const VoxelIndex
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
   std::vector<VoxelIndex> offsets;
+  offsets.reserve(candidates.size());
   for (const Candidate& candidate : candidates) offsets.push_back(candidate.offset);
   return offsets;
 }
@@ -48,7 +51,8 @@ Endpoint find_endpoint(const FreeSpace& space, const Point& point, double radius
     return {EndpointStatus::kUnknown, kNoVoxel};
   if (!space.is_within_limits(point, point)) return {EndpointStatus::kOutsideLimits, kNoVoxel};
   const double off = (point - centre_of(voxel, esdf.voxel_size)).norm();
-  if (esdf.is_open(home) && esdf.distance(home) - off >= space.outer_radius(radius) &&
+  if (esdf.is_open(home) &&
+      esdf.known_squared(home).metres(esdf.voxel_size) - off >= space.outer_radius(radius) &&
       space.is_within_limits(home))
     return {EndpointStatus::kOk, home};  // in the ball that is free around the centre
   if (!space.is_free(point, radius)) return {EndpointStatus::kInCollision, kNoVoxel};

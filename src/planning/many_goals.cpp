@@ -137,6 +137,7 @@ ViaPlan plan_via(const Roadmap& roadmap, std::span<const Point> places, const Pl
   exact.escape = false;
   exact.snap = 0.0;
   ViaPlan via;
+  double straight = 0.0;  // over the places: no path over them is shorter
   for (std::size_t i = 0; i + 1 < places.size(); ++i) {
     const bool is_first = i == 0, is_last = i + 2 == places.size();
     PlanResult leg = plan(roadmap, places[i], places[i + 1], is_first || is_last ? config : exact);
@@ -145,8 +146,10 @@ ViaPlan plan_via(const Roadmap& roadmap, std::span<const Point> places, const Pl
         (!is_last && (leg.escape_goal.length > 0.0 || leg.moved_goal.distance > 0.0));
     if (strays) leg = plan(roadmap, places[i], places[i + 1], exact);  // which says why not
     if (!leg.ok()) return {std::move(leg), i};
+    straight += (leg.waypoints.back() - leg.waypoints.front()).norm();
     append_leg(leg, via.plan);
   }
+  if (straight > 0.0) via.plan.within = std::max(via.plan.length / straight, 1.0);
   return via;
 }
 

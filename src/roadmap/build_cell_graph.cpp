@@ -130,8 +130,8 @@ class CellGraphBuilder {
   /// How many of the levels of radii pass between two places. Only for small robots single
   /// obstacles are looked at.
   std::uint8_t width_between(CellId a, CellId b) const {
-    const SquaredHalves from = esdf_.squared[voxel_of(a, cells_[a].place)],
-                        to = esdf_.squared[voxel_of(b, cells_[b].place)];
+    const SquaredHalves from = esdf_.known_squared(voxel_of(a, cells_[a].place)),
+                        to = esdf_.known_squared(voxel_of(b, cells_[b].place));
     const VoxelIndex along =
         lattice_.voxel_at(b, cells_[b].place) - lattice_.voxel_at(a, cells_[a].place);
     const SquaredHalves bound =

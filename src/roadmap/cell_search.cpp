@@ -179,7 +179,8 @@ class CellSearch {
   /// By the distances at both ends, if they tell.
   bool is_free(CellId a, CellId b) const {
     const EsdfMap& esdf = around_.esdf;
-    const SquaredHalves from = esdf.squared[voxel_of(a)], to = esdf.squared[voxel_of(b)];
+    const SquaredHalves from = esdf.known_squared(voxel_of(a)),
+                        to = esdf.known_squared(voxel_of(b));
     if (std::min(from, to) < around_.threshold) return false;
     const VoxelIndex o = lattice_.voxel_at(b, number_in_cell(graph_, b)) -
                          lattice_.voxel_at(a, number_in_cell(graph_, a));

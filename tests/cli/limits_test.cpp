@@ -280,5 +280,12 @@ TEST_F(CliLimits, TrajectoriesGoViaPlacesAndLeaveTightOnes) {
   EXPECT_GT(wide["length"], tight["length"]);
 }
 
+TEST_F(CliLimits, ChecksThatFindNoPlaceToBeginAreRefused) {
+  const std::string map = rooms();
+  expect_refused({"check", map, "--queries", "20", "--robot-height", "1000"},
+                 {"no place", "give wider limits or a lower robot"});
+  expect_refused({"check", map, "--queries", "20", "--height", "100,101"}, {"check"});
+}
+
 }  // namespace
 }  // namespace ridgeway

@@ -301,7 +301,17 @@ TEST_F(CliPlan, GoesToManyGoalsOrTheNearest) {
   EXPECT_TRUE(exists("nearest.csv"));
   expect_refused(
       {"plan", map, "--from", "-2,1,1", "--to", "2,1,1", "--to", "1,1,1", "--planner", "rrtstar"},
-      {"samples"});
+      {"--planner rrtstar", "several goals"});
+}
+
+TEST_F(CliPlan, RefusesWhatItWouldPassOver) {
+  const std::string map = rooms();
+  write_whole(folder_ / "queries.txt", "-2,1,1,2,1,1\n");
+  expect_refused({"plan", map, "--queries", path("queries.txt"), "--alternatives", "2"},
+                 {"--alternatives", "--queries"});
+  expect_refused(
+      {"plan", map, "--from", "-2,1,1", "--to", "2,1,1", "--alternatives", "2", "--repeat", "3"},
+      {"--repeat", "leave it out with --alternatives"});
 }
 
 }  // namespace

@@ -100,5 +100,34 @@ TEST_F(CliTrajectory, RefusesBadInput) {
   refused({"--max-speed", "1e-6"}, {"--step"});
 }
 
+TEST_F(CliTrajectory, SaysWhichPartOfACourseHasNoPath) {
+  const Outcome refused =
+      run({"trajectory", rooms(), "--from", "-2,1.5,1", "--to", "2,1.5,1", "--via", "0.5,1.5,100"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.out.find("on leg 1 of 2"), std::string::npos) << refused.out;
+}
+
+TEST_F(CliTrajectory, SaysWhereAGivenPathIsNotFree) {
+  const std::string map = rooms();
+  write_whole(folder_ / "through.csv", "x,y,z\n-2,1.5,1\n2,1.5,1\n");
+  write_whole(folder_ / "round.csv", "x,y,z\n-2,1.5,1\n-2,-1,1\n-2,1.5,1\n-2,1,1\n");
+  const Outcome through = run({"trajectory", map, "--path", path("through.csv")});
+  EXPECT_EQ(through.code, 2);
+  EXPECT_NE(through.out.find("between -2,1.5,1 and 2,1.5,1"), std::string::npos) << through.out;
+  EXPECT_NE(through.out.find("of an obstacle"), std::string::npos) << through.out;
+  const Outcome low = run({"trajectory", map, "--path", path("round.csv"), "--height", "0.3,0.6"});
+  EXPECT_EQ(low.code, 2);
+  EXPECT_NE(low.out.find("leaves the limits of the flight"), std::string::npos) << low.out;
+  const Outcome round = run({"trajectory", map, "--path", path("round.csv"), "--json"});
+  ASSERT_EQ(round.code, 0) << round.out;
+  EXPECT_NEAR(round.json()["within"].get<double>(), 5.5 / 0.5, 1e-9);
+}
+
+TEST_F(CliTrajectory, RefusesStopAndGoInMotion) {
+  expect_refused({"trajectory", rooms(), "--from", "-2,1.5,1", "--to", "-2,-1,1", "--stop-and-go",
+                  "--from-velocity", "1,0,0"},
+                 {"--stop-and-go", "--from-velocity"});
+}
+
 }  // namespace
 }  // namespace ridgeway

@@ -162,6 +162,12 @@ struct EsdfMap {
     return squared[id] == kNoSite ? std::numeric_limits<double>::infinity()
                                   : SquaredHalves(squared[id]).metres(voxel_size);
   }
+  /// 4 d^2 / s^2 of that, and of a voxel without a site what it is at least.
+  SquaredHalves known_squared(VoxelId id) const {
+    if (squared[id] != kNoSite) return squared[id];
+    const double far = std::min(max_distance / voxel_size, static_cast<double>(kFarthestSite));
+    return SquaredHalves(4.0 * far * far);
+  }
 };
 
 /// The least distance at which a voxel counts as free at a radius: inclusive, with a relative slack

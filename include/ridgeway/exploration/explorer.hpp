@@ -135,11 +135,12 @@ struct ExplorationStep {
 
 /// Why a frontier stays as it is.
 enum class UnseenReason : std::uint8_t {
-  kTooNarrow,    ///< it could be seen from space that the robot does not get to
-  kOutOfView,    ///< no place of the robot has it within range, angle and line of sight
-  kLookedInVain  ///< seen from several places, nothing was measured
+  kTooNarrow,     ///< it could be seen from space that the robot does not get to
+  kOutOfView,     ///< no place of the robot has it within range, angle and line of sight
+  kLookedInVain,  ///< seen from several places, nothing was measured
+  kNotVisited     ///< the exploration has not come to its end, and may see it yet
 };
-/// "too_narrow", "out_of_view", "looked_in_vain".
+/// "too_narrow", "out_of_view", "looked_in_vain", "not_visited".
 std::string_view name_of(UnseenReason reason);
 
 /// What exploration leaves unseen, and why.
