@@ -296,8 +296,8 @@ void add_live_command(Command& program) {
                  "What lies farther from the sensor along any axis follows when it comes nearer, "
                  "and in the end, metres");
   command.number("--follow", options->follow, {0.0, 1e6},
-                 "The folder is still written to: wait so long for the next image, seconds");
-  command.path("--until", options->until, "Stop after the image of this name");
+                 "The folder is still written to: wait so long for the next depth image, seconds");
+  command.path("--until", options->until, "Stop after the depth image of this name");
   command.whole("--verify", options->verify, {0, 1'000'000},
                 "Build in batch after every so many scans and compare the bytes; 0: never");
   command.whole(

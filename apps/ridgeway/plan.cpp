@@ -218,8 +218,8 @@ void add_plan_command(Command& program) {
   command.choice_or_number(
       "--quality", options->quality, {"quick", "default", "best"}, options->within, {1.0, 1e6},
       "quick: settle for nearly tight where the roadmap has learnt such a way; a number: go on "
-      "until the path is at most so many times as long as the shortest can be, or time is up; "
-      "best: 1.02");
+      "until the path is at most so many times as long as the shortest can be, time is up, or "
+      "all is searched that there is; best: 1.02");
   command.number("--time-limit", options->time_limit, kTimeLimits,
                  "Seconds (default: no limit, 10 where the planner samples)");
   add_sampling_options(command, *options);

@@ -69,7 +69,19 @@ void add_to_function(py::handle owner, const std::string& name, const std::strin
     py::cpp_function(refuse, py::name(name.c_str()), py::scope(owner), py::sibling(before));
 }
 
+/// Of an object whose __init__ was not called, or has thrown, pybind11 would hand out memory that
+/// holds nothing: it asks this for it.
+void refuse_unmade_objects(py::handle type) {
+  py::detail::type_info* info =
+      py::detail::get_type_info(reinterpret_cast<PyTypeObject*>(type.ptr()));
+  if (info == nullptr) return;
+  info->operator_new = [](std::size_t) -> void* {
+    throw py::type_error("the object was not made: its __init__ was not called, or has failed");
+  };
+}
+
 void add_to_class(py::handle type) {
+  refuse_unmade_objects(type);
   const std::string name = py::str(type.attr("__name__"));
   std::vector<std::string> makers;
   const py::dict members(type.attr("__dict__"));  // a copy, as members are added

@@ -310,7 +310,8 @@ def test_what_things_say_of_themselves(roadmap):
 def properties_of(value):
     """All that can be read of it without a call."""
     kinds = [kind for kind in type(value).__mro__ if kind is not object]
-    return {name: getattr(value, name) for kind in kinds for name, member in vars(kind).items() if isinstance(member, property)}
+    names = [name for kind in kinds for name, member in vars(kind).items() if isinstance(member, property)]
+    return {name: getattr(value, name) for name in names}
 
 
 def test_every_property_can_be_read(roadmap):
@@ -341,3 +342,23 @@ def test_radii_that_are_none_are_refused(roadmap):
     for radius in (-1, 0, -1e308, float("nan"), float("inf")):
         with pytest.raises(ridgeway.InputError):
             roadmap.explain((1, 1, 1), (5, 3, 1), radius=radius)
+
+
+def test_objects_that_were_not_made_are_refused():
+    class Mine(ridgeway.LiveRoadmap):
+        def __init__(self):
+            with pytest.raises(ridgeway.InputError):
+                super().__init__(voxel_size=-1)
+            with pytest.raises(TypeError, match="was not made"):
+                repr(self)
+
+    with pytest.raises(TypeError):
+        Mine().snapshot()
+    types = [kind for kind in vars(ridgeway).values() if isinstance(kind, type) and kind.__module__.startswith("ridgeway")]
+    classes = [kind for kind in types if not issubclass(kind, (Exception, tuple))]
+    assert len(classes) > 15
+    for kind in classes:
+        unmade = kind.__new__(kind)
+        for name in (name for name, member in vars(kind).items() if isinstance(member, property)):
+            with pytest.raises(TypeError):
+                getattr(unmade, name)

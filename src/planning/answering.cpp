@@ -22,6 +22,13 @@
 namespace ridgeway::detail {
 namespace {
 
+/// Ends that are the centres of their voxels come twice. Two points are left at least.
+void drop_repeated(std::vector<Point>& path) {
+  const Point goal = path.back();
+  path.erase(std::unique(path.begin(), path.end()), path.end());
+  if (path.size() == 1) path.push_back(goal);
+}
+
 /// A query that is being answered.
 class Answering {
  public:
@@ -51,7 +58,9 @@ class Answering {
   bool accept(Route path, const KnownStretch& known) {
     result_.waypoints = std::move(path);
     describe(space_, known, result_);
-    return is_verified(esdf_, space_, result_, query_.radius);
+    if (!is_verified(esdf_, space_, result_, query_.radius)) return false;
+    drop_repeated(result_.waypoints);
+    return true;
   }
 
   PlanStatus find_path() {

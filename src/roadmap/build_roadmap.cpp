@@ -78,8 +78,10 @@ void require_suits(const BuildConfig& config, double voxel_size) {
   require(config.min_clearance >= 1e-3 * voxel_size, "min_clearance", config.min_clearance,
           "give the robot's radius in metres, at least a thousandth of a voxel");
   // Up to two voxels below max_distance radii are exact; at least the smallest must be.
-  require(config.max_distance >= config.min_clearance + 2.0 * voxel_size, "max_distance",
-          config.max_distance, "give at least min_clearance and two voxels, or leave it out");
+  constexpr double kRounding = 1.0 - 1e-9;
+  require(config.max_distance >= (config.min_clearance + 2.0 * voxel_size) * kRounding,
+          "max_distance", config.max_distance,
+          "give at least min_clearance and two voxels, or leave it out");
 }
 
 EsdfConfig distances_config(const BuildConfig& config) {

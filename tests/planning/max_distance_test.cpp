@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "support/random_maps.hpp"
@@ -87,6 +88,16 @@ TEST(MaxDistance, TallCylindersPassWhereTheyFit) {
   }
   EXPECT_GT(passed, 50);
   EXPECT_GT(refused, 20);
+}
+
+// 0.6 - 2 * 0.1 is less than 0.4 by rounding.
+TEST(MaxDistance, HoldsARadiusTwoVoxelsBelowIt) {
+  const Roadmap roadmap = build_within(room_of_rods(1, 0), 0.4, 0.6);
+  EXPECT_TRUE(plan(roadmap, Point(0.55, 0.55, 0.55), Point(1.4, 1.3, 0.9), {.radius = 0.4}).ok());
+  const Roadmap smaller = build_within(room_of_rods(1, 0), 0.2, 0.6);
+  EXPECT_TRUE(plan(smaller, Point(0.55, 0.55, 0.55), Point(1.4, 1.3, 0.9), {.radius = 0.4}).ok());
+  EXPECT_THROW(plan(smaller, Point(0.55, 0.55, 0.55), Point(1.4, 1.3, 0.9), {.radius = 0.41}),
+               InputError);
 }
 
 }  // namespace

@@ -205,6 +205,31 @@ TEST(Plan, FliesStraightWhereNoCentreOfAVoxelFits) {
   EXPECT_EQ(plan(roadmap, inside, Point(0.45, 0.45, 0.9)).status, PlanStatus::kStartInCollision);
 }
 
+TEST(Plan, NoWaypointComesTwice) {
+  const Roadmap roadmap = build_shape("floating_box");
+  const double s = roadmap.esdf.voxel_size;
+  std::mt19937 random(8);
+  int solved = 0;
+  for (int i = 0; i < 200; ++i) {
+    std::array<Point, 2> ends;  // centres of voxels, the same at times
+    for (Point& end : ends)
+      for (double& x : end) x = s * (static_cast<double>(random() % 40) + 0.5);
+    if (i % 20 == 0) ends[1] = ends[0];
+    for (const bool shorten : {false, true})
+      for (const Planner planner : {Planner::kGraph, Planner::kEsdf, Planner::kDiagram}) {
+        const PlanResult result =
+            plan(roadmap, ends[0], ends[1], {.planner = planner, .shorten = shorten});
+        if (!result.ok()) continue;
+        ++solved;
+        ASSERT_GE(result.waypoints.size(), 2u);
+        if (ends[0] == ends[1]) continue;
+        EXPECT_EQ(std::adjacent_find(result.waypoints.begin(), result.waypoints.end()),
+                  result.waypoints.end());
+      }
+  }
+  EXPECT_GT(solved, 100);
+}
+
 TEST(Plan, FliesStraightWhereStartAndGoalSeeEachOther) {
   const Roadmap roadmap = build_shape("in_sight_of_each_other");
   const Point start(0.62, 0.55, 0.6), goal(4.4, 0.61, 0.58);
