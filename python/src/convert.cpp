@@ -101,7 +101,16 @@ std::filesystem::path path_from(py::handle value, const char* name) {
   return std::string(owner);
 }
 
+void require_no_mask(py::handle value, const char* name) {
+  if (!py::isinstance<py::array>(value) || !py::hasattr(value, "mask")) return;
+  if (!py::module_::import("numpy").attr("any")(value.attr("mask")).cast<bool>()) return;
+  throw py::type_error(std::string(name) +
+                       ": is a masked array, and what is masked has no value; " + "give " + name +
+                       ".filled(...) or " + name + ".compressed()");
+}
+
 Doubles doubles_from(py::handle value, const char* name, const std::string& expected) {
+  require_no_mask(value, name);
   const auto array = py::isinstance<py::array>(value) ? py::reinterpret_borrow<py::array>(value)
                                                       : py::array::ensure(value);
   if (!array) {
@@ -147,6 +156,7 @@ std::vector<Point> points_from(py::handle value, const char* name) {
 
 std::vector<VoxelIndex> voxels_from(py::handle value, const char* name) {
   const std::string expected = "an (N, 3) array of whole numbers";
+  require_no_mask(value, name);
   const auto array = py::array::ensure(value);
   if (!array) {
     PyErr_Clear();

@@ -42,6 +42,9 @@ Eigen::Isometry3d pose_from(py::handle value, const char* name);
 /// Two corners, (2, 3) or six numbers, the lesser first; infinite ones are no limit.
 Box box_from(py::handle value, const char* name);
 
+/// Throws for numpy's masked arrays, of which the rest of this module would see the values alone.
+void require_no_mask(py::handle value, const char* name);
+
 /// An array of doubles in C order, of `dimensions` dimensions: `value` itself where it is one.
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 Doubles doubles_from(py::handle value, const char* name, const std::string& expected);

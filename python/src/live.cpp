@@ -31,6 +31,7 @@ py::dict dict_of(const UpdateReport& report) {
 
 std::vector<VoxelChange> changes_from(py::handle voxels, py::handle states) {
   const std::vector<VoxelIndex> places = voxels_from(voxels, "voxels");
+  require_no_mask(states, "states");
   const auto array = py::array_t<std::int64_t, py::array::forcecast>::ensure(states);
   const char kind = array ? py::array::ensure(states).dtype().kind() : 'O';
   if (kind == 'O') {

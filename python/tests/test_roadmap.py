@@ -362,3 +362,11 @@ def test_objects_that_were_not_made_are_refused():
         for name in (name for name, member in vars(kind).items() if isinstance(member, property)):
             with pytest.raises(TypeError):
                 getattr(unmade, name)
+
+
+def test_masked_arrays_are_refused(rooms, roadmap):
+    masked = np.ma.array(rooms, mask=rooms == ridgeway.OCCUPIED)
+    with pytest.raises(TypeError, match=r"states: is a masked array.*filled"):
+        ridgeway.OccupancyMap.from_numpy(masked, 0.1)
+    with pytest.raises(TypeError, match="goals: is a masked array"):
+        roadmap.plan_many((1, 1, 1), np.ma.array([[5, 3, 1]], mask=[[0, 0, 1]]))
