@@ -69,7 +69,8 @@ std::vector<Point> read_csv(const std::filesystem::path& path) {
   Columns columns = {0, 1, 2};
   std::size_t line_number = 0, used_lines = 0;
   for (std::string line; std::getline(text, line);) {
-    ++line_number;
+    // Spreadsheets begin files of UTF-8 with this mark.
+    if (++line_number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
     if (trimmed(line).empty() || trimmed(line).front() == '#') continue;
     const std::vector<std::string_view> fields = split(line);
     if (used_lines++ == 0) {

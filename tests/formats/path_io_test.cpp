@@ -58,6 +58,8 @@ TEST(PathIo, ColumnsAreFoundByName) {
   EXPECT_EQ(read_path(folder / "a.csv"), (std::vector<Point>{{1, 2, 3}, {4, 5, 6}}));
   write_whole(folder / "b.csv", "1,2,3\n4,5,6");
   EXPECT_EQ(read_path(folder / "b.csv"), (std::vector<Point>{{1, 2, 3}, {4, 5, 6}}));
+  write_whole(folder / "d.csv", "\xEF\xBB\xBFx,y,z\n1,2,3\n4,5,6\n");
+  EXPECT_EQ(read_path(folder / "d.csv"), (std::vector<Point>{{1, 2, 3}, {4, 5, 6}}));
   write_whole(folder / "c.json", "[[1, 2, 3], [4, 5, 6]]");
   EXPECT_EQ(read_path(folder / "c.json"), (std::vector<Point>{{1, 2, 3}, {4, 5, 6}}));
 }
