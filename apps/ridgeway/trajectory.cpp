@@ -64,8 +64,8 @@ TrajectoryConfig trajectory_config(const TrajectoryOptions& options, double radi
 /// Of the first leg that is not free.
 std::string explain_not_free(const EsdfMap& esdf, const std::vector<Point>& path,
                              const TrajectoryConfig& config) {
-  const FreeSpace space(esdf, both_of(esdf.limits, limits_in_local(esdf, config.flight_limits)),
-                        config.radius, config.robot_height);
+  const FlightLimits limits = both_of(esdf.limits, limits_in_local(esdf, config.flight_limits));
+  const FreeSpace space(esdf, limits, config.radius, config.robot_height);
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Point &from = path[i == 0 ? 0 : i - 1], &to = path[i];
     const Point a = to_local(esdf, from), b = to_local(esdf, to);
