@@ -160,7 +160,7 @@ std::string AnswerFacts::reason(const Query& query, PlanStatus status) {
              ": give a larger --radius, or build the map with a smaller --min-clearance";
     case PlanStatus::kTimeout:
       return "the limit came before a path was found: give a larger --time-limit, or "
-             "--iteration-limit";
+             "--iteration-limit where the planner samples";
     default:
       return explain_endpoint(query, status);
   }

@@ -204,7 +204,8 @@ void add_exploration(py::module_& module) {
       .def("unseen", &ExplorerFace::unseen,
            "unseen(self)\n--\n\n"
            "The frontiers that are left, dicts of centroid, voxels, reason ('too_narrow', "
-           "'out_of_view' or\n'looked_in_vain'), door (where it is too narrow, or None) and "
+           "'out_of_view',\n'looked_in_vain' or 'not_visited'), door (where it is too narrow, or "
+           "None) and "
            "door_radius.")
       .def("frontiers", &ExplorerFace::frontiers,
            "frontiers(self)\n--\n\n"
