@@ -151,6 +151,16 @@ bool FreeSpace::cylinder_fits(VoxelId from, VoxelId to) const {
          is_free(centre_of(a, s), centre_of(b, s), radius_);
 }
 
+bool FreeSpace::touches_no_obstacle(VoxelId from, int direction) const {
+  const VoxelIndex& o = offset_of(direction);
+  for (int axes = 1; axes < 7; ++axes) {  // a bit for each along which the other voxel is
+    const VoxelIndex part{axes & 1 ? o.x : 0, axes & 2 ? o.y : 0, axes & 4 ? o.z : 0};
+    if (part == VoxelIndex{0, 0, 0} || part == o) continue;
+    if (esdf_.is_obstacle(esdf_.layout.neighbour(from, direction_of(part)))) return false;
+  }
+  return true;
+}
+
 SquaredHalves FreeSpace::slow_move_clearance(VoxelId from, VoxelId to, int direction,
                                              SquaredHalves enough) const {
   if (direction < kCentre) {  // the same both ways, to the last bit

@@ -20,6 +20,12 @@ struct VoxelEffort {
   int most_voxels;  ///< taken before the search gives up: a thousand take a third of a millisecond
 };
 
+/// How hard voxels are searched that a search over cells guides.
+struct GuidedEffort {
+  CellEffort cells;
+  VoxelEffort voxels;
+};
+
 /// What queries, and the learning of corners for them, trade length against time by: every number
 /// that could as well be another one. Each says its unit and what more of it costs. Lengths are in
 /// voxels or radii; `docs/performance.md` has what each is worth.
@@ -27,21 +33,20 @@ struct PlanningConstants {
   // The cell graph (roadmap/build_cell_graph.cpp, roadmap/cell_search.cpp).
   double cell_room = 1.5;      ///< voxels beyond the widest radius that a cell's place may be wide
   double cell_centring = 0.5;  ///< voxels of width that a voxel off the middle is worth
-  /// One after the other: the first finds most ways; one that goes straighter for the goal gets
-  /// there where that gave up.
-  std::array<CellEffort, 2> cell_efforts{{{1.35, 400, 1.05}, {2.0, 800, 1.05}}};
-  /// Where those gave up and the graph's is long: straighter than the last, so that it gets there.
-  CellEffort last_cell_effort{1.35, 16000, 1.15};
+  CellEffort cells{1.3, 1600, 1.05};  ///< of the search that most queries need
+  /// Where that gave up and the graph's is long: so much more that it gets there.
+  CellEffort last_cells{1.35, 16000, 1.15};
   double landmark_share = 0.93;  ///< of lengths by landmarks that paths are hardly shorter than
 
   // What a query tries (planning/answering.cpp). Lengths over what a path may be expected to have.
   double near = 1.05;  ///< good enough: nothing else is asked, nor ways past what blocks it tried
   double far = 1.15;   ///< too long to be believed: the sparse graph is searched as well
   double as_found = 1.1;  ///< a route over cells, corners or voxels over its tight path, at most
-  CellEffort guide{1.3, 600, 1.12};  ///< of the search over cells that guides one over voxels
-  VoxelEffort guided{1.05, 1800};    ///< of that one
-  int voxel_reach = 40;              ///< voxels that ends are apart at most for one without a guide
-  VoxelEffort unguided{1.15, 3700};  ///< of that one, the last of all: in clutter guides mislead
+  int voxel_reach = 40;   ///< voxels that ends are apart at most for one without a guide
+  VoxelEffort unguided{1.15, 3700};  ///< of that one, which comes first: in clutter guides mislead
+  /// The second where the first found no way, last of all.
+  std::array<GuidedEffort, 2> guided{{{{1.3, 600, 1.12}, {1.0, 3000}},  //
+                                      {{1.0, 8000, 1.25}, {1.0, 20000}}}};
 
   // Ways past what blocks a stretch (planning/detour.cpp).
   int detour_rays = 6;             ///< around the stretch

@@ -153,8 +153,9 @@ class Answering {
     if (!is_over_graph && config_.planner != Planner::kDiagram) attachment_.emplace();  // unused
     if (wants_short() && is_over_graph && !space_.is_narrowed() && is_connected()) {
       lap(result_.seconds.attach);
-      search_cells(known);
-      search_guided(known);
+      search_cells(known, kPlanning.cells);
+      known = improve(std::move(known));
+      search_over_voxels(known, 0);
       lap(result_.seconds.shorten);
       if (is_plausible(known) && accept(known, {})) return PlanStatus::kOk;
     }
@@ -179,19 +180,9 @@ class Answering {
     return accept(std::move(found.route), found.known) ? PlanStatus::kOk : PlanStatus::kNoRoute;
   }
 
-  /// Makes what is known shorter by way of the cells, as far as they have something shorter: first
-  /// by searches that go straight for the goal, wider ones only while what is known is too long to
-  /// be believed. Where one came to its end, no straighter one finds anything shorter.
-  void search_cells(Route& known) {
-    double ended = std::numeric_limits<double>::infinity();  // least weight of a search that did
-    for (const CellEffort& effort : kPlanning.cell_efforts) {
-      if (effort.weight >= ended || over_expected(known) <= effort.over) continue;
-      search_cells(known, effort);
-      if (!cells_gave_up_) ended = effort.weight;
-    }
-    known = improve(std::move(known));
-  }
+  /// Makes what is known shorter by way of the cells, as far as they have something shorter.
   void search_cells(Route& known, const CellEffort& effort) {
+    if (over_expected(known) <= effort.over) return;
     const double longest = known.empty() ? 0.0 : length_of(known);
     CellRoute cells;
     const auto search = [&](const AttachWay& from, const AttachWay& to) {
@@ -210,26 +201,31 @@ class Answering {
     return over_expected(path) <= kPlanning.far;
   }
 
-  /// The same by way of voxels that cells guide, where places are too coarse; once.
-  void search_guided(Route& known) {
-    if (was_guided_ || over_expected(known) <= kPlanning.guide.over || deadline_.has_passed())
+  /// The same by way of voxels, where places of cells are too coarse; each effort once, the second
+  /// where the first found no way. Over short distances without a guide: in clutter guides mislead.
+  void search_over_voxels(Route& known, std::size_t effort) {
+    const GuidedEffort& guided = kPlanning.guided[effort];
+    if (efforts_over_voxels_ != effort || over_expected(known) <= guided.cells.over ||
+        deadline_.has_passed())
       return;
-    was_guided_ = true;
-    CellGuide guide(roadmap_, space_, query_.radius, query_.from, query_.to);
-    if (!guide.find_way(kPlanning.guide)) return;
+    ++efforts_over_voxels_;
+    const double reach = kPlanning.voxel_reach * esdf_.voxel_size;
+    const bool is_short = (query_.goal - query_.start).norm() <= reach;
+    bool found = effort == 0 && is_short && search_over_voxels(known, nullptr, kPlanning.unguided);
+    if (!found) {
+      CellGuide guide(roadmap_, space_, query_.radius, query_.from, query_.to);
+      found = guide.find_way(guided.cells) && search_over_voxels(known, &guide, guided.voxels);
+    }
+    if (found) efforts_over_voxels_ = kPlanning.guided.size();
+  }
+  bool search_over_voxels(Route& known, const CellGuide* guide, const VoxelEffort& effort) {
     const double longest =
         known.empty() ? std::numeric_limits<double>::infinity() : length_of(known);
-    known = shorter(known, path_over_voxels(roadmap_, space_, query_, longest, &guide, deadline_));
-  }
-
-  /// The same without a guide, over short distances: in clutter guides mislead.
-  void search_unguided(Route& known) const {
-    const double reach = kPlanning.voxel_reach * esdf_.voxel_size;
-    if (over_expected(known) <= kPlanning.far || deadline_.has_passed() ||
-        (query_.goal - query_.start).norm() > reach)
-      return;
-    known = shorter(
-        known, path_over_voxels(roadmap_, space_, query_, length_of(known), nullptr, deadline_));
+    const Route path =
+        path_over_voxels(roadmap_, space_, query_, longest, guide, effort, deadline_);
+    if (path.empty()) return false;
+    known = improve(shorter(known, path));
+    return true;
   }
 
   Route shorter(const Route& a, const Route& b) const { return excess(b) < excess(a) ? b : a; }
@@ -244,10 +240,9 @@ class Answering {
         known.empty() ? std::numeric_limits<double>::infinity() : length_of(known);
     Route path = improve(shorten_below(space_, found, query_.radius, shortest, deadline_));
     path = shorter(known, path);
-    if (cells_gave_up_ && over_expected(path) > kPlanning.last_cell_effort.over)
-      search_cells(path, kPlanning.last_cell_effort);
-    search_guided(path);
-    search_unguided(path);
+    if (cells_gave_up_) search_cells(path, kPlanning.last_cells);
+    search_over_voxels(path, 0);
+    search_over_voxels(path, 1);
     if (config_.within > 0.0 && excess(path) > config_.within && !deadline_.has_passed())
       path = shorter(path, improve(shortest_over_voxels(esdf_, space_, query_, deadline_)));
     return path;
@@ -283,8 +278,8 @@ class Answering {
   const PlanConfig& config_;
   const Deadline& deadline_;
   RouteQuery query_;
-  bool cells_gave_up_ = false;  // the last search over them
-  bool was_guided_ = false;
+  bool cells_gave_up_ = false;           // the last search over them
+  std::size_t efforts_over_voxels_ = 0;  // that were made, or need not be
   std::optional<Attachment> attachment_;
   PlanResult result_;
 };

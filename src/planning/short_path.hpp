@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include "paths/planning_constants.hpp"
 #include "roadmap/cell_guide.hpp"
 #include "roadmap/cell_search.hpp"
 #include "route.hpp"
@@ -23,10 +24,11 @@ Route shorten_below(const FreeSpace& space, Route route, double radius, double l
 Route past_what_blocks(const EsdfMap& esdf, const FreeSpace& space, const RouteQuery& query,
                        Route path, const Deadline& deadline);
 
-/// A path by a search over voxels, pulled tight, that is about as long as `length` at most, metres,
-/// where cells guide it, and shorter where none do (null); empty where that finds none.
+/// A path by a search over voxels, guided by cells or not (null), pulled tight, that is about as
+/// long as `length` at most, metres; empty where that finds none.
 Route path_over_voxels(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query,
-                       double length, const CellGuide* guide, const Deadline& deadline);
+                       double length, const CellGuide* guide, const VoxelEffort& effort,
+                       const Deadline& deadline);
 
 /// The shortest path over voxels at any angle (search_any_angle), pulled tight; empty where time is
 /// up.

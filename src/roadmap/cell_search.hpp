@@ -18,7 +18,7 @@ struct CellQuery {
   const AttachWay& to;
   double radius;
   double longest = std::numeric_limits<double>::infinity();  ///< routes of interest, metres
-  CellEffort effort = kPlanning.cell_efforts.back();
+  CellEffort effort = kPlanning.cells;
 };
 
 /// A route over cells.

@@ -133,7 +133,11 @@ class FreeSpace {
     if (a < threshold || b < threshold) return false;
     if (!is_for_sphere()) return cylinder_fits(from, to);
     const SquaredHalves bound = move_bound(a, b, squared_length(direction));
-    return bound >= threshold || slow_move_clearance(from, to, direction, threshold) >= threshold;
+    if (bound >= threshold) return true;
+    constexpr SquaredHalves kNothing(0.0), kHalfVoxel(1.0);
+    if (threshold > kNothing && threshold <= kHalfVoxel)
+      return touches_no_obstacle(from, direction);
+    return slow_move_clearance(from, to, direction, threshold) >= threshold;
   }
 
   /// 4 D^2 / s^2 at the narrowest place of that move. Moves across a face never dip below their
@@ -155,6 +159,9 @@ class FreeSpace {
   }
 
  private:
+  /// Whether the voxels that a move between free ones touches beside these, at an edge or a corner,
+  /// are none. All others are half a voxel away from it or more.
+  bool touches_no_obstacle(VoxelId from, int direction) const;
   SquaredHalves slow_move_clearance(VoxelId from, VoxelId to, int direction,
                                     SquaredHalves enough) const;
 
