@@ -67,9 +67,7 @@ class ObstacleScan {
 
   /// As run(), of some blocks alone.
   double run_over(const BlockBox& box, double best) {
-    constexpr double kSlack = 1e-6;
-    best_ = best;
-    reach_ = std::sqrt(best) + kSlack;
+    set_best(best);
     for (int z = box.first.z; z <= box.last.z; ++z)
       for (int y = box.first.y; y <= box.last.y; ++y) {
         const BlockRow row = row_in_reach(y, z, box.first.x, box.last.x);
@@ -87,6 +85,12 @@ class ObstacleScan {
   }
 
  private:
+  void set_best(double best) {
+    constexpr double kSlack = 1e-6;
+    best_ = best;
+    reach_ = std::sqrt(best) + kSlack;
+  }
+
   /// Whether it is quicker to go through the layout, where what is not in it is no obstacle.
   bool has_many_more_than_all(const BlockBox& box) const {
     constexpr double kMany = 1 << 20;
@@ -98,8 +102,7 @@ class ObstacleScan {
   }
 
   double run_over_all(double best) {
-    best_ = best;
-    reach_ = std::sqrt(best);
+    set_best(best);
     for (const BlockIndex& block : solid_.layout.blocks()) scan_block(block, BlockLayout::kNoBlock);
     return best_;
   }

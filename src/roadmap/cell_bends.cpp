@@ -59,15 +59,13 @@ class BendFinder {
   }
   SquaredHalves clearance_at(CellId cell, unsigned place) const {
     const std::uint32_t slot = esdf_.layout.slot_at(cell / CellGraph::kPerBlock);
-    return SquaredHalves(esdf_.squared[slot * kBlockVoxels + local_voxel(cell, place)]);
+    return esdf_.known_squared(slot * kBlockVoxels + local_voxel(cell, place));
   }
 
   /// Whether all voxels of a cell are certainly free, as its place is far from everything.
   bool is_wide_open(CellId cell) const {
     constexpr double kDiagonal = 5.2;  // between two of its voxels at most, voxels
     const double least = 0.5 * std::sqrt(thresholds_.front().value) + kDiagonal;
-    // Of what is far from everything no more is known than that.
-    if (least > esdf_.max_distance / esdf_.voxel_size) return false;
     return esdf_.unknown == UnknownPolicy::kObstacle && space_.limits() == nullptr &&
            clearance_at(cell, graph_.cells[cell].place) >= SquaredHalves(4.0 * least * least);
   }

@@ -182,6 +182,8 @@ TEST(Exploration, ATooNarrowDoorIsNamed) {
         frontier.door_radius < config.clearance())
       is_named = true;
   EXPECT_TRUE(is_named);
+  for (const UnseenFrontier& frontier : flight.unseen)
+    EXPECT_NE(frontier.reason, UnseenReason::kNotVisited);
 }
 
 TEST(Exploration, IsBackWhenTheBudgetEnds) {
@@ -192,6 +194,9 @@ TEST(Exploration, IsBackWhenTheBudgetEnds) {
     EXPECT_LE(flight.seconds, budget);
     EXPECT_LT((flight.samples.back().state.position - config.start).norm(), 1e-6);
     EXPECT_GT(flight.coverage, 0.2);
+    EXPECT_FALSE(flight.unseen.empty());
+    for (const UnseenFrontier& frontier : flight.unseen)
+      EXPECT_NE(frontier.reason, UnseenReason::kOutOfView);  // there was no time to know
   }
 }
 

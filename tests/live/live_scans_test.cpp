@@ -136,7 +136,10 @@ TEST(CorrectPoses, GoOnInAThreadOfTheirOwnWhileScansAreFused) {
   LiveRoadmap live(config);
   flight.integrate_into(live, 0, 3);
   EXPECT_TRUE(live.is_correction_ready());
-  EXPECT_EQ(live.finish_correcting().fused_again, 0u);  // nothing was begun
+  const UpdateReport nothing = live.finish_correcting();  // as nothing was begun
+  EXPECT_EQ(nothing.fused_again, 0u);
+  EXPECT_EQ(nothing.version, 3u);
+  EXPECT_TRUE(nothing.has_roadmap);
   live.begin_correcting(flight.corrections(0, 2));
   flight.integrate_into(live, 3, 5);
   live.begin_correcting(flight.corrections(2, 4));  // both, anew
