@@ -171,8 +171,8 @@ void add_flights(py::module_& module) {
             write_trajectory(flight.path, flight.result, path_from(path, "path"),
                              number_from(step, "step"));
           },
-          py::arg("path"), py::arg("step") = 0.05,
-          "save(self, path, step=0.05)\n--\n\nAs .csv, .json, or .yaml (polynomials).")
+          py::arg("path"), py::arg("step") = 0.01,
+          "save(self, path, step=0.01)\n--\n\nAs .csv, .json, or .yaml (polynomials).")
       .def("__repr__", &flight_repr);
 }
 

@@ -46,7 +46,7 @@ struct PlanningConstants {
   VoxelEffort unguided{1.15, 3700};  ///< of that one, which comes first: in clutter guides mislead
   /// The second where the first found no way, last of all.
   std::array<GuidedEffort, 2> guided{{{{1.3, 600, 1.12}, {1.0, 3000}},  //
-                                      {{1.0, 8000, 1.25}, {1.0, 20000}}}};
+                                      {{1.0, 7000, 1.25}, {1.0, 20000}}}};
 
   // Ways past what blocks a stretch (planning/detour.cpp).
   int detour_rays = 6;             ///< around the stretch
