@@ -35,7 +35,7 @@ struct PlanningConstants {
   double cell_centring = 0.5;  ///< voxels of width that a voxel off the middle is worth
   CellEffort cells{1.3, 1600, 1.05};  ///< of the search that most queries need
   /// Where that gave up and the graph's is long: so much more that it gets there.
-  CellEffort last_cells{1.35, 16000, 1.15};
+  CellEffort last_cells{1.35, 64000, 1.15};
   double landmark_share = 0.93;  ///< of lengths by landmarks that paths are hardly shorter than
 
   // What a query tries (planning/answering.cpp). Lengths over what a path may be expected to have.
