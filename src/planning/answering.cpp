@@ -240,7 +240,7 @@ class Answering {
         known.empty() ? std::numeric_limits<double>::infinity() : length_of(known);
     Route path = improve(shorten_below(space_, found, query_.radius, shortest, deadline_));
     path = shorter(known, path);
-    if (cells_gave_up_) search_cells(path, kPlanning.last_cells);
+    if (cells_gave_up_ && !deadline_.has_passed()) search_cells(path, kPlanning.last_cells);
     search_over_voxels(path, 0);
     search_over_voxels(path, 1);
     if (config_.within > 0.0 && excess(path) > config_.within && !deadline_.has_passed())
