@@ -14,6 +14,11 @@ struct Deadline {
   explicit Deadline(double time_limit) : at(seconds_now() + time_limit) {}
   static Deadline never() { return Deadline(std::numeric_limits<double>::infinity()); }
   bool has_passed() const { return seconds_now() > at; }
+  /// The same, asked of the clock once in so many of a search's steps.
+  bool has_passed(int step) const {
+    constexpr int kStepsBetweenLooks = 1024;
+    return step % kStepsBetweenLooks == 0 && has_passed();
+  }
 };
 
 }  // namespace ridgeway::detail

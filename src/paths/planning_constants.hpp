@@ -33,9 +33,7 @@ struct PlanningConstants {
   // The cell graph (roadmap/build_cell_graph.cpp, roadmap/cell_search.cpp).
   double cell_room = 1.5;      ///< voxels beyond the widest radius that a cell's place may be wide
   double cell_centring = 0.5;  ///< voxels of width that a voxel off the middle is worth
-  CellEffort cells{1.3, 1600, 1.05};  ///< of the search that most queries need
-  /// Where that gave up and the graph's is long: so much more that it gets there.
-  CellEffort last_cells{1.35, 64000, 1.15};
+  CellEffort cells{1.3, 3200, 1.05};
   double landmark_share = 0.93;  ///< of lengths by landmarks that paths are hardly shorter than
 
   // What a query tries (planning/answering.cpp). Lengths over what a path may be expected to have.
@@ -46,7 +44,7 @@ struct PlanningConstants {
   VoxelEffort unguided{1.15, 3700};  ///< of that one, which comes first: in clutter guides mislead
   /// The second where the first found no way, last of all.
   std::array<GuidedEffort, 2> guided{{{{1.3, 600, 1.12}, {1.0, 3000}},  //
-                                      {{1.0, 7000, 1.25}, {1.0, 20000}}}};
+                                      {{1.1, 400000, 1.15}, {1.0, 600000}}}};
 
   // Ways past what blocks a stretch (planning/detour.cpp).
   int detour_rays = 6;             ///< around the stretch

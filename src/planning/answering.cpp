@@ -153,7 +153,7 @@ class Answering {
     if (!is_over_graph && config_.planner != Planner::kDiagram) attachment_.emplace();  // unused
     if (wants_short() && is_over_graph && !space_.is_narrowed() && is_connected()) {
       lap(result_.seconds.attach);
-      search_cells(known, kPlanning.cells);
+      search_cells(known);
       known = improve(std::move(known));
       search_over_voxels(known, 0);
       lap(result_.seconds.shorten);
@@ -181,17 +181,16 @@ class Answering {
   }
 
   /// Makes what is known shorter by way of the cells, as far as they have something shorter.
-  void search_cells(Route& known, const CellEffort& effort) {
-    if (over_expected(known) <= effort.over) return;
+  void search_cells(Route& known) {
+    if (over_expected(known) <= kPlanning.cells.over) return;
     const double longest = known.empty() ? 0.0 : length_of(known);
     CellRoute cells;
     const auto search = [&](const AttachWay& from, const AttachWay& to) {
-      cells = path_over_cells(roadmap_, space_, query_, from, to, effort, longest, deadline_);
+      cells = path_over_cells(roadmap_, space_, query_, from, to, longest, deadline_);
     };
     // Most ends see cells that are connected: then how they go on into the graph is not needed.
     if (!attachment_) search({.voxels = {query_.from}}, {.voxels = {query_.to}});
     if (!cells.is_direct) search(attachment().from, attachment().to);
-    cells_gave_up_ = cells.gave_up;
     known = shorter(known, cells.waypoints);
   }
 
@@ -214,7 +213,8 @@ class Answering {
     bool found = effort == 0 && is_short && search_over_voxels(known, nullptr, kPlanning.unguided);
     if (!found) {
       CellGuide guide(roadmap_, space_, query_.radius, query_.from, query_.to);
-      found = guide.find_way(guided.cells) && search_over_voxels(known, &guide, guided.voxels);
+      found = guide.find_way(guided.cells, deadline_) &&
+              search_over_voxels(known, &guide, guided.voxels);
     }
     if (found) efforts_over_voxels_ = kPlanning.guided.size();
   }
@@ -240,7 +240,6 @@ class Answering {
         known.empty() ? std::numeric_limits<double>::infinity() : length_of(known);
     Route path = improve(shorten_below(space_, found, query_.radius, shortest, deadline_));
     path = shorter(known, path);
-    if (cells_gave_up_ && !deadline_.has_passed()) search_cells(path, kPlanning.last_cells);
     search_over_voxels(path, 0);
     search_over_voxels(path, 1);
     if (config_.within > 0.0 && excess(path) > config_.within && !deadline_.has_passed())
@@ -278,7 +277,6 @@ class Answering {
   const PlanConfig& config_;
   const Deadline& deadline_;
   RouteQuery query_;
-  bool cells_gave_up_ = false;           // the last search over them
   std::size_t efforts_over_voxels_ = 0;  // that were made, or need not be
   std::optional<Attachment> attachment_;
   PlanResult result_;

@@ -27,7 +27,6 @@ constexpr std::array<double, 27> kLengths = [] {
 }();
 constexpr double kNone = std::numeric_limits<double>::infinity();
 constexpr double kNoGain = 1e-9;  // voxels
-constexpr int kExpansionsBetweenLooks = 1024;
 
 /// Length of the shortest 26-path between two voxels of empty space.
 inline double lattice_distance(const VoxelIndex& a, const VoxelIndex& b) {
@@ -103,8 +102,7 @@ class LatticeSearch {
     while (const std::optional<OpenBuckets::Entry> best = open_.pop(goal_cost)) {
       if (best->cost > memory_.cost_of(best->voxel)) continue;
       if (++expansions > options_.most_expansions) break;
-      if (expansions % kExpansionsBetweenLooks == 0 && deadline.has_passed())
-        return {SearchStatus::kTimeout, {}};
+      if (deadline.has_passed(expansions)) return {SearchStatus::kTimeout, {}};
       look_around(best->voxel, best->cost);
     }
     if (std::isinf(goal_cost)) return {SearchStatus::kNoRoute, {}};

@@ -16,12 +16,11 @@
 
 namespace ridgeway::detail {
 CellRoute path_over_cells(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query,
-                          const AttachWay& from, const AttachWay& to, const CellEffort& effort,
-                          double known, const Deadline& deadline) {
+                          const AttachWay& from, const AttachWay& to, double known,
+                          const Deadline& deadline) {
   CellQuery cells{query.start, query.goal, from, to, query.radius};
   if (known > 0.0) cells.longest = kPlanning.as_found * known;
-  cells.effort = effort;
-  CellRoute route = search_cells(roadmap, space, cells);
+  CellRoute route = search_cells(roadmap, space, cells, deadline);
   const double longest = known > 0.0 ? known : std::numeric_limits<double>::infinity();
   route.waypoints =
       shorten_below(space, std::move(route.waypoints), query.radius, longest, deadline);

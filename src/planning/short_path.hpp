@@ -12,8 +12,8 @@ namespace ridgeway::detail {
 /// Between ends that space connects: a route over the cell graph, pulled tight; empty where that
 /// graph has none. `known`: length of a path that it has to be shorter than, metres, 0 for none.
 CellRoute path_over_cells(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query,
-                          const AttachWay& from, const AttachWay& to, const CellEffort& effort,
-                          double known, const Deadline& deadline);
+                          const AttachWay& from, const AttachWay& to, double known,
+                          const Deadline& deadline);
 
 /// A route pulled tight; empty where it becomes clear that it will not be shorter than `longest`,
 /// metres.

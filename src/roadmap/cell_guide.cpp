@@ -58,7 +58,7 @@ CellGuide::CellGuide(const Roadmap& roadmap, const FreeSpace& space, double radi
   if (!lengths_.empty()) start_lengths_ = lengths_[cell / CellGraph::kPerBlock];
 }
 
-bool CellGuide::find_way(const CellEffort& effort) {
+bool CellGuide::find_way(const CellEffort& effort, const Deadline& deadline) {
   const PartId last = part_with(start_), first = part_with(end_);
   if (first == kNoPart || last == kNoPart) return false;
   parts_[first].place = middle_of(end_);
@@ -66,10 +66,13 @@ bool CellGuide::find_way(const CellEffort& effort) {
   parts_[first].cost = 0.0f;
   open_.push({0.0f, 0.0f, first});
   for (int taken = 0; !open_.empty() && taken < effort.most_cells; ++taken) {
+    if (deadline.has_passed(taken)) return false;
     const Open next = open_.top();
     open_.pop();
     if (next.part == last) return true;
-    if (next.cost <= parts_[next.part].cost) expand(next.part, static_cast<float>(effort.weight));
+    if (parts_[next.part].is_final) continue;
+    parts_[next.part].is_final = true;
+    expand(next.part, static_cast<float>(effort.weight));
   }
   return false;
 }
@@ -84,7 +87,7 @@ void CellGuide::expand(PartId id, float weight) {
     for (PartId k = met.first; k < met.last; ++k) {
       Part& part = parts_[k];
       const float cost = here.cost + lattice_length(part.place - here.place);
-      if (k == id || cost >= part.cost || !leads(here, part, step)) continue;
+      if (part.is_final || cost >= part.cost || !leads(here, part, step)) continue;
       if (part.from == kNoPart) part.rest = rest_of_search(next, part.place);
       part.cost = cost;
       part.from = id;

@@ -12,6 +12,7 @@
 #include "cell_neighbours.hpp"
 #include "cell_walks.hpp"
 #include "met_cells.hpp"
+#include "paths/deadline.hpp"
 #include "paths/planning_constants.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/roadmap/roadmap.hpp"
@@ -28,8 +29,8 @@ class CellGuide {
   CellGuide(const Roadmap& roadmap, const FreeSpace& space, double radius, VoxelId from,
             VoxelId to);
 
-  /// A* from `to`, as nothing is known of ways to it yet. False where that finds no way.
-  bool find_way(const CellEffort& effort);
+  /// A* from `to`, as nothing is known of ways to it yet. False where that finds no way in time.
+  bool find_way(const CellEffort& effort, const Deadline& deadline);
 
   /// Of the way from a voxel to `to`, about, voxels; infinite where the search has met none.
   double rest_from(const VoxelIndex& voxel) const;
@@ -47,6 +48,7 @@ class CellGuide {
     PartId from = kNoPart;  ///< the next on the way; itself at its end
     float cost = std::numeric_limits<float>::infinity();  ///< of the way, voxels
     float rest = 0.0f;                                    ///< of the way from the start, about
+    bool is_final = false;                                ///< ways go on from it: once only
   };
   struct Met {
     CellId cell = kNoCell;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <queue>
 
 #include "cell_approach.hpp"
@@ -18,17 +19,21 @@
 namespace ridgeway::detail {
 namespace {
 
+constexpr float kFinal = -std::numeric_limits<float>::infinity();
+
 const CellGraph::Lengths& lengths_for(const CellGraph& cells, double factor) {
   return widths_for(factor).least == kRadiusLevels.size() ? cells.lengths_wide : cells.lengths;
 }
 
 class CellSearch {
  public:
-  CellSearch(const Roadmap& roadmap, const FreeSpace& space, const CellQuery& query)
+  CellSearch(const Roadmap& roadmap, const FreeSpace& space, const CellQuery& query,
+             const Deadline& deadline)
       : around_(roadmap, space, query.radius),
         graph_(roadmap.cells),
         cells_(roadmap.cells.cells),
         query_(query),
+        deadline_(deadline),
         lattice_(roadmap.esdf.layout),
         voxel_size_(roadmap.esdf.voxel_size),
         widths_(around_.widths),
@@ -44,10 +49,7 @@ class CellSearch {
     }
     aim_at(in.joins().front().cell);
     const CellId last = search(out, in);
-    CellRoute result{{},
-                     last != kNoCell,
-                     out.walked() == 0 && in.walked() == 0,
-                     taken_ >= query_.effort.most_cells};
+    CellRoute result{{}, out.walked() == 0 && in.walked() == 0};
     if (last != kNoCell) result.waypoints = route_over(out, in, last);
     return result;
   }
@@ -92,10 +94,12 @@ class CellSearch {
   void reach(float cost, CellId from, MetCell& met, Direction back = kCentre) {
     met.cost = cost;
     met.from = from;
-    open_.push({cost + static_cast<float>(query_.effort.weight) * met.rest, cost, met.cell, back});
+    open_.push(
+        {cost + static_cast<float>(kPlanning.cells.weight) * met.rest, cost, met.cell, back});
   }
 
-  /// The last cell of the best route found, or kNoCell.
+  /// The last cell of the best route found, or kNoCell. No cell is gone on from twice: estimates by
+  /// landmarks are not consistent, and better ways to what is behind gain less than they cost.
   CellId search(CellApproach& out, CellApproach& in) {
     for (CellApproach::Join& join : out.joins())
       if (out.sees(join)) {
@@ -105,11 +109,14 @@ class CellSearch {
       }
     float best = longest_;
     CellId best_last = kNoCell;
-    for (; !open_.empty() && taken_ < query_.effort.most_cells; ++taken_) {
+    for (int taken = 0; !open_.empty() && taken < kPlanning.cells.most_cells; ++taken) {
+      if (deadline_.has_passed(taken)) break;
       const Open next = open_.top();
       open_.pop();
       if (best_last != kNoCell && next.estimate >= best) break;
-      if (next.cost > met_[next.cell].cost) continue;
+      MetCell& met = met_[next.cell];
+      if (next.cost > met.cost) continue;
+      met.cost = kFinal;
       for (CellApproach::Join& join : in.joins())
         if (join.cell == next.cell && next.cost + join.length < best && in.sees(join) &&
             next.cost + join.length < best) {  // a walk is longer than a segment
@@ -225,6 +232,7 @@ class CellSearch {
   const CellGraph& graph_;
   const std::vector<CellGraph::Cell>& cells_;
   const CellQuery& query_;
+  const Deadline& deadline_;
   const CellLattice lattice_;
   const double voxel_size_;
   const WidthsFor widths_;
@@ -234,7 +242,6 @@ class CellSearch {
   const float longest_;
   MetCells<> met_;
   std::priority_queue<Open> open_;
-  int taken_ = 0;  ///< cells
 };
 
 }  // namespace
@@ -251,9 +258,10 @@ double length_between(const Roadmap& roadmap, VoxelId a, VoxelId b, double radiu
   return kPlanning.landmark_share * std::max(length - kBlockSide, 0.0f) * roadmap.esdf.voxel_size;
 }
 
-CellRoute search_cells(const Roadmap& roadmap, const FreeSpace& space, const CellQuery& query) {
+CellRoute search_cells(const Roadmap& roadmap, const FreeSpace& space, const CellQuery& query,
+                       const Deadline& deadline) {
   if (roadmap.cells.cells.empty()) return {};
-  return CellSearch(roadmap, space, query).run();
+  return CellSearch(roadmap, space, query, deadline).run();
 }
 
 }  // namespace ridgeway::detail

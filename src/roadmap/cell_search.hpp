@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "attach_way.hpp"
+#include "paths/deadline.hpp"
 #include "paths/planning_constants.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 
@@ -18,22 +19,20 @@ struct CellQuery {
   const AttachWay& to;
   double radius;
   double longest = std::numeric_limits<double>::infinity();  ///< routes of interest, metres
-  CellEffort effort = kPlanning.cells;
 };
 
 /// A route over cells.
 struct CellRoute {
   std::vector<Point> waypoints;  ///< empty where there is none
-  bool found = false;
-  bool is_direct = false;  ///< both ends saw cells at once
-  bool gave_up = false;    ///< at the search's limit
+  bool is_direct = false;        ///< both ends saw cells at once
 };
 
 /// A short route over the cell graph, every segment of it free at the radius: A* with a weighted
 /// heuristic. An end that sees none of the cells that the other one can reach follows its way until
-/// it does. Empty where there is none, or none within the search's limit, which says nothing about
+/// it does. Empty where there is none, or none within the search's limits, which says nothing about
 /// space.
-CellRoute search_cells(const Roadmap& roadmap, const FreeSpace& space, const CellQuery& query);
+CellRoute search_cells(const Roadmap& roadmap, const FreeSpace& space, const CellQuery& query,
+                       const Deadline& deadline);
 
 /// About how long a way between two places is at least, metres, by the landmarks of the cell graph:
 /// an estimate at no cost, not a bound. 0 where they say nothing.

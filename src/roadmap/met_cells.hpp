@@ -13,7 +13,8 @@ namespace ridgeway::detail {
 /// A cell that a search has met.
 struct MetCell {
   CellId cell = kNoCell, from = kNoCell;
-  float cost = std::numeric_limits<float>::infinity();  ///< voxels
+  /// Of the best way to it, voxels; minus infinity once ways go on from it, as it is final then.
+  float cost = std::numeric_limits<float>::infinity();
   float rest = -1.0f;  ///< of the way to the goal, about, voxels; below 0: not known yet
 };
 

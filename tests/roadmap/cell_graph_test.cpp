@@ -138,7 +138,8 @@ TEST(CellGraph, RoutesAreFreeAtTheirRadius) {
         const detail::AttachWay out = detail::follow_attach(roadmap, from, radius);
         const detail::AttachWay in = detail::follow_attach(roadmap, to, radius);
         const std::vector<Point> route =
-            detail::search_cells(roadmap, space, {place(from), place(to), out, in, radius})
+            detail::search_cells(roadmap, space, {place(from), place(to), out, in, radius},
+                                 detail::Deadline::never())
                 .waypoints;
         if (route.empty()) continue;
         ++found;
@@ -337,7 +338,9 @@ TEST(CellGraph, LeadsThroughPassagesAVoxelWide) {
     out.voxels = {from};
     in.voxels = {to};
     const std::vector<Point> route =
-        detail::search_cells(roadmap, space, {start, goal, out, in, radius}).waypoints;
+        detail::search_cells(roadmap, space, {start, goal, out, in, radius},
+                             detail::Deadline::never())
+            .waypoints;
     ASSERT_FALSE(route.empty());
     EXPECT_EQ(route.front(), start);
     EXPECT_EQ(route.back(), goal);
