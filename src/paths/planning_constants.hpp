@@ -7,23 +7,10 @@
 
 namespace ridgeway::detail {
 
-/// How hard the cell graph is searched.
-struct CellEffort {
-  double weight;   ///< of A*'s heuristic: more is faster, and its routes a little longer
-  int most_cells;  ///< taken before the search gives up: a thousand take a third of a millisecond
-  double over;     ///< length of what is known over what may be expected: below, it is not done
-};
-
-/// How hard voxels are searched.
-struct VoxelEffort {
-  double weight;    ///< of A*'s heuristic
-  int most_voxels;  ///< taken before the search gives up: a thousand take a third of a millisecond
-};
-
 /// How hard voxels are searched that a search over cells guides.
 struct GuidedEffort {
-  CellEffort cells;
-  VoxelEffort voxels;
+  int most_cells;   ///< taken before the guide gives up: a thousand take half a millisecond
+  int most_voxels;  ///< taken before the search gives up: a thousand take a third of a millisecond
 };
 
 /// What queries, and the learning of corners for them, trade length against time by: every number
@@ -33,31 +20,29 @@ struct PlanningConstants {
   // The cell graph (roadmap/build_cell_graph.cpp, roadmap/cell_search.cpp).
   double cell_room = 1.5;      ///< voxels beyond the widest radius that a cell's place may be wide
   double cell_centring = 0.5;  ///< voxels of width that a voxel off the middle is worth
-  CellEffort cells{1.3, 3200, 1.05};
+  double cell_weight = 1.25;   ///< of A*'s heuristic: more is faster, its routes a little longer
+  int most_cells = 3200;       ///< taken before a search gives up: a third of a microsecond each
   double landmark_share = 0.93;  ///< of lengths by landmarks that paths are hardly shorter than
 
   // What a query tries (planning/answering.cpp). Lengths over what a path may be expected to have.
   double near = 1.05;  ///< good enough: nothing else is asked, nor ways past what blocks it tried
-  double far = 1.15;   ///< too long to be believed: the sparse graph is searched as well
-  double as_found = 1.1;  ///< a route over cells, corners or voxels over its tight path, at most
-  int voxel_reach = 40;   ///< voxels that ends are apart at most for one without a guide
-  VoxelEffort unguided{1.15, 3700};  ///< of that one, which comes first: in clutter guides mislead
+  double doubtful = 1.12;  ///< voxels are searched
+  double far = 1.15;       ///< too long to be believed: all else is searched as well
+  double as_found = 1.1;   ///< a route over cells, corners or voxels over its tight path, at most
+  int voxel_reach = 40;    ///< voxels that ends are apart at most for a search without a guide
+  int unguided = 3700;     ///< voxels taken by that, which comes first: in clutter guides mislead
   /// The second where the first found no way, last of all.
-  std::array<GuidedEffort, 2> guided{{{{1.3, 600, 1.12}, {1.0, 3000}},  //
-                                      {{1.1, 400000, 1.15}, {1.0, 600000}}}};
+  std::array<GuidedEffort, 2> guided{{{600, 3000}, {400000, 600000}}};
 
   // Ways past what blocks a stretch (planning/detour.cpp).
   int detour_rays = 6;             ///< around the stretch
-  int detour_tries = 3;            ///< places on a ray,
-  double detour_widening = 1.35;   ///< each so many times as far off as the one before
-  int detour_corners = 2;          ///< of a way
+  double detour_offset = 1.4;      ///< times as far along a ray as the robot first fits
   std::size_t detour_stretch = 3;  ///< segments that a way may replace
 
   // Pulling tight (paths/shorten.cpp).
   int tight_bisections = 5;   ///< of a move
   double tight_gain = 2e-3;   ///< of the path's length: what a move must gain
   double corner_gain = 1e-2;  ///< the same between corners that were learnt tight
-  double skip_step = 30.0;    ///< radii between the places that skipping may choose from
 
   // Where clearance is preferred, and alternatives (planning/path_cost.cpp, deformation.cpp,
   // alternatives.cpp, route_enumeration.cpp).
@@ -71,17 +56,13 @@ struct PlanningConstants {
   int most_alike = 4;             ///< routes to a fork that deform into each other
 
   // Learning corners (roadmap/build_tangent_graph.cpp, corner_*.cpp).
-  std::size_t first_pairs = 250;    ///< of places to learn from at first
-  std::size_t asked_pairs = 100;    ///< of places between which new paths show how much is known
-  double known = 0.85;              ///< of the paths: enough is learnt
-  double hopeless = 0.75;           ///< of the paths: less, and the map does without corners
-  float shunning = 1.6f;            ///< factor on edges that the first of two routes took
-  std::size_t merge_tries = 4;      ///< corners that may stand for one
-  std::size_t linked = 16;          ///< nearest corners that one is linked to
-  double link_saving = 1.005;       ///< of other ways over an edge: less, and it goes
-  double over_tangent = 0.2;        ///< sine of the angle above a corner's tangent plane
-  std::size_t looked_at = 72;       ///< corners from a cell, for those that it sees
-  std::size_t wide_labels = 50000;  ///< of hubs, to make them for wider robots too: time to build
+  std::size_t first_pairs = 250;  ///< of places to learn from at first
+  std::size_t asked_pairs = 100;  ///< of places between which new paths show how much is known
+  double known = 0.85;            ///< of the paths: enough is learnt
+  double hopeless = 0.75;         ///< of the paths: less, and the map does without corners
+  std::size_t linked = 16;        ///< nearest corners that one is linked to
+  double over_tangent = 0.2;      ///< sine of the angle above a corner's tangent plane
+  std::size_t looked_at = 72;     ///< corners from a cell, for those that it sees
 };
 
 inline constexpr PlanningConstants kPlanning{};

@@ -11,50 +11,6 @@ namespace {
 
 constexpr double kRounding = 1e-9;
 
-/// Skips waypoints: from each one goes on to about the farthest that can be seen, found by doubling
-/// the stride and then halving it, until an eighth of it is left in doubt.
-std::vector<Point> skip_forwards(const FreeSpace& space, const std::vector<Point>& path,
-                                 double radius, const MayReplace& may_replace) {
-  const auto can_skip = [&](std::size_t from, std::size_t to) {
-    if (!space.is_free(path[from], path[to], radius)) return false;
-    return !may_replace || may_replace(std::span(path).subspan(from, to - from + 1),
-                                       std::array{path[from], path[to]});
-  };
-  std::vector<Point> result{path.front()};
-  for (std::size_t at = 0; at + 1 < path.size();) {
-    std::size_t seen = at + 1, blind = path.size();
-    for (std::size_t stride = 2; at + stride < path.size(); stride *= 2) {
-      if (!can_skip(at, at + stride)) {
-        blind = at + stride;
-        break;
-      }
-      seen = at + stride;
-    }
-    if (blind == path.size() && seen + 1 < blind && can_skip(at, path.size() - 1))
-      seen = path.size() - 1;
-    while (blind - seen > 1 + (seen - at) / 8) {
-      const std::size_t middle = (seen + blind) / 2;
-      (can_skip(at, middle) ? seen : blind) = middle;
-    }
-    result.push_back(path[seen]);
-    at = seen;
-  }
-  return result;
-}
-
-/// Points along a path no farther apart than a step.
-std::vector<Point> subdivide(const std::vector<Point>& path, double step) {
-  std::vector<Point> result{path.front()};
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const Point& from = path[i - 1];
-    const Point along = path[i] - from;
-    const int pieces = static_cast<int>(along.norm() / step) + 1;
-    for (int k = 1; k < pieces; ++k) result.emplace_back(from + along * k / pieces);
-    result.push_back(path[i]);
-  }
-  return result;
-}
-
 Point nearest_on_segment(const Point& p, const Point& a, const Point& b) {
   const Point along = b - a;
   const double squared = along.squaredNorm();
@@ -258,7 +214,31 @@ class Tightening {
 std::vector<Point> skip_waypoints(const FreeSpace& space, std::vector<Point> path, double radius,
                                   const MayReplace& may_replace) {
   if (path.size() < 3) return path;
-  return skip_forwards(space, subdivide(path, kPlanning.skip_step * radius), radius, may_replace);
+  const auto can_skip = [&](std::size_t from, std::size_t to) {
+    if (!space.is_free(path[from], path[to], radius)) return false;
+    return !may_replace || may_replace(std::span(path).subspan(from, to - from + 1),
+                                       std::array{path[from], path[to]});
+  };
+  std::vector<Point> result{path.front()};
+  for (std::size_t at = 0; at + 1 < path.size();) {
+    std::size_t seen = at + 1, blind = path.size();
+    for (std::size_t stride = 2; at + stride < path.size(); stride *= 2) {
+      if (!can_skip(at, at + stride)) {
+        blind = at + stride;
+        break;
+      }
+      seen = at + stride;
+    }
+    if (blind == path.size() && seen + 1 < blind && can_skip(at, path.size() - 1))
+      seen = path.size() - 1;
+    while (blind - seen > 1 + (seen - at) / 8) {
+      const std::size_t middle = (seen + blind) / 2;
+      (can_skip(at, middle) ? seen : blind) = middle;
+    }
+    result.push_back(path[seen]);
+    at = seen;
+  }
+  return result;
 }
 
 std::vector<Point> draw_corners_in(const FreeSpace& space, const std::vector<Point>& path,

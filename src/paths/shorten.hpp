@@ -21,8 +21,8 @@ using MayReplace = std::function<bool(std::span<const Point>, std::span<const Po
 std::vector<Point> shorten(const FreeSpace& space, std::vector<Point> path, double radius,
                            const Deadline& deadline, const MayReplace& may_replace = {});
 
-/// Its first half: goes from place to place on the path, which may lie between waypoints, straight
-/// on while that is free.
+/// Its first half: from each waypoint goes on to about the farthest that can be seen, found by
+/// doubling the stride and then halving it, until an eighth of it is left in doubt.
 std::vector<Point> skip_waypoints(const FreeSpace& space, std::vector<Point> path, double radius,
                                   const MayReplace& may_replace = {});
 

@@ -182,7 +182,7 @@ class Answering {
 
   /// Makes what is known shorter by way of the cells, as far as they have something shorter.
   void search_cells(Route& known) {
-    if (over_expected(known) <= kPlanning.cells.over) return;
+    if (over_expected(known) <= kPlanning.near) return;
     const double longest = known.empty() ? 0.0 : length_of(known);
     CellRoute cells;
     const auto search = [&](const AttachWay& from, const AttachWay& to) {
@@ -204,8 +204,8 @@ class Answering {
   /// where the first found no way. Over short distances without a guide: in clutter guides mislead.
   void search_over_voxels(Route& known, std::size_t effort) {
     const GuidedEffort& guided = kPlanning.guided[effort];
-    if (efforts_over_voxels_ != effort || over_expected(known) <= guided.cells.over ||
-        deadline_.has_passed())
+    const double enough = effort == 0 ? kPlanning.doubtful : kPlanning.far;
+    if (efforts_over_voxels_ != effort || over_expected(known) <= enough || deadline_.has_passed())
       return;
     ++efforts_over_voxels_;
     const double reach = kPlanning.voxel_reach * esdf_.voxel_size;
@@ -213,16 +213,16 @@ class Answering {
     bool found = effort == 0 && is_short && search_over_voxels(known, nullptr, kPlanning.unguided);
     if (!found) {
       CellGuide guide(roadmap_, space_, query_.radius, query_.from, query_.to);
-      found = guide.find_way(guided.cells, deadline_) &&
-              search_over_voxels(known, &guide, guided.voxels);
+      found = guide.find_way(guided.most_cells, deadline_) &&
+              search_over_voxels(known, &guide, guided.most_voxels);
     }
     if (found) efforts_over_voxels_ = kPlanning.guided.size();
   }
-  bool search_over_voxels(Route& known, const CellGuide* guide, const VoxelEffort& effort) {
+  bool search_over_voxels(Route& known, const CellGuide* guide, int most_voxels) {
     const double longest =
         known.empty() ? std::numeric_limits<double>::infinity() : length_of(known);
     const Route path =
-        path_over_voxels(roadmap_, space_, query_, longest, guide, effort, deadline_);
+        path_over_voxels(roadmap_, space_, query_, longest, guide, most_voxels, deadline_);
     if (path.empty()) return false;
     known = improve(shorter(known, path));
     return true;

@@ -4,9 +4,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "paths/planning_constants.hpp"
 #include "paths/shorten.hpp"
@@ -33,25 +33,11 @@ double first_fit(const EsdfMap& esdf, const Point& origin, const Point& directio
   return along;
 }
 
-struct Way {
-  std::vector<Point> corners;
-  bool free = false;
-};
-
-/// The straight line, or a way with corners beside it.
-Way way_between(const EsdfMap& esdf, const FreeSpace& space, const Point& a, const Point& b,
-                double radius, double budget, int corners) {
-  if (space.is_free(a, b, radius)) return {{}, true};
-  if (corners == 0) return {};
-  Detour detour = find_detour(esdf, space, a, b, radius, budget, corners);
-  return {std::move(detour.corners), detour.length > 0.0};
-}
-
 }  // namespace
 
-Detour find_detour(const EsdfMap& esdf, const FreeSpace& space, const Point& a, const Point& b,
-                   double radius, double budget, int corners) {
-  Detour best;
+std::optional<Point> find_detour(const EsdfMap& esdf, const FreeSpace& space, const Point& a,
+                                 const Point& b, double radius, double budget) {
+  std::optional<Point> best;
   const double length = (b - a).norm();
   if (length < esdf.voxel_size || budget <= length) return best;
   const Point along = (b - a) / length;
@@ -62,37 +48,12 @@ Detour find_detour(const EsdfMap& esdf, const FreeSpace& space, const Point& a, 
   for (int ray = 0; ray < kPlanning.detour_rays; ++ray) {
     const double angle = 2.0 * std::numbers::pi * ray / kPlanning.detour_rays;
     const Point direction = std::cos(angle) * u + std::sin(angle) * v;
-    const auto length_over = [&](const Point& p) { return (p - a).norm() + (b - p).norm(); };
-    const double farthest = 0.5 * budget;
-    double offset = first_fit(esdf, blocked, direction, radius, farthest);
-    for (int attempt = 0; attempt < kPlanning.detour_tries;
-         ++attempt, offset *= kPlanning.detour_widening) {
-      const Point p = blocked + offset * direction;
-      const double limit = best.found() ? best.length : budget;
-      if (offset > farthest || length_over(p) >= limit) break;
-      if (!space.is_free(p, radius)) continue;
-      const double left = (p - a).norm(), right = (b - p).norm();
-      const bool left_free = space.is_free(a, p, radius);
-      if (!left_free && corners < 2) continue;
-      Way way_left{{}, left_free};
-      const Way way_right =
-          way_between(esdf, space, p, b, radius, limit - left, left_free ? corners - 1 : 0);
-      if (!way_right.free) continue;
-      if (!left_free) way_left = way_between(esdf, space, a, p, radius, limit - right, corners - 1);
-      if (!way_left.free) continue;
-      Detour found;
-      found.corners = std::move(way_left.corners);
-      found.corners.push_back(p);
-      found.corners.insert(found.corners.end(), way_right.corners.begin(), way_right.corners.end());
-      Point last = a;
-      for (const Point& corner : found.corners) {
-        found.length += (corner - last).norm();
-        last = corner;
-      }
-      found.length += (b - last).norm();
-      if (found.length < limit) best = std::move(found);
-      break;
-    }
+    const double offset = first_fit(esdf, blocked, direction, radius, 0.5 * budget);
+    const Point p = blocked + kPlanning.detour_offset * offset * direction;
+    const double own = (p - a).norm() + (b - p).norm();
+    if (own >= budget || !space.is_free(a, p, radius) || !space.is_free(p, b, radius)) continue;
+    best = p;
+    budget = own;
   }
   return best;
 }
@@ -108,12 +69,10 @@ std::vector<Point> redirect(const EsdfMap& esdf, const FreeSpace& space, std::ve
       const auto last = first + static_cast<std::ptrdiff_t>(stretch);
       const double length = length_of(std::span<const Point>(&*first, stretch + 1));
       if (length - (*last - *first).norm() < (kPlanning.near - 1.0) * total) continue;
-      const Detour detour =
-          find_detour(esdf, space, *first, *last, radius, length * (1.0 - kPlanning.tight_gain),
-                      kPlanning.detour_corners);
-      if (!detour.found()) continue;
-      const auto place = path.erase(first + 1, last);
-      path.insert(place, detour.corners.begin(), detour.corners.end());
+      const std::optional<Point> detour =
+          find_detour(esdf, space, *first, *last, radius, length * (1.0 - kPlanning.tight_gain));
+      if (!detour) continue;
+      path.insert(path.erase(first + 1, last), *detour);
       stretch = std::min(stretch, path.size() - 1);
     }
     stretch = std::min(stretch, path.size());

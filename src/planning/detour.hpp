@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "paths/deadline.hpp"
@@ -9,17 +10,11 @@
 
 namespace ridgeway::detail {
 
-/// Looks for a way from a to b with few corners beside the obstacle that blocks the straight line:
-/// rays fan out from the blocked place, across the line, to the nearest points where the robot
-/// fits. `budget`: only ways shorter than this, metres, are of interest; `corners`: how many there
-/// may be. The interior corners of the best way found; of a free line a place on it.
-struct Detour {
-  std::vector<Point> corners;
-  double length = 0.0;  ///< from a over the corners to b
-  bool found() const { return !corners.empty(); }
-};
-Detour find_detour(const EsdfMap& esdf, const FreeSpace& space, const Point& a, const Point& b,
-                   double radius, double budget, int corners);
+/// Looks for a corner beside the obstacle that blocks the straight line from a to b: rays fan out
+/// from the blocked place, across the line, to somewhat beyond where the robot first fits. The one
+/// with the shortest way over it, shorter than `budget`, metres; of a free line a place on it.
+std::optional<Point> find_detour(const EsdfMap& esdf, const FreeSpace& space, const Point& a,
+                                 const Point& b, double radius, double budget);
 
 /// Looks past the corners of a shortened path: where a stretch of it is much longer than the
 /// straight line, tries ways on other sides of what blocks the line, and keeps those that are

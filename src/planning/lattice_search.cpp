@@ -118,8 +118,8 @@ class LatticeSearch {
   /// Of the way on from a voxel; kNone where the guide knows none.
   double estimate(const VoxelIndex& voxel) const {
     const double distance = lattice_distance(voxel, target_);
-    if (options_.guide == nullptr) return options_.weight * distance;
-    return options_.weight * std::max(distance, options_.guide->rest_from(voxel));
+    if (options_.guide == nullptr) return distance;
+    return std::max(distance, options_.guide->rest_from(voxel));
   }
 
   bool is_taken(VoxelId id) const {

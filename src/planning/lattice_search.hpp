@@ -20,12 +20,11 @@ struct LatticePath {
   double cost = std::numeric_limits<double>::infinity();  ///< length, voxels
 };
 
-/// How a lattice is searched. The defaults give the exact shortest path.
+/// How a lattice is searched.
 struct LatticeOptions {
   const VoxelMask* within = nullptr;  ///< only voxels of this set
   /// Ways to the goal: estimates from there on, and only voxels of cells that have one.
   const CellGuide* guide = nullptr;
-  double weight = 1.0;  ///< of the heuristic; above 1 faster, not the shortest
   double longest = std::numeric_limits<double>::infinity();  ///< paths of interest, voxels
   int most_expansions = std::numeric_limits<int>::max();
 };

@@ -42,16 +42,15 @@ Route past_what_blocks(const EsdfMap& esdf, const FreeSpace& space, const RouteQ
 }
 
 Route path_over_voxels(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query,
-                       double length, const CellGuide* guide, const VoxelEffort& effort,
+                       double length, const CellGuide* guide, int most_voxels,
                        const Deadline& deadline) {
   constexpr double kOffCentres = 1.8;  // voxels, of both ends together at most
   const EsdfMap& esdf = roadmap.esdf;
   const bool is_guided = guide != nullptr;
   const double longest = is_guided ? kPlanning.as_found * length : length;
   const LatticeOptions options{.guide = guide,
-                               .weight = effort.weight,
                                .longest = longest / esdf.voxel_size + kOffCentres,
-                               .most_expansions = effort.most_voxels};
+                               .most_expansions = most_voxels};
   const LatticePath path =
       search_lattice(space, query.from, query.to, query.radius, options, deadline);
   if (path.status != SearchStatus::kFound) return {};

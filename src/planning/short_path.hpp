@@ -2,7 +2,6 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
-#include "paths/planning_constants.hpp"
 #include "roadmap/cell_guide.hpp"
 #include "roadmap/cell_search.hpp"
 #include "route.hpp"
@@ -25,9 +24,9 @@ Route past_what_blocks(const EsdfMap& esdf, const FreeSpace& space, const RouteQ
                        Route path, const Deadline& deadline);
 
 /// A path by a search over voxels, guided by cells or not (null), pulled tight, that is about as
-/// long as `length` at most, metres; empty where that finds none.
+/// long as `length` at most, metres; empty where that finds none, or takes `most_voxels` first.
 Route path_over_voxels(const Roadmap& roadmap, const FreeSpace& space, const RouteQuery& query,
-                       double length, const CellGuide* guide, const VoxelEffort& effort,
+                       double length, const CellGuide* guide, int most_voxels,
                        const Deadline& deadline);
 
 /// The shortest path over voxels at any angle (search_any_angle), pulled tight; empty where time is

@@ -42,31 +42,15 @@ KnownStretch known_part(const SparseGraph& graph, const Route& path,
   return {};
 }
 
-/// The corners for a radius: those of the smallest one that is no smaller.
-struct Corners {
-  const SparseGraph* graph = nullptr;  ///< none
-  const HubLabels* hubs = nullptr;
-};
-Corners corners_for(const TangentGraph& tangents, double radius) {
-  if (tangents.empty()) return {};
-  const auto suits = [&](const SparseGraph& graph) {
-    return is_as_wide(graph.min_clearance, radius);
-  };
-  if (suits(tangents.graph)) return {&tangents.graph, &tangents.hubs};
-  for (const TangentGraph::Wider& wider : tangents.wider)
-    if (suits(wider.graph)) return {&wider.graph, &wider.hubs};
-  return {};
-}
-
 }  // namespace
 
 TangentPath plan_tangents(const TangentGraph& tangents, const FreeSpace& space,
                           const RouteQuery& query, bool as_it_is, const Deadline& deadline) {
-  const Corners known = corners_for(tangents, query.radius);
-  if (known.graph == nullptr) return {};
+  const SparseGraph& graph = tangents.graph;
+  if (tangents.empty() || !is_as_wide(graph.min_clearance, query.radius)) return {};
   const double began = seconds_now();
   const std::vector<VertexId> corners =
-      search_tangents(*known.graph, *known.hubs, space,
+      search_tangents(graph, tangents.hubs, space,
                       {query.start, query.goal, query.radius, tangents.seen_from(query.from),
                        tangents.seen_from(query.to)});
   const double found = seconds_now();
@@ -74,15 +58,14 @@ TangentPath plan_tangents(const TangentGraph& tangents, const FreeSpace& space,
   path.search_seconds = found - began;
   if (corners.empty()) return path;
   path.waypoints.push_back(query.start);
-  for (const VertexId v : corners)
-    path.waypoints.push_back(known.graph->vertices[number(v)].position);
+  for (const VertexId v : corners) path.waypoints.push_back(graph.vertices[number(v)].position);
   path.waypoints.push_back(query.goal);
   if (!as_it_is) {
     // Between corners it is as tight as the paths that they were learnt from.
     path.waypoints = draw_corners_in(space, path.waypoints, query.radius, deadline, {},
                                      {kPlanning.corner_gain, 1, corners.size()});
   }
-  path.known = known_part(*known.graph, path.waypoints, corners);
+  path.known = known_part(graph, path.waypoints, corners);
   path.shorten_seconds = seconds_now() - found;
   return path;
 }

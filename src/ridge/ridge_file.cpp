@@ -71,7 +71,6 @@ Roadmap load_roadmap(const std::filesystem::path& path) {
     auto hubs = detail::label_hubs_within(tangents.graph);
     if (!hubs) reader.damaged("taut_edges", "has too many shortest ways");
     tangents.hubs = *std::move(hubs);
-    tangents.wider = widen_corners(roadmap.esdf, tangents);
   }
   return roadmap;
 }

@@ -21,7 +21,6 @@ using detail::Corner;
 using detail::kPlanning;
 using detail::MergedCorners;
 using detail::SampledPath;
-using detail::SampledRoutes;
 
 /// The widest traversable voxel of every cell, the first of equally wide ones, or kNoVoxel.
 std::vector<VoxelId> widest_of_cells(const Roadmap& roadmap, const BlockCells& cells) {
@@ -65,7 +64,7 @@ class Learning {
   TangentGraph run(std::size_t most_pairs) {
     std::size_t enough = kPlanning.first_pairs;
     while (enough + kPlanning.asked_pairs <= most_pairs) {
-      learn(sample(enough - pairs_, SampledRoutes::kBoth));
+      learn(sample(enough - pairs_));
       if (!link()) break;
       const double known = ask_and_learn();
       if (known < kPlanning.hopeless) break;
@@ -76,49 +75,40 @@ class Learning {
       if (!hubs) break;
       tangent_.hubs = *std::move(hubs);
       list_seen();
-      tangent_.wider = widen_corners(roadmap_.esdf, tangent_);
       return std::move(tangent_);
     }
     return {};  // too much to learn: queries had better not rely on it
   }
 
  private:
-  std::vector<SampledPath> sample(std::size_t pairs, SampledRoutes routes) {
+  std::vector<SampledPath> sample(std::size_t pairs) {
     pairs_ += pairs;
-    return detail::sample_paths(roadmap_, pairs_ - pairs, pairs, routes);
+    return detail::sample_paths(roadmap_, pairs_ - pairs, pairs);
   }
 
   void learn(const std::vector<SampledPath>& paths) {
     for (const SampledPath& path : paths) merging_.add(path);
   }
 
-  /// Of the shorter paths between new pairs of places, the share for which there is a route about
-  /// as short, and learns all paths between them. Where that is hopeless it learns none, and stops
-  /// asking once that is certain. Nothing is known where there are next to no paths.
+  /// Of the paths between new pairs of places, the share for which there is a route about as short,
+  /// and learns them. Where that is hopeless it learns none, and stops asking once that is certain.
+  /// Nothing is known where there are next to no paths.
   double ask_and_learn() {
     constexpr std::size_t kAtOnce = 20;  // pairs, for all threads
-    const std::size_t first = pairs_, end = first + kPlanning.asked_pairs;
-    std::vector<SampledPath> shortest;
+    const std::size_t end = pairs_ + kPlanning.asked_pairs;
+    std::vector<SampledPath> paths;
     std::size_t unknown = 0;
     while (pairs_ < end) {
-      std::vector<SampledPath> some =
-          sample(std::min(kAtOnce, end - pairs_), SampledRoutes::kShortest);
+      std::vector<SampledPath> some = sample(std::min(kAtOnce, end - pairs_));
       unknown += count_unknown(some);
       if (static_cast<double>(unknown) > (1.0 - kPlanning.hopeless) * kPlanning.asked_pairs)
         return 0.0;
-      std::move(some.begin(), some.end(), std::back_inserter(shortest));
+      std::move(some.begin(), some.end(), std::back_inserter(paths));
     }
-    if (5 * shortest.size() < kPlanning.asked_pairs) return 0.0;
+    if (5 * paths.size() < kPlanning.asked_pairs) return 0.0;
     const double known =
-        static_cast<double>(shortest.size() - unknown) / static_cast<double>(shortest.size());
-    if (known < kPlanning.hopeless) return known;
-    const std::vector<SampledPath> other =
-        detail::sample_paths(roadmap_, first, kPlanning.asked_pairs, SampledRoutes::kOther);
-    std::vector<SampledPath> both;
-    std::merge(shortest.begin(), shortest.end(), other.begin(), other.end(),
-               std::back_inserter(both),
-               [](const SampledPath& a, const SampledPath& b) { return a.pair < b.pair; });
-    learn(both);
+        static_cast<double>(paths.size() - unknown) / static_cast<double>(paths.size());
+    if (known >= kPlanning.hopeless) learn(paths);
     return known;
   }
 

@@ -6,6 +6,8 @@
 #include <bit>
 #include <cmath>
 
+#include "paths/planning_constants.hpp"
+
 namespace ridgeway::detail {
 namespace {
 
@@ -58,26 +60,26 @@ CellGuide::CellGuide(const Roadmap& roadmap, const FreeSpace& space, double radi
   if (!lengths_.empty()) start_lengths_ = lengths_[cell / CellGraph::kPerBlock];
 }
 
-bool CellGuide::find_way(const CellEffort& effort, const Deadline& deadline) {
+bool CellGuide::find_way(int most_cells, const Deadline& deadline) {
   const PartId last = part_with(start_), first = part_with(end_);
   if (first == kNoPart || last == kNoPart) return false;
   parts_[first].place = middle_of(end_);
   parts_[first].from = first;
   parts_[first].cost = 0.0f;
   open_.push({0.0f, 0.0f, first});
-  for (int taken = 0; !open_.empty() && taken < effort.most_cells; ++taken) {
+  for (int taken = 0; !open_.empty() && taken < most_cells; ++taken) {
     if (deadline.has_passed(taken)) return false;
     const Open next = open_.top();
     open_.pop();
     if (next.part == last) return true;
     if (parts_[next.part].is_final) continue;
     parts_[next.part].is_final = true;
-    expand(next.part, static_cast<float>(effort.weight));
+    expand(next.part);
   }
   return false;
 }
 
-void CellGuide::expand(PartId id, float weight) {
+void CellGuide::expand(PartId id) {
   const Part here = parts_[id];
   for (int step = 0; step < 27; ++step) {
     if (step != kCentre && voxels_moved(here.voxels, step, step) == 0) continue;
@@ -91,7 +93,7 @@ void CellGuide::expand(PartId id, float weight) {
       if (part.from == kNoPart) part.rest = rest_of_search(next, part.place);
       part.cost = cost;
       part.from = id;
-      open_.push({cost + weight * part.rest, cost, k});
+      open_.push({cost + static_cast<float>(kPlanning.cell_weight) * part.rest, cost, k});
     }
   }
 }

@@ -13,7 +13,6 @@
 #include "cell_walks.hpp"
 #include "met_cells.hpp"
 #include "paths/deadline.hpp"
-#include "paths/planning_constants.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/roadmap/roadmap.hpp"
 
@@ -30,7 +29,7 @@ class CellGuide {
             VoxelId to);
 
   /// A* from `to`, as nothing is known of ways to it yet. False where that finds no way in time.
-  bool find_way(const CellEffort& effort, const Deadline& deadline);
+  bool find_way(int most_cells, const Deadline& deadline);
 
   /// Of the way from a voxel to `to`, about, voxels; infinite where the search has met none.
   double rest_from(const VoxelIndex& voxel) const;
@@ -64,7 +63,7 @@ class CellGuide {
 
   PartId part_with(const VoxelIndex& voxel);
   const Met& parts_of(CellId cell);
-  void expand(PartId id, float weight);
+  void expand(PartId id);
   bool leads(const Part& from, const Part& to, int step) const;
   bool leads(const Part& from, const Part& to, int step, int move) const;
   float rest_of_search(CellId cell, const Place& place) const;

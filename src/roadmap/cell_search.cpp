@@ -94,8 +94,7 @@ class CellSearch {
   void reach(float cost, CellId from, MetCell& met, Direction back = kCentre) {
     met.cost = cost;
     met.from = from;
-    open_.push(
-        {cost + static_cast<float>(kPlanning.cells.weight) * met.rest, cost, met.cell, back});
+    open_.push({cost + static_cast<float>(kPlanning.cell_weight) * met.rest, cost, met.cell, back});
   }
 
   /// The last cell of the best route found, or kNoCell. No cell is gone on from twice: estimates by
@@ -109,7 +108,7 @@ class CellSearch {
       }
     float best = longest_;
     CellId best_last = kNoCell;
-    for (int taken = 0; !open_.empty() && taken < kPlanning.cells.most_cells; ++taken) {
+    for (int taken = 0; !open_.empty() && taken < kPlanning.most_cells; ++taken) {
       if (deadline_.has_passed(taken)) break;
       const Open next = open_.top();
       open_.pop();

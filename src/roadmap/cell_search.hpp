@@ -7,7 +7,6 @@
 
 #include "attach_way.hpp"
 #include "paths/deadline.hpp"
-#include "paths/planning_constants.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 
 namespace ridgeway::detail {

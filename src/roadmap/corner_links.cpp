@@ -54,7 +54,7 @@ class Spanner {
         search_(corners.size(), std::numeric_limits<double>::infinity()) {}
 
   bool add(const Pair& pair, double length) {
-    if (has_way(pair, kPlanning.link_saving * length)) return false;
+    if (has_way(pair, length)) return false;
     links_[pair.first].emplace_back(pair.second, length);
     links_[pair.second].emplace_back(pair.first, length);
     return true;

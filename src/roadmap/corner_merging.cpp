@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <utility>
 
-#include "paths/planning_constants.hpp"
 namespace ridgeway::detail {
 namespace {
 
@@ -93,28 +93,24 @@ std::uint32_t CornerMerging::insert(VoxelId id, const Point& place, std::uint32_
   return bucket.back();
 }
 
-/// The nearest known corner of the same part that a path from `before` (if any) on to `next` may
-/// turn at instead.
+/// The nearest known corner of the same part, if a path from `before` (if any) on to `next` may
+/// turn at it instead.
 std::uint32_t CornerMerging::stand_in(const Point& corner, std::uint32_t part, const Point* before,
                                       const Point& next) const {
-  std::vector<std::pair<double, std::uint32_t>> near;
+  std::pair<double, std::uint32_t> nearest{distance_, kNone};
   const auto [x, y, z] = bucket_of(corner);
   for (int i = 0; i < 27; ++i) {
     const auto found = buckets_.find({x + i % 3 - 1, y + i / 3 % 3 - 1, z + i / 9 - 1});
     if (found == buckets_.end()) continue;
-    for (const std::uint32_t other : found->second) {
-      const double away = (places_[other] - corner).norm();
-      if (away < distance_ && parts_[other] == part) near.emplace_back(away, other);
-    }
+    for (const std::uint32_t other : found->second)
+      if (parts_[other] == part)
+        nearest = std::min(nearest, {(places_[other] - corner).norm(), other});
   }
-  std::sort(near.begin(), near.end());
-  for (std::size_t i = 0; i < std::min(near.size(), kPlanning.merge_tries); ++i) {
-    const Point& place = places_[near[i].second];
-    if ((before == nullptr || space_.is_free(*before, place, radius_)) &&
-        space_.is_free(place, next, radius_))
-      return near[i].second;
-  }
-  return kNone;
+  if (nearest.second == kNone) return kNone;
+  const Point& place = places_[nearest.second];
+  const bool suits = (before == nullptr || space_.is_free(*before, place, radius_)) &&
+                     space_.is_free(place, next, radius_);
+  return suits ? nearest.second : kNone;
 }
 
 }  // namespace ridgeway::detail

@@ -2,12 +2,12 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "corner_sampling.hpp"
 
+#include <optional>
 #include <utility>
 
 #include "attach_way.hpp"
 #include "common/random.hpp"
 #include "graph_search.hpp"
-#include "paths/planning_constants.hpp"
 #include "paths/shorten.hpp"
 #include "ridgeway/common/parallel.hpp"
 
@@ -32,61 +32,49 @@ VoxelId random_vertex(const Roadmap& roadmap, Random& random) {
   return roadmap.esdf.layout.find(vertices[random.below(vertices.size())].voxel);
 }
 
-/// Paths over the graph between two voxels, pulled tight.
-std::vector<SampledPath> tight_paths(const Roadmap& roadmap, const GraphComponents& parts,
-                                     const FreeSpace& space, VoxelId from, VoxelId to,
-                                     SampledRoutes routes) {
+/// The path over the graph between two voxels, pulled tight; none where they see each other.
+std::optional<SampledPath> tight_path(const Roadmap& roadmap, const GraphComponents& parts,
+                                      const FreeSpace& space, VoxelId from, VoxelId to) {
   const EsdfMap& esdf = roadmap.esdf;
   const double radius = roadmap.min_clearance;
   const auto centre = [&](VoxelId id) {
     return centre_of(esdf.layout.index_of(id), esdf.voxel_size);
   };
-  if (space.is_free(centre(from), centre(to), radius)) return {};
+  if (space.is_free(centre(from), centre(to), radius)) return std::nullopt;
   const AttachWay start = follow_attach(roadmap, from, radius);
   const AttachWay goal = follow_attach(roadmap, to, radius);
-  if (!start.reached() || !goal.reached()) return {};
-  std::vector<SampledPath> paths;
-  std::vector<float> penalty(roadmap.graph.edges.size(), 1.0f);
-  for (const SampledRoutes route : {SampledRoutes::kShortest, SampledRoutes::kOther}) {
-    const std::vector<VertexId> vertices =
-        search_graph(roadmap.graph, roadmap.landmarks, start.vertex, goal.vertex, radius, &penalty);
-    if (vertices.empty()) break;
-    for (std::size_t i = 1; i < vertices.size(); ++i)
-      penalty[number(edge_between(roadmap.graph, vertices[i - 1], vertices[i]))] =
-          kPlanning.shunning;
-    if (routes != route && routes != SampledRoutes::kBoth) continue;
-    std::vector<Point> path;
-    for (const VoxelId id : start.voxels) path.push_back(centre(id));
-    for (std::size_t i = 1; i < vertices.size(); ++i)
-      path.push_back(roadmap.graph.vertices[number(vertices[i])].position);
-    for (auto id = goal.voxels.rbegin() + 1; id < goal.voxels.rend(); ++id)
-      path.push_back(centre(*id));
-    paths.push_back({0, from, to, parts.label[number(start.vertex)],
-                     shorten(space, std::move(path), radius, Deadline::never())});
-    if (routes == SampledRoutes::kShortest) break;
-  }
-  return paths;
+  if (!start.reached() || !goal.reached()) return std::nullopt;
+  const std::vector<VertexId> vertices =
+      search_graph(roadmap.graph, roadmap.landmarks, start.vertex, goal.vertex, radius);
+  if (vertices.empty()) return std::nullopt;
+  std::vector<Point> path;
+  for (const VoxelId id : start.voxels) path.push_back(centre(id));
+  for (std::size_t i = 1; i < vertices.size(); ++i)
+    path.push_back(roadmap.graph.vertices[number(vertices[i])].position);
+  for (auto id = goal.voxels.rbegin() + 1; id < goal.voxels.rend(); ++id)
+    path.push_back(centre(*id));
+  return SampledPath{from, to, parts.label[number(start.vertex)],
+                     shorten(space, std::move(path), radius, Deadline::never())};
 }
 
 }  // namespace
 
 std::vector<SampledPath> sample_paths(const Roadmap& roadmap, std::size_t first_pair,
-                                      std::size_t pairs, SampledRoutes routes) {
+                                      std::size_t pairs) {
   const FreeSpace space(roadmap.esdf);
   const GraphComponents parts = connected_components(roadmap.graph);
-  std::vector<std::vector<SampledPath>> by_pair(pairs);
+  std::vector<std::optional<SampledPath>> by_pair(pairs);
   parallel_for_each_index(pairs, [&](std::size_t i) {
     Random random(first_pair + i);
     // Queries start anywhere, and where the graph has most vertices there is most to go around.
     const VoxelId from = random_voxel(roadmap, random);
     const VoxelId to = i % 2 == 0 ? random_voxel(roadmap, random) : random_vertex(roadmap, random);
     if (from != kNoVoxel && to != kNoVoxel)
-      by_pair[i] = tight_paths(roadmap, parts, space, from, to, routes);
-    for (SampledPath& path : by_pair[i]) path.pair = first_pair + i;
+      by_pair[i] = tight_path(roadmap, parts, space, from, to);
   });
   std::vector<SampledPath> paths;
-  for (std::vector<SampledPath>& some : by_pair)
-    for (SampledPath& path : some) paths.push_back(std::move(path));
+  for (std::optional<SampledPath>& path : by_pair)
+    if (path) paths.push_back(*std::move(path));
   return paths;
 }
 

@@ -147,7 +147,7 @@ TEST(AStar, WithPenaltiesEqualsDijkstraOnLongerEdges) {
   EXPECT_GT(routes, 100);
 }
 
-TEST(AStar, KeepsToItsWeightAndToTheLengthOfInterest) {
+TEST(AStar, KeepsToTheLengthOfInterest) {
   int routes = 0;
   for (unsigned seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
@@ -161,12 +161,8 @@ TEST(AStar, KeepsToItsWeightAndToTheLengthOfInterest) {
       const auto search = [&](const detail::LatticeOptions& options) {
         return detail::search_lattice(esdf, start, goal, 0.1, options, kNever);
       };
-      ASSERT_EQ(search({.weight = 1.5}).status, best.status);
       if (best.status != SearchStatus::kFound) continue;
       ++routes;
-      ASSERT_GE(search({.weight = 1.5}).cost, best.cost - 1e-9);
-      // Buckets leave an estimate's order free within a quarter of a voxel.
-      ASSERT_LE(search({.weight = 1.5}).cost, 1.5 * best.cost + 0.25);
       ASSERT_NEAR(search({.longest = best.cost + 1e-6}).cost, best.cost, 1e-9);
       if (best.cost > 0.0) {
         ASSERT_EQ(search({.longest = best.cost - 1e-6}).status, SearchStatus::kNoRoute);
@@ -206,7 +202,6 @@ void expect_equals_dijkstra_within(const EsdfMap& esdf, const FlightLimits& limi
     const LatticePath path = search(space, {});
     const auto cost = costs.find(goal);
     ASSERT_EQ(path.status == SearchStatus::kFound, cost != costs.end());
-    ASSERT_EQ(search(space, {.weight = 1.15}).status, path.status);
     if (path.status != SearchStatus::kFound) {
       ++routes.none;
       continue;

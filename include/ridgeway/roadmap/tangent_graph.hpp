@@ -60,14 +60,6 @@ struct TangentGraph {
   SparseGraph graph;  ///< its vertices are the corners; free at its min_clearance
   HubLabels hubs;     ///< of the graph; not in the file, found when it is loaded
 
-  /// The same corners, moved away from what they go around until a wider robot fits, and the edges
-  /// that are free for it. Vertices have the numbers of `graph`; some may have no edges.
-  struct Wider {
-    SparseGraph graph;  ///< free at its min_clearance
-    HubLabels hubs;     ///< of that graph
-  };
-  std::vector<Wider> wider;  ///< by ascending min_clearance; not in the file
-
   /// Which corners are worth a look from a place, by cell: cells are cubes of 2 x 2 x 2 blocks.
   std::vector<std::uint32_t> cell_of_block;  ///< by slot; not in the file
   std::vector<std::uint32_t> first_seen;     ///< cells + 1 entries into `seen`; empty: no graph
@@ -96,10 +88,6 @@ struct TangentConfig {
 /// knows the way of most new ones; empty where that takes too many. The roadmap must be complete
 /// but for this. Deterministic. Every edge is verified. Throws InputError naming the bad field.
 TangentGraph build_tangent_graph(const Roadmap& roadmap, const TangentConfig& config = {});
-
-/// The corners of a tangent graph for robots of 1.25, 1.5 and 2 times its radius; none where the
-/// map does not know distances as far, or the tangent graph has more than 50,000 labels of hubs.
-std::vector<TangentGraph::Wider> widen_corners(const EsdfMap& esdf, const TangentGraph& tangents);
 
 /// Numbers the cells of a layout, in the order of their first blocks.
 struct BlockCells {
