@@ -9,22 +9,23 @@ namespace ridgeway::detail {
 
 /// How hard voxels are searched that a search over cells guides.
 struct GuidedEffort {
-  int most_cells;   ///< taken before the guide gives up: a thousand take half a millisecond
+  int most_parts;   ///< of cells, taken before the guide gives up: half a microsecond each
   int most_voxels;  ///< taken before the search gives up: a thousand take a third of a millisecond
 };
 
-/// What queries, and the learning of corners for them, trade length against time by: every number
-/// that could as well be another one. Each says its unit and what more of it costs. Lengths are in
-/// voxels or radii; `docs/performance.md` has what each is worth.
+/// What queries, and the learning of corners for them, trade length against time by: nearly every
+/// number that could as well be another one. Each says its unit and what more of it costs. Lengths
+/// are in voxels or radii; `docs/performance.md` has what most are worth.
 struct PlanningConstants {
-  // The cell graph (roadmap/build_cell_graph.cpp, roadmap/cell_search.cpp).
+  // The cell graph (roadmap/build_cell_graph.cpp, cell_search.cpp, cell_guide.cpp).
   double cell_room = 1.5;      ///< voxels beyond the widest radius that a cell's place may be wide
   double cell_centring = 0.5;  ///< voxels of width that a voxel off the middle is worth
   double cell_weight = 1.25;   ///< of A*'s heuristic: more is faster, its routes a little longer
   int most_cells = 3200;       ///< taken before a search gives up: a third of a microsecond each
   double landmark_share = 0.93;  ///< of lengths by landmarks that paths are hardly shorter than
 
-  // What a query tries (planning/answering.cpp). Lengths over what a path may be expected to have.
+  // What a query tries (planning/answering.cpp, short_path.cpp, detour.cpp). The first three are
+  // lengths over what a path may be expected to have.
   double near = 1.05;  ///< good enough: nothing else is asked, nor ways past what blocks it tried
   double doubtful = 1.12;  ///< voxels are searched
   double far = 1.15;       ///< too long to be believed: all else is searched as well

@@ -150,7 +150,8 @@ class Answering {
       began = now;
     };
     const bool is_over_graph = config_.planner == Planner::kGraph;
-    if (!is_over_graph && config_.planner != Planner::kDiagram) attachment_.emplace();  // unused
+    if (!is_over_graph && config_.planner != Planner::kDiagram)
+      attachment_.emplace();  // find_route needs none
     if (wants_short() && is_over_graph && !space_.is_narrowed() && is_connected()) {
       lap(result_.seconds.attach);
       search_cells(known);
@@ -213,7 +214,7 @@ class Answering {
     bool found = effort == 0 && is_short && search_over_voxels(known, nullptr, kPlanning.unguided);
     if (!found) {
       CellGuide guide(roadmap_, space_, query_.radius, query_.from, query_.to);
-      found = guide.find_way(guided.most_cells, deadline_) &&
+      found = guide.find_way(guided.most_parts, deadline_) &&
               search_over_voxels(known, &guide, guided.most_voxels);
     }
     if (found) efforts_over_voxels_ = kPlanning.guided.size();

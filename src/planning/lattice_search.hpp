@@ -23,9 +23,11 @@ struct LatticePath {
 /// How a lattice is searched.
 struct LatticeOptions {
   const VoxelMask* within = nullptr;  ///< only voxels of this set
-  /// Ways to the goal: estimates from there on, and only voxels of cells that have one.
+  /// Ways to the goal: estimates from there on, and only voxels of parts of cells that have
+  /// one: then the path need not be the shortest.
   const CellGuide* guide = nullptr;
   double longest = std::numeric_limits<double>::infinity();  ///< paths of interest, voxels
+  /// After these the best so far, or kNoRoute, which then says nothing about space.
   int most_expansions = std::numeric_limits<int>::max();
 };
 

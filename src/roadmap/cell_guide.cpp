@@ -60,14 +60,14 @@ CellGuide::CellGuide(const Roadmap& roadmap, const FreeSpace& space, double radi
   if (!lengths_.empty()) start_lengths_ = lengths_[cell / CellGraph::kPerBlock];
 }
 
-bool CellGuide::find_way(int most_cells, const Deadline& deadline) {
+bool CellGuide::find_way(int most_parts, const Deadline& deadline) {
   const PartId last = part_with(start_), first = part_with(end_);
   if (first == kNoPart || last == kNoPart) return false;
   parts_[first].place = middle_of(end_);
   parts_[first].from = first;
   parts_[first].cost = 0.0f;
   open_.push({0.0f, 0.0f, first});
-  for (int taken = 0; !open_.empty() && taken < most_cells; ++taken) {
+  for (int taken = 0; !open_.empty() && taken < most_parts; ++taken) {
     if (deadline.has_passed(taken)) return false;
     const Open next = open_.top();
     open_.pop();

@@ -29,7 +29,7 @@ class CellGuide {
             VoxelId to);
 
   /// A* from `to`, as nothing is known of ways to it yet. False where that finds no way in time.
-  bool find_way(int most_cells, const Deadline& deadline);
+  bool find_way(int most_parts, const Deadline& deadline);
 
   /// Of the way from a voxel to `to`, about, voxels; infinite where the search has met none.
   double rest_from(const VoxelIndex& voxel) const;

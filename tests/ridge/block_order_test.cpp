@@ -53,7 +53,7 @@ std::vector<Point> random_places(const OccupancyMap& map, std::size_t count) {
   std::vector<Point> places;
   while (places.size() < count) {
     const Point p(share(random), share(random), share(random));
-    places.push_back(bounds.min + p.cwiseProduct(bounds.max - bounds.min));
+    places.emplace_back(bounds.min + p.cwiseProduct(bounds.max - bounds.min));
   }
   return places;
 }

@@ -63,8 +63,8 @@ struct PlanConfig {
   std::optional<double> radius = std::nullopt;
   bool shorten = true;  ///< pull the path tight; otherwise as the search found it
   /// Settle for the tangent graph's route where it has one, though moving corners would make it a
-  /// little shorter: a percent or two as a rule, but some paths are detours. Nothing else is new
-  /// where it has none, or with prefer_clearance.
+  /// little shorter: a percent or two as a rule, but some paths are detours. It changes nothing
+  /// where the tangent graph has no route, or with prefer_clearance.
   bool quick = false;
   /// Go on until a short path is at most so many times as long as the bound below which no path can
   /// be (PlanResult::within), or the time limit has passed, or all is searched that there is:
