@@ -97,8 +97,6 @@ class Answering {
   TangentPath path_over_corners() {
     if (!config_.shorten || config_.planner != Planner::kGraph || !space_.is_for_sphere())
       return {};
-    // The smallest robot's corners are of one part of space; that part may fall apart for others.
-    if (!is_as_wide(roadmap_.min_clearance, query_.radius) && !is_connected()) return {};
     TangentPath tangents =
         plan_tangents(roadmap_.tangents, space_, query_, config_.quick, deadline_);
     result_.seconds.search = tangents.search_seconds;

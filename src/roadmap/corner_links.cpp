@@ -81,8 +81,8 @@ class Spanner {
   BestFirstSearch<std::uint32_t, double> search_;
 };
 
-}  // namespace
-
+/// The direction away from what a place is beside: the gradient of the distance, of length 1, or
+/// shorter where obstacles of several sides meet.
 Point outward_at(const EsdfMap& esdf, VoxelId id) {
   const auto distance = [&](int dx, int dy, int dz) {
     const VoxelId near = esdf.layout.step(id, dx, dy, dz);
@@ -93,6 +93,8 @@ Point outward_at(const EsdfMap& esdf, VoxelId id) {
                    distance(0, 0, 1) - distance(0, 0, -1));
   return rise / (2.0 * esdf.voxel_size);
 }
+
+}  // namespace
 
 std::vector<Corner> corners_of(const Roadmap& roadmap, const MergedCorners& merged) {
   const EsdfMap& esdf = roadmap.esdf;

@@ -12,10 +12,6 @@
 
 namespace ridgeway::detail {
 
-/// The direction away from what a place is beside: the gradient of the distance, of length 1, or
-/// shorter where obstacles of several sides meet.
-Point outward_at(const EsdfMap& esdf, VoxelId id);
-
 /// A corner and the direction away from what it goes around.
 struct Corner {
   Point place, outward;

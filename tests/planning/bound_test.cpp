@@ -49,6 +49,7 @@ double shortest_over_centres(const Roadmap& roadmap, const std::vector<VoxelId>&
   const EsdfMap& esdf = roadmap.esdf;
   const FreeSpace space(esdf);
   std::vector<Point> at;
+  at.reserve(places.size());
   for (const VoxelId id : places)
     at.push_back(centre_of(esdf.layout.index_of(id), esdf.voxel_size));
   constexpr double kFar = std::numeric_limits<double>::infinity();

@@ -102,8 +102,8 @@ struct PlanConfig {
 /// Seconds that the parts of a query took.
 struct PlanSeconds {
   double attach = 0.0;   ///< from start and goal to the structure that is searched
-  double search = 0.0;   ///< for the way between
-  double shorten = 0.0;  ///< to pull it tight
+  double search = 0.0;   ///< for the way between, over corners or the structure that was asked for
+  double shorten = 0.0;  ///< to pull it tight, and to look for a shorter one over cells and voxels
   double total = 0.0;    ///< all of the query
 };
 
@@ -125,7 +125,8 @@ struct Moved {
 struct PlanResult {
   PlanStatus status = PlanStatus::kNoRoute;          ///< kOk, or why there is no path
   UnknownPolicy unknown = UnknownPolicy::kObstacle;  ///< what unknown space was taken for
-  Planner answered_by = Planner::kGraph;             ///< the structure that had the path
+  /// The structure that was searched last; kGraph for what corners, cells and voxels answer too
+  Planner answered_by = Planner::kGraph;
   /// World frame; start first, goal last: two or more where ok, else none.
   std::vector<Point> waypoints;
   double length = 0.0;  ///< metres

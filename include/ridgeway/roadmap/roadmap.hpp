@@ -35,10 +35,12 @@ struct ClearanceTree {
   std::vector<VoxelIndex> place;  ///< where the way to the parent is narrowest
 };
 
-/// All of traversable space, coarsely: cubes of 4 x 4 x 4 voxels, in each one place to pass, and
-/// straight segments between the places of neighbouring cells. Where space is open it knows the
+/// All of traversable space, coarsely: cubes of 4 x 4 x 4 voxels, in each one place to pass,
+/// further ones (nooks) where moves inside do not reach it, straight segments between the places of
+/// neighbouring cells, and bends where such a segment is not free. Where space is open it knows the
 /// sides on which obstacles can be passed, at any radius, which curves through the middle of space
-/// do not. Narrow places may be missing: what it does not connect, the sparse graph does.
+/// do not. At the smallest radius it connects what moves across faces connect; for wider robots
+/// narrow places may be missing: there voxels and the sparse graph decide.
 /// Not in the file: found when a roadmap is built or loaded. Empty for a planar map.
 struct CellGraph {
   static constexpr int kSide = 4;                   ///< of a cell, voxels
