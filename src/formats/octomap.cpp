@@ -135,9 +135,10 @@ double check_tree(std::string_view bytes, const std::string& name, const Octomap
   std::optional<BlockIndex> last;
   const std::uint64_t nodes = walk_tree(reader, header, [&](const Cube& cube, VoxelState state) {
     any_free |= state == VoxelState::kFree;
-    if (placement.clip == kAllVoxels) require_within_reach(placement.motion(cube.voxels()), name);
     if (cube.side >= kBlockSide) {
-      const VoxelRange kept = intersection(placement.motion(cube.voxels()), placement.clip);
+      const VoxelRange moved = placement.motion(cube.voxels());
+      if (placement.clip == kAllVoxels) require_within_reach(moved, name);
+      const VoxelRange kept = intersection(moved, placement.clip);
       if (kept.empty()) return;
       blocks += (kept.max.x - kept.min.x + 1.0) * (kept.max.y - kept.min.y + 1.0) *
                 (kept.max.z - kept.min.z + 1.0) / kBlockVoxels;
@@ -239,8 +240,9 @@ OccupancyMap read_octomap(std::string_view bytes, const std::string& name,
       header.voxel_size,
       {.clip = placement.clip, .bytes_per_voxel = placement.bytes_per_voxel, .name = name});
   ByteReader reader(bytes, name, header.data_offset);
+  const bool is_moved = placement.motion != LatticeTransform{};
   walk_tree(reader, header, [&](const Cube& cube, VoxelState state) {
-    const VoxelRange voxels = placement.motion(cube.voxels());
+    const VoxelRange voxels = is_moved ? placement.motion(cube.voxels()) : cube.voxels();
     cube.side == 1 ? builder.set(voxels.min, state) : builder.fill(voxels, state);
   });
   return std::move(builder).finish();

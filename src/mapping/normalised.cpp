@@ -13,18 +13,22 @@
 namespace ridgeway {
 namespace {
 
-/// The one of 8 blocks that a voxel falls into, a bit an axis, when its own block is moved down by
-/// less than a block: `off` of its first voxels fall into the lower blocks.
-int part_of(const VoxelIndex& voxel, const VoxelIndex& off) {
-  return static_cast<int>(voxel.x >= off.x) + 2 * static_cast<int>(voxel.y >= off.y) +
-         4 * static_cast<int>(voxel.z >= off.z);
-}
-
-/// A bit for each of those 8 blocks that a block of states brings a known voxel to.
+/// The 8 blocks, a bit each, that a block of states brings a known voxel to when it is moved down
+/// by less than a block: `off` of its first voxels fall into the lower blocks of each axis. Bit
+/// x + 2 y + 4 z is of the lower or upper block of each.
 unsigned known_parts(const VoxelState* states, const VoxelIndex& off) {
   unsigned parts = 0;
-  for (int local = 0; local < kBlockVoxels; ++local)
-    if (states[local] != VoxelState::kUnknown) parts |= 1u << part_of(voxel_of({}, local), off);
+  for (int z = 0; z < kBlockSide; ++z)
+    for (int y = 0; y < kBlockSide; ++y) {
+      const VoxelState* row = states + local_of({0, y, z});
+      const int part = 2 * static_cast<int>(y >= off.y) + 4 * static_cast<int>(z >= off.z);
+      const auto look_at = [&](unsigned bit, int from, int to) {
+        const auto is_known = [](VoxelState state) { return state != VoxelState::kUnknown; };
+        if ((parts & bit) == 0 && std::any_of(row + from, row + to, is_known)) parts |= bit;
+      };
+      look_at(1u << part, 0, off.x);
+      look_at(2u << part, off.x, kBlockSide);
+    }
   return parts;
 }
 
@@ -53,20 +57,27 @@ std::vector<BlockIndex> blocks_after(const OccupancyMap& map, const VoxelIndex& 
   return blocks;
 }
 
-/// Fills a block from the states that lie `low` away in the source, row by row.
+/// Fills a block from the states that lie `low` away in the source: from up to 8 of its blocks, a
+/// row at a time.
 void fill_from(const OccupancyMap& source, const VoxelIndex& low, const BlockIndex& block,
                VoxelState* states) {
   const VoxelIndex corner = voxel_of(block, 0) + low;
-  VoxelFinder finder(source.layout);
-  for (int z = 0; z < kBlockSide; ++z)
-    for (int y = 0; y < kBlockSide; ++y)
-      for (int x = 0; x < kBlockSide;) {
-        const VoxelIndex from = corner + VoxelIndex{x, y, z};
-        const int count = std::min(kBlockSide - x, kBlockSide - (from.x & (kBlockSide - 1)));
-        if (const VoxelId id = finder.find(from); id != kNoVoxel)
-          std::copy_n(source.state.block(id / kBlockVoxels) + id % kBlockVoxels, count,
-                      states + local_of({x, y, z}));
-        x += count;
+  const BlockIndex first = block_of(corner),
+                   last = block_of(corner +
+                                   VoxelIndex{kBlockSide - 1, kBlockSide - 1, kBlockSide - 1});
+  for (int bz = first.z; bz <= last.z; ++bz)
+    for (int by = first.y; by <= last.y; ++by)
+      for (int bx = first.x; bx <= last.x; ++bx) {
+        const std::uint32_t slot = source.layout.find_block({bx, by, bz});
+        if (slot == BlockLayout::kNoBlock) continue;
+        const VoxelIndex step = voxel_of({bx, by, bz}, 0) - corner;  // of the two blocks' corners
+        const VoxelIndex from{std::max(step.x, 0), std::max(step.y, 0), std::max(step.z, 0)};
+        const VoxelIndex to{std::min(step.x, 0) + kBlockSide, std::min(step.y, 0) + kBlockSide,
+                            std::min(step.z, 0) + kBlockSide};
+        for (int z = from.z; z < to.z; ++z)
+          for (int y = from.y; y < to.y; ++y)
+            std::copy_n(source.state.block(slot) + local_of(VoxelIndex{from.x, y, z} - step),
+                        to.x - from.x, states + local_of({from.x, y, z}));
       }
 }
 
