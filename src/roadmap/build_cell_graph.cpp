@@ -24,6 +24,7 @@ using detail::kRadiusLevels;
 struct PlaceInCell {
   double off;          ///< its centre from that of the cell, weighed, voxels
   std::uint8_t place;  ///< as CellGraph::Cell has it
+  VoxelId local;       ///< from the cell's first voxel
 };
 
 /// The voxels of a cell, those nearest to its centre first.
@@ -32,7 +33,7 @@ std::array<PlaceInCell, CellGraph::kNoPlace> from_centre_out() {
   const double middle = 0.5 * (CellGraph::kSide - 1);
   for (std::uint8_t i = 0; i < CellGraph::kNoPlace; ++i) {
     const Point off((i & 3) - middle, (i >> 2 & 3) - middle, (i >> 4) - middle);
-    places[i] = {kPlanning.cell_centring * off.norm(), i};
+    places[i] = {kPlanning.cell_centring * off.norm(), i, detail::local_voxel(0, i)};
   }
   std::stable_sort(places.begin(), places.end(),
                    [](const PlaceInCell& a, const PlaceInCell& b) { return a.off < b.off; });
@@ -45,6 +46,8 @@ class CellGraphBuilder {
       : esdf_(esdf), space_(esdf), lattice_(esdf.layout), radius_(radius) {
     for (std::size_t i = 0; i < thresholds_.size(); ++i)
       thresholds_[i] = least_clearance(radius * kRadiusLevels[i], esdf.voxel_size);
+    least_ = static_cast<std::uint32_t>(
+        std::min(std::ceil(thresholds_.front().value), static_cast<double>(kNoSite)));
   }
 
   CellGraph run() {
@@ -73,31 +76,43 @@ class CellGraphBuilder {
     return esdf_.layout.slot_at(cell / CellGraph::kPerBlock) * kBlockVoxels +
            detail::local_voxel(cell, place);
   }
-  Point place_of(CellId cell) const {
-    return centre_of(lattice_.voxel_at(cell, cells_[cell].place), esdf_.voxel_size);
+
+  /// Where a cell is passed.
+  struct Passed {
+    SquaredHalves squared;
+    VoxelIndex voxel;
+  };
+  /// In a cell that begins at a voxel.
+  Passed passed_in(CellId cell, const VoxelIndex& first) const {
+    const std::uint8_t place = cells_[cell].place;
+    return {esdf_.known_squared(voxel_of(cell, place)),
+            first + VoxelIndex{place & 3, place >> 2 & 3, place >> 4}};
   }
 
   /// Whether the robot may fit on a voxel of a block.
   bool has_room(std::uint32_t rank) const {
-    const VoxelId first = esdf_.layout.slot_at(rank) * kBlockVoxels;
-    std::uint32_t widest = 0;
-    for (VoxelId id = first; id < first + kBlockVoxels; ++id)
-      widest = std::max(widest, esdf_.squared[id]);
-    return widest >= least_clearance(radius_, esdf_.voxel_size);
+    const std::uint32_t* squared = esdf_.squared.block(esdf_.layout.slot_at(rank));
+    return std::any_of(squared, squared + kBlockVoxels,
+                       [&](std::uint32_t own) { return own >= least_; });
   }
 
   /// Wide, but no wider than the widest robots need to turn, and near the middle: there most
   /// neighbours are in sight.
   void choose_place(CellId cell) {
+    constexpr double kSlack = 1.0 - 1e-9;  // of what rounding may do to a root and its square
     static const auto kPlaces = from_centre_out();
     const double enough = kRadiusLevels.back() * radius_ / esdf_.voxel_size + kPlanning.cell_room;
     double best = -std::numeric_limits<double>::infinity();
-    for (const auto& [off, place] : kPlaces) {
+    const VoxelId first = voxel_of(cell, 0);
+    const std::uint32_t* squared = &esdf_.squared[first];
+    for (const auto& [off, place, local] : kPlaces) {
       if (enough - off <= best) return;  // so are those after it
-      const VoxelId id = voxel_of(cell, place);
-      if (esdf_.squared[id] < thresholds_.front() || !esdf_.is_open(id)) continue;
-      if (!space_.is_within_limits(id)) continue;
-      const double width = 0.5 * std::sqrt(static_cast<double>(esdf_.squared[id]));
+      if (squared[local] < least_) continue;
+      const double own = squared[local], wider = 2.0 * std::max(best + off, 0.0);
+      if (own < kSlack * wider * wider) continue;
+      const VoxelId id = first + local;
+      if (!esdf_.is_open(id) || !space_.is_within_limits(id)) continue;
+      const double width = 0.5 * std::sqrt(own);
       if (const double worth = std::min(width, enough) - off; worth > best) {
         best = worth;
         cells_[cell].place = place;
@@ -107,10 +122,15 @@ class CellGraphBuilder {
 
   void link(CellId cell) {
     if (cells_[cell].place == CellGraph::kNoPlace) return;
+    const VoxelIndex first = lattice_.first_voxel(cell);
+    const Passed here = passed_in(cell, first);
     for (int d = kCentre + 1; d < 27; ++d) {
       const CellId other = lattice_.neighbour(cell, d);
       if (other == detail::kNoCell || cells_[other].place == CellGraph::kNoPlace) continue;
-      cells_[cell].widths[static_cast<std::size_t>(d - kCentre - 1)] = width_between(cell, other);
+      const VoxelIndex& o = offset_of(d);
+      const VoxelIndex step{CellGraph::kSide * o.x, CellGraph::kSide * o.y, CellGraph::kSide * o.z};
+      cells_[cell].widths[static_cast<std::size_t>(d - kCentre - 1)] =
+          width_between(here, passed_in(other, first + step));
     }
   }
 
@@ -129,15 +149,13 @@ class CellGraphBuilder {
 
   /// How many of the levels of radii pass between two places. Only for small robots single
   /// obstacles are looked at.
-  std::uint8_t width_between(CellId a, CellId b) const {
-    const SquaredHalves from = esdf_.known_squared(voxel_of(a, cells_[a].place)),
-                        to = esdf_.known_squared(voxel_of(b, cells_[b].place));
-    const VoxelIndex along =
-        lattice_.voxel_at(b, cells_[b].place) - lattice_.voxel_at(a, cells_[a].place);
-    const SquaredHalves bound =
-        FreeSpace::move_bound(from, to, along.x * along.x + along.y * along.y + along.z * along.z);
-    const SquaredHalves ends = from < to ? from : to;
-    const Point place = place_of(a), other = place_of(b);
+  std::uint8_t width_between(const Passed& a, const Passed& b) const {
+    const VoxelIndex along = b.voxel - a.voxel;
+    const SquaredHalves bound = FreeSpace::move_bound(
+        a.squared, b.squared, along.x * along.x + along.y * along.y + along.z * along.z);
+    const SquaredHalves ends = std::min(a.squared, b.squared);
+    const Point place = centre_of(a.voxel, esdf_.voxel_size),
+                other = centre_of(b.voxel, esdf_.voxel_size);
     if (!space_.is_within_limits(place, other)) return 0;
     const bool is_known = esdf_.unknown == UnknownPolicy::kObstacle ||
                           (bound >= thresholds_.front() && space_.is_known_free(place, other));
@@ -170,10 +188,12 @@ class CellGraphBuilder {
 
   /// Over what lets this level of radii through, but no wider one.
   void join_what_passes(std::size_t level, DisjointSets& parts) const {
-    for (CellId cell = 0; cell < cells_.size(); ++cell)
+    for (CellId cell = 0; cell < cells_.size(); ++cell) {
+      if (cells_[cell].place == CellGraph::kNoPlace) continue;
       for (std::size_t i = 0; i < cells_[cell].widths.size(); ++i)
         if (cells_[cell].widths[i] == level + 1)
           parts.join(cell, lattice_.neighbour(cell, kCentre + 1 + static_cast<int>(i)));
+    }
     for (const CellGraph::Bend& bend : graph_.bends)
       if (bend.width == level + 1) parts.join(bend.from, bend.to);
   }
@@ -199,6 +219,7 @@ class CellGraphBuilder {
   const CellLattice lattice_;
   const double radius_;
   std::array<SquaredHalves, kRadiusLevels.size()> thresholds_;
+  std::uint32_t least_ = 0;  ///< squared distance, as the map has it, of what the robot fits on
   CellGraph graph_;
   std::vector<CellGraph::Cell>& cells_ = graph_.cells;
 };

@@ -14,7 +14,8 @@ namespace {
 /// Whether the robot fits on every voxel of a block.
 bool is_all_open(const EsdfMap& esdf, std::uint32_t slot, SquaredHalves least) {
   const std::uint32_t* squared = esdf.squared.block(slot);
-  if (*std::min_element(squared, squared + kBlockVoxels) < least) return false;
+  const auto is_wide = [&](std::uint32_t own) { return SquaredHalves(own) >= least; };
+  if (!std::all_of(squared, squared + kBlockVoxels, is_wide)) return false;
   const VoxelState* state = esdf.state.block(slot);
   const auto is_open = [&](VoxelState s) { return ridgeway::is_open(s, esdf.unknown); };
   if (!std::all_of(state, state + kBlockVoxels, is_open)) return false;
