@@ -43,6 +43,15 @@ OccupancyMap without_specks(OccupancyMap map, const LoadConfig& config, LoadNote
   return map;
 }
 
+bool has_free_voxel(const OccupancyMap& map) {
+  for (std::uint32_t slot = 0; slot < map.layout.block_count(); ++slot) {
+    const VoxelState* states = map.state.block(slot);
+    if (std::find(states, states + kBlockVoxels, VoxelState::kFree) != states + kBlockVoxels)
+      return true;
+  }
+  return false;
+}
+
 /// The part of the source's lattice that bounds, seen back through a transform, can reach.
 VoxelRange reach_before(const Eigen::Isometry3d& T_map_file, const Box& bounds, double voxel_size) {
   if (!bounds.min.allFinite() || !bounds.max.allFinite()) return kAllVoxels;
@@ -59,7 +68,7 @@ OccupancyMap finished(OccupancyMap map, const LoadConfig& config, const std::str
   if (config.bounds) map = crop(std::move(map), *config.bounds);
   require_memory_for_blocks(map.layout.block_count(), kPipelineBytesPerVoxel, name);
   map = add_no_fly(std::move(map), config.exclude);
-  if (count_voxels(map).free > 0) return map;
+  if (has_free_voxel(map)) return map;
   throw InputError(name, "has no free voxel left within the bounds and outside the no-fly boxes",
                    "check bounds, exclude and voxel_size");
 }

@@ -43,17 +43,26 @@ std::vector<BlockIndex> blocks_after(const OccupancyMap& map, const VoxelIndex& 
         parts[slot] = known_parts(map.state.block(static_cast<std::uint32_t>(slot)), off);
       },
       64);
+  // In the order of the blocks, those of each part along y and z are in order too.
   std::vector<BlockIndex> blocks;
-  for (std::uint32_t slot = 0; slot < map.layout.block_count(); ++slot) {
-    // Voxels before `off` go to the block that the first of them falls into, the others to the
-    // next.
-    const BlockIndex first = block_of(voxel_of(map.layout.block(slot), 0) - low);
-    const BlockIndex step{off.x != 0, off.y != 0, off.z != 0};
-    for (int part = 0; part < 8; ++part)
-      if ((parts[slot] >> part & 1u) != 0)
-        blocks.push_back(first + BlockIndex{step.x * (part & 1), step.y * (part >> 1 & 1),
-                                            step.z * (part >> 2)});
+  const BlockIndex step{off.x != 0, off.y != 0, off.z != 0};
+  for (int row = 0; row < 4; ++row) {
+    const auto before = static_cast<std::ptrdiff_t>(blocks.size());
+    for (std::uint32_t rank = 0; rank < map.layout.block_count(); ++rank) {
+      // Voxels before `off` go to the block that the first of them falls into, the others to the
+      // next.
+      const std::uint32_t slot = map.layout.slot_at(rank);
+      const BlockIndex first = block_of(voxel_of(map.layout.block(slot), 0) - low);
+      for (int x = 0; x < 2; ++x) {
+        if ((parts[slot] >> (2 * row + x) & 1u) == 0) continue;
+        const BlockIndex block =
+            first + BlockIndex{step.x * x, step.y * (row & 1), step.z * (row >> 1)};
+        if (blocks.empty() || blocks.back() != block) blocks.push_back(block);
+      }
+    }
+    std::inplace_merge(blocks.begin(), blocks.begin() + before, blocks.end());
   }
+  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
   return blocks;
 }
 

@@ -9,6 +9,7 @@
 
 #include "memory_limit.hpp"
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/common/parallel.hpp"
 
 namespace ridgeway {
 
@@ -80,8 +81,14 @@ OccupancyMap OccupancyBuilder::finish() && {
   map.voxel_size = voxel_size_;
   map.layout = BlockLayout(std::move(indices));
   map.state = VoxelField<VoxelState>(map.layout);
-  for (const auto& [index, block] : table_)
-    std::copy(block->begin(), block->end(), map.state.block(map.layout.find_block(index)));
+  parallel_for_each_index(
+      map.layout.block_count(),
+      [&](std::size_t i) {
+        const auto slot = static_cast<std::uint32_t>(i);
+        const Block& block = *table_.find(map.layout.block(slot))->second;
+        std::copy(block.begin(), block.end(), map.state.block(slot));
+      },
+      64);
   table_.clear();
   blocks_.clear();
   return normalised(std::move(map));

@@ -66,8 +66,11 @@ class CellGraphBuilder {
     parallel_for_each_index(
         count, [&](std::size_t i) { look_all_around(static_cast<CellId>(i)); }, 64);
     detail::add_bends(space_, radius_, graph_);
-    number_parts();
-    graph_.open_parts = detail::find_open_parts(esdf_, radius_);
+    parallel_for_each_index(2, [&](std::size_t task) {  // neither of which knows of the other
+      if (task == 0) return detail::place_cell_landmarks(esdf_.layout, graph_);
+      number_parts();
+      graph_.open_parts = detail::find_open_parts(esdf_, radius_);
+    });
     return std::move(graph_);
   }
 
@@ -228,9 +231,7 @@ class CellGraphBuilder {
 
 CellGraph build_cell_graph(const EsdfMap& esdf, double min_clearance) {
   if (esdf.planar) return {};  // its cells would be layers beside the one that flights are in
-  CellGraph graph = CellGraphBuilder(esdf, min_clearance).run();
-  detail::place_cell_landmarks(esdf.layout, graph);
-  return graph;
+  return CellGraphBuilder(esdf, min_clearance).run();
 }
 
 }  // namespace ridgeway

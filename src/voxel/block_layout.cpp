@@ -29,7 +29,7 @@ bool is_legal(const BlockIndex& block) {
 }  // namespace
 
 BlockLayout::BlockLayout(std::vector<BlockIndex> blocks) : blocks_(std::move(blocks)) {
-  std::sort(blocks_.begin(), blocks_.end());
+  if (!std::is_sorted(blocks_.begin(), blocks_.end())) std::sort(blocks_.begin(), blocks_.end());
   blocks_.erase(std::unique(blocks_.begin(), blocks_.end()), blocks_.end());
   require_legal(0);
   index_blocks();
