@@ -164,6 +164,43 @@ void note_highest(const Basins& basins, BuildMemory& memory) {
       memory.is_highest[basin] = std::isinf(basins.dynamics[basin]);
 }
 
+struct Connected {
+  Basins basins;
+  VoxelMask diagram;
+};
+
+/// The diagram: edges of ridges and the kernel, joined.
+Connected find_diagram(const RememberedSpace& space, const EdgesOf& edges_of,
+                       const SpaceOf& space_of, const BuildConfig& config, BuildReport& report,
+                       BuildMemory* memory) {
+  const EsdfMap& esdf = space.map();
+  VoxelMask edges;
+  Peeled peeled;
+  parallel_for_each_index(2, [&](std::size_t task) {
+    if (task == 0) {
+      edges = edges_of();
+      space.remember_moves(edges);  // the kernel takes longer
+    } else {
+      peeled = peel(space, space_of(), config.min_clearance, memory);
+    }
+  });
+  auto& [basins, peaks, kernel] = peeled;
+  report.traversable_components = basins.components();
+  report.kernel_voxels = memory == nullptr ? kernel.count() : memory->peeling.left_count();
+  if (memory != nullptr) {
+    note_highest(basins, *memory);
+    if (memory->rest)
+      for (VoxelMask* mask : {&kernel, &edges})
+        *mask = common_members(*memory->rest->without, *mask);
+  }
+  require_memory_for(edges, kKernelBytesPerEdgeVoxel);
+  open_shells(esdf, kernel, peaks);
+  VoxelMask diagram = join_diagram(space, edges, kernel, config.min_clearance, basins,
+                                   memory == nullptr ? nullptr : &memory->diagram);
+  if (config.paper_diagram) diagram = std::move(edges);
+  return {std::move(basins), std::move(diagram)};
+}
+
 }  // namespace
 
 void build_on_watershed(const EdgesOf& edges_of, const SpaceOf& space_of, const BuildConfig& config,
@@ -176,41 +213,16 @@ void build_on_watershed(const EdgesOf& edges_of, const SpaceOf& space_of, const 
   clock.start();
   SegmentMemory* const segments = memory == nullptr ? nullptr : &memory->segments;
   const RememberedSpace space(esdf, segments);
-  VoxelMask edges;
-  Peeled peeled;
-  parallel_for_each_index(2, [&](std::size_t task) {
-    if (task == 0) {
-      edges = edges_of();
-      space.remember_moves(edges);  // the kernel takes longer
-    } else {
-      peeled = peel(space, space_of(), config.min_clearance, memory);
-    }
-  });
-  Basins& basins = peeled.basins;
-  VoxelMask& kernel = peeled.kernel;
-  report.traversable_components = basins.components();
-  report.kernel_voxels = memory == nullptr ? kernel.count() : memory->peeling.left_count();
-  if (memory != nullptr) {
-    note_highest(basins, *memory);
-    if (memory->rest)
-      for (VoxelMask* mask : {&kernel, &edges})
-        *mask = common_members(*memory->rest->without, *mask);
-  }
-  require_memory_for(edges, kKernelBytesPerEdgeVoxel);
-  VoxelMask diagram;
+  Connected found;
   parallel_for_each_index(beside ? 2 : 1, [&](std::size_t task) {
     if (task == 1) return beside();
-    open_shells(esdf, kernel, peeled.peaks);
-    diagram = join_diagram(space, edges, kernel, config.min_clearance, basins,
-                           memory == nullptr ? nullptr : &memory->diagram);
+    found = find_diagram(space, edges_of, space_of, config, report, memory);
   });
+  Basins& basins = found.basins;
+  VoxelMask& diagram = found.diagram;
   clock.end(report.seconds.kernel);
 
   clock.begin("graph");
-  if (config.paper_diagram) diagram = std::move(edges);
-  edges = {};  // what is not needed any more makes room
-  kernel = {};
-  peeled.peaks = {};
   require_memory_for(diagram, kGraphBytesPerDiagramVoxel);
   const DiagramCurves curves = index_diagram(esdf, diagram, config.min_clearance, segments);
   roadmap.graph = detail::build_graph(esdf, curves, graph_config(config), segments);
