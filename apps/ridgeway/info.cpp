@@ -63,7 +63,7 @@ std::vector<Memory> memory_of(const Roadmap& roadmap) {
           {"tangents", bytes_of(tangents.graph.vertices) + bytes_of(tangents.graph.edges) +
                            bytes_of(tangents.graph.first_link) + bytes_of(tangents.graph.links) +
                            bytes_of(tangents.hubs.first) + bytes_of(tangents.hubs.labels) +
-                           bytes_of(tangents.hubs.next) + bytes_of(tangents.cell_of_block) +
+                           bytes_of(tangents.hubs.next) + bytes_of(tangents.region_of_block) +
                            bytes_of(tangents.first_seen) + bytes_of(tangents.seen)},
           {"tree", bytes_of(tree.parent) + bytes_of(tree.clearance) + bytes_of(tree.place)}};
 }

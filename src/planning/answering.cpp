@@ -152,7 +152,7 @@ class Answering {
       attachment_.emplace();  // find_route needs none
     if (wants_short() && is_over_graph && !space_.is_narrowed() && is_connected()) {
       lap(result_.seconds.attach);
-      search_cells(known);
+      look_over_cells(known);
       known = improve(std::move(known));
       search_over_voxels(known, 0);
       lap(result_.seconds.shorten);
@@ -180,7 +180,7 @@ class Answering {
   }
 
   /// Makes what is known shorter by way of the cells, as far as they have something shorter.
-  void search_cells(Route& known) {
+  void look_over_cells(Route& known) {
     if (over_expected(known) <= kPlanning.near) return;
     const double longest = known.empty() ? 0.0 : length_of(known);
     CellRoute cells;

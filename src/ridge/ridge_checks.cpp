@@ -214,14 +214,14 @@ Defect find_size_defect(const Roadmap& roadmap) {
   }
   if (tangents.graph.edges.size() > kMostEdgesPerVertex * tangents.graph.vertices.size())
     return RoadmapDefect{"taut_edges", "has more of them than the corners can have"};
-  for (std::size_t cell = 1; cell < tangents.first_seen.size(); ++cell)
-    if (tangents.first_seen[cell] - tangents.first_seen[cell - 1] > TangentGraph::kMostSeen)
+  for (std::size_t region = 1; region < tangents.first_seen.size(); ++region)
+    if (tangents.first_seen[region] - tangents.first_seen[region - 1] > TangentGraph::kMostSeen)
       return RoadmapDefect{"cells", "counts more corners than are listed"};
-  const bool has_cells = !tangents.empty();
-  if (has_cells == tangents.graph.vertices.empty() ||
-      (has_cells && (tangents.cell_of_block.size() != blocks ||
-                     tangents.first_seen.back() != tangents.seen.size() ||
-                     tangents.first_seen.size() != number_cells(esdf.layout).count + 1u))) {
+  const bool has_regions = !tangents.empty();
+  if (has_regions == tangents.graph.vertices.empty() ||
+      (has_regions && (tangents.region_of_block.size() != blocks ||
+                       tangents.first_seen.back() != tangents.seen.size() ||
+                       tangents.first_seen.size() != number_regions(esdf.layout).count + 1u))) {
     return RoadmapDefect{"cells", "does not fit the blocks, or the corners"};
   }
   return {};

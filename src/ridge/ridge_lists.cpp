@@ -88,10 +88,10 @@ std::vector<std::byte> tree_bytes(const ClearanceTree& tree) {
   return bytes;
 }
 
-std::vector<std::byte> cell_bytes(const TangentGraph& tangents) {
+std::vector<std::byte> region_bytes(const TangentGraph& tangents) {
   std::vector<std::byte> bytes;
-  for (std::size_t cell = 1; cell < tangents.first_seen.size(); ++cell)
-    append_number(bytes, tangents.first_seen[cell] - tangents.first_seen[cell - 1]);
+  for (std::size_t region = 1; region < tangents.first_seen.size(); ++region)
+    append_number(bytes, tangents.first_seen[region] - tangents.first_seen[region - 1]);
   return bytes;
 }
 
@@ -131,11 +131,11 @@ void load_tangents(const RidgeReader& reader, const RidgeHeader& header, const B
   tangents.graph.min_clearance = header.min_clearance;
   load_vertices(reader, "corners", header, header.corners, tangents.graph);
   load_edges(reader, "taut_edges", header.tangent_edges, tangents.graph);
-  BlockCells cells = number_cells(layout);
-  tangents.cell_of_block = std::move(cells.cell_of_block);
+  BlockRegions regions = number_regions(layout);
+  tangents.region_of_block = std::move(regions.region_of_block);
   tangents.first_seen.push_back(0);
   std::uint64_t seen = 0;
-  Planes counts(reader, "cells", kNumbersType, cells.count, kNumberBytes);
+  Planes counts(reader, "cells", kNumbersType, regions.count, kNumberBytes);
   counts.take<std::uint32_t>([&](std::size_t, std::uint32_t count) {
     if (count > std::min<std::size_t>(TangentGraph::kMostSeen, header.corners))
       reader.damaged("cells", "counts more corners than are listed");
@@ -161,7 +161,7 @@ std::vector<RidgeSectionSource> list_sections(const Roadmap& roadmap) {
           plain_section("tree", kTreeType, tree_bytes(roadmap.tree)),
           plain_section("corners", kVerticesType, vertex_bytes(roadmap.tangents.graph)),
           plain_section("taut_edges", kEdgesType, edge_bytes(roadmap.tangents.graph)),
-          plain_section("cells", kNumbersType, cell_bytes(roadmap.tangents)),
+          plain_section("cells", kNumbersType, region_bytes(roadmap.tangents)),
           plain_section("seen", kNumbersType, seen_bytes(roadmap.tangents))};
 }
 

@@ -20,6 +20,7 @@ using detail::CellId;
 using detail::CellLattice;
 using detail::kPlanning;
 using detail::kRadiusLevels;
+static_assert(kRadiusLevels.size() == CellGraph::kLevels);
 
 struct PlaceInCell {
   double off;          ///< its centre from that of the cell, weighed, voxels

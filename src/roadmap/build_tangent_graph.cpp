@@ -4,9 +4,9 @@
 #include <iterator>
 
 #include "bounded_hub_labels.hpp"
-#include "cell_parts.hpp"
 #include "common/require.hpp"
 #include "corner_links.hpp"
+#include "corner_regions.hpp"
 #include "paths/planning_constants.hpp"
 #include "paths/shorten.hpp"
 #include "ridgeway/common/parallel.hpp"
@@ -22,13 +22,13 @@ using detail::kPlanning;
 using detail::MergedCorners;
 using detail::SampledPath;
 
-/// The widest traversable voxel of every cell, the first of equally wide ones, or kNoVoxel.
-std::vector<VoxelId> widest_of_cells(const Roadmap& roadmap, const BlockCells& cells) {
+/// The widest traversable voxel of every region, the first of equally wide ones, or kNoVoxel.
+std::vector<VoxelId> widest_of_regions(const Roadmap& roadmap, const BlockRegions& regions) {
   const EsdfMap& esdf = roadmap.esdf;
-  std::vector<VoxelId> widest(cells.count, kNoVoxel);
+  std::vector<VoxelId> widest(regions.count, kNoVoxel);
   for (std::uint32_t rank = 0; rank < esdf.layout.block_count(); ++rank) {
     const std::uint32_t slot = esdf.layout.slot_at(rank);
-    VoxelId& best = widest[cells.cell_of_block[slot]];
+    VoxelId& best = widest[regions.region_of_block[slot]];
     for (VoxelId id = slot * kBlockVoxels; id < (slot + 1) * kBlockVoxels; ++id) {
       if (roadmap.attach.next[id] == AttachField::kNotTraversable) continue;
       if (best == kNoVoxel || esdf.squared[id] > esdf.squared[best]) best = id;
@@ -56,9 +56,9 @@ class Learning {
  public:
   explicit Learning(const Roadmap& roadmap)
       : roadmap_(roadmap), space_(roadmap.esdf), merging_(roadmap, roadmap.min_clearance) {
-    BlockCells cells = number_cells(roadmap.esdf.layout);
-    widest_ = widest_of_cells(roadmap, cells);
-    tangent_.cell_of_block = std::move(cells.cell_of_block);
+    BlockRegions regions = number_regions(roadmap.esdf.layout);
+    widest_ = widest_of_regions(roadmap, regions);
+    tangent_.region_of_block = std::move(regions.region_of_block);
   }
 
   TangentGraph run(std::size_t most_pairs) {
@@ -133,11 +133,11 @@ class Learning {
     const Point &start = path.waypoints.front(), &goal = path.waypoints.back();
     const double radius = roadmap_.min_clearance;
     Sources first;
-    for (const VertexId v : seen_from_cell(path.from))
+    for (const VertexId v : seen_from_region(path.from))
       if (const Point& corner = corners_[number(v)].place; space_.is_free(start, corner, radius))
         first.emplace_back(v, (corner - start).norm());
     const std::vector<double> lengths = lengths_from(tangent_.graph, first, radius);
-    const std::vector<VertexId> last = seen_from_cell(path.to);
+    const std::vector<VertexId> last = seen_from_region(path.to);
     return std::any_of(last.begin(), last.end(), [&](VertexId v) {
       const Point& corner = corners_[number(v)].place;
       return lengths[number(v)] + (goal - corner).norm() <= enough &&
@@ -145,23 +145,24 @@ class Learning {
     });
   }
 
-  std::vector<VertexId> seen_from_cell(VoxelId voxel) const {
-    const VoxelId widest = widest_[tangent_.cell_of_block[voxel / kBlockVoxels]];
+  std::vector<VertexId> seen_from_region(VoxelId voxel) const {
+    const VoxelId widest = widest_[tangent_.region_of_block[voxel / kBlockVoxels]];
     return look_around(space_, roadmap_.min_clearance, corners_, place_of(widest));
   }
 
-  /// Only corners of the cell's own part: a segment may slip through where moves from voxel to
+  /// Only corners of the region's own part: a segment may slip through where moves from voxel to
   /// voxel cannot, and what there is a path to shall not depend on who is asked. Cells with more
   /// than one part list none.
   void list_seen() {
     const std::vector<detail::Part> parts =
-        detail::parts_of_cells(roadmap_, tangent_.cell_of_block, widest_.size());
+        detail::parts_of_regions(roadmap_, tangent_.region_of_block, widest_.size());
     std::vector<std::vector<VertexId>> seen(widest_.size());
-    parallel_for_each_index(seen.size(), [&](std::size_t cell) {
-      if (widest_[cell] == kNoVoxel || parts[cell] >= detail::kNoPart) return;
-      seen[cell] = look_around(space_, roadmap_.min_clearance, corners_, place_of(widest_[cell]));
-      std::erase_if(seen[cell],
-                    [&](VertexId v) { return corners_[number(v)].part != parts[cell]; });
+    parallel_for_each_index(seen.size(), [&](std::size_t region) {
+      if (widest_[region] == kNoVoxel || parts[region] >= detail::kNoPart) return;
+      seen[region] =
+          look_around(space_, roadmap_.min_clearance, corners_, place_of(widest_[region]));
+      std::erase_if(seen[region],
+                    [&](VertexId v) { return corners_[number(v)].part != parts[region]; });
     });
     tangent_.first_seen.push_back(0);
     for (const std::vector<VertexId>& own : seen) {
@@ -178,7 +179,7 @@ class Learning {
   const FreeSpace space_;
   detail::CornerMerging merging_;
   std::size_t pairs_ = 0;        // of places that paths were sampled between
-  std::vector<VoxelId> widest_;  // by cell
+  std::vector<VoxelId> widest_;  // by region
   std::vector<Corner> corners_;
   TangentGraph tangent_;
 };

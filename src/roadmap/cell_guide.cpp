@@ -64,7 +64,7 @@ bool CellGuide::find_way(int most_parts, const Deadline& deadline) {
   const PartId last = part_with(start_), first = part_with(end_);
   if (first == kNoPart || last == kNoPart) return false;
   parts_[first].place = middle_of(end_);
-  parts_[first].from = first;
+  parts_[first].next = first;
   parts_[first].cost = 0.0f;
   open_.push({0.0f, 0.0f, first});
   for (int taken = 0; !open_.empty() && taken < most_parts; ++taken) {
@@ -90,9 +90,9 @@ void CellGuide::expand(PartId id) {
       Part& part = parts_[k];
       const float cost = here.cost + lattice_length(part.place - here.place);
       if (part.is_final || cost >= part.cost || !leads(here, part, step)) continue;
-      if (part.from == kNoPart) part.rest = rest_of_search(next, part.place);
+      if (part.next == kNoPart) part.rest = rest_of_search(next, part.place);
       part.cost = cost;
-      part.from = id;
+      part.next = id;
       open_.push({cost + static_cast<float>(kPlanning.cell_weight) * part.rest, cost, k});
     }
   }
@@ -166,8 +166,8 @@ double CellGuide::rest_from(const VoxelIndex& voxel) const {
   if (met == nullptr) return kNone;
   for (PartId k = met->first; k < met->last; ++k) {
     if ((parts_[k].voxels & bit_in_cell(voxel)) == 0) continue;
-    if (parts_[k].from == kNoPart) break;
-    const Part& next = parts_[parts_[k].from];
+    if (parts_[k].next == kNoPart) break;
+    const Part& next = parts_[parts_[k].next];
     return lattice_length(middle_of(voxel) - next.place) + next.cost;
   }
   return kNone;

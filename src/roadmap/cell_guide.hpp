@@ -44,7 +44,7 @@ class CellGuide {
     CellId cell;
     CellMask voxels;
     Place place;            ///< the middle of them, or the voxel that ways lead to
-    PartId from = kNoPart;  ///< the next on the way; itself at its end
+    PartId next = kNoPart;  ///< on the way to `to`; itself at its end
     float cost = std::numeric_limits<float>::infinity();  ///< of the way, voxels
     float rest = 0.0f;                                    ///< of the way from the start, about
     bool is_final = false;                                ///< ways go on from it: once only

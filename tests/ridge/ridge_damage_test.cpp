@@ -217,10 +217,11 @@ TEST_F(HostileRidge, FilesOfTheFirstVersionHaveTheirOriginAtZero) {
 }
 
 TEST_F(HostileRidge, CountsThatTheHeaderDoesNotAllowAreRefusedBeforeTheyAreInflated) {
-  const std::size_t cells = number_cells(load_roadmap(folder_ / "good.ridge").esdf.layout).count;
-  // Every cell sees as many corners as the file has, over and over.
+  const std::size_t regions =
+      number_regions(load_roadmap(folder_ / "good.ridge").esdf.layout).count;
+  // Every region sees as many corners as the file has, over and over.
   const std::string seen =
-      refusal_with("cells", [&](Bytes& bytes) { put(bytes, 4 * (cells - 1), 1'000'000'000, 4); });
+      refusal_with("cells", [&](Bytes& bytes) { put(bytes, 4 * (regions - 1), 1'000'000'000, 4); });
   EXPECT_NE(seen.find("'cells' counts more corners than are listed"), std::string::npos) << seen;
   for (const auto& [key, count, problem] :
        std::vector<std::tuple<std::string, std::string, std::string>>{

@@ -60,7 +60,7 @@ void expect_same(const Roadmap& a, const Roadmap& b) {
 
   expect_same(a.graph, b.graph);
   expect_same(a.tangents.graph, b.tangents.graph);
-  EXPECT_EQ(a.tangents.cell_of_block, b.tangents.cell_of_block);
+  EXPECT_EQ(a.tangents.region_of_block, b.tangents.region_of_block);
   EXPECT_EQ(a.tangents.first_seen, b.tangents.first_seen);
   EXPECT_EQ(a.tangents.seen, b.tangents.seen);
   EXPECT_EQ(a.tree.parent, b.tree.parent);

@@ -127,12 +127,12 @@ inline Roadmap synthetic_roadmap(const SyntheticConfig& config = {}) {
   if (graph.vertices.empty()) return roadmap;
   TangentGraph& tangents = roadmap.tangents;
   tangents.graph = graph;
-  BlockCells cells = number_cells(esdf.layout);
-  tangents.cell_of_block = std::move(cells.cell_of_block);
+  BlockRegions regions = number_regions(esdf.layout);
+  tangents.region_of_block = std::move(regions.region_of_block);
   tangents.first_seen = {0};
-  for (std::uint32_t cell = 0; cell < cells.count; ++cell) {
-    for (std::uint32_t k = 0; k < cell % 3; ++k)
-      tangents.seen.push_back(VertexId{(cell + k) % count});
+  for (std::uint32_t region = 0; region < regions.count; ++region) {
+    for (std::uint32_t k = 0; k < region % 3; ++k)
+      tangents.seen.push_back(VertexId{(region + k) % count});
     tangents.first_seen.push_back(static_cast<std::uint32_t>(tangents.seen.size()));
   }
   return roadmap;

@@ -32,7 +32,9 @@ enum class PlanStatus : std::uint8_t {
 enum class Planner : std::uint8_t {
   kGraph,
   kDiagram,
-  kEsdf,       ///< A* over the voxel lattice
+  /// A* over the voxel lattice. What is too long once it is pulled tight is made shorter by the
+  /// same searches as a path of kGraph: comparisons with it are with the better of both.
+  kEsdf,
   kThetaStar,  ///< lazy Theta*: the same lattice, at any angle
   // By sampling, see sampling/plan_by_sampling.hpp:
   kRrtStar,

@@ -8,6 +8,7 @@
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/roadmap/sparse_graph.hpp"
 #include "ridgeway/roadmap/tangent_graph.hpp"
+#include "ridgeway/skeleton/basins.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
 
 namespace ridgeway {
@@ -21,9 +22,10 @@ struct SkeletonDiagram {
 /// Way of every traversable voxel to the graph, widest first: the direction of its next voxel, a
 /// byte each. Following it never passes a place narrower than any other way would have to.
 struct AttachField {
-  static constexpr Direction kHere = kCentre;       ///< a vertex stands here, or the way ends here
-  static constexpr Direction kNotTraversable = 27;  ///< no way: the robot does not fit here
-  VoxelField<Direction> next;                       ///< on the ESDF's layout
+  static constexpr Direction kHere = kCentre;  ///< a vertex stands here, or the way ends here
+  /// No way: the robot does not fit here.
+  static constexpr Direction kNotTraversable = ridgeway::kNotTraversable;
+  VoxelField<Direction> next;  ///< on the ESDF's layout
 };
 
 /// At which clearance do two vertices part? A forest over the vertices: `parent` (itself at a

@@ -54,16 +54,16 @@ struct Roadmap;
 struct TangentGraph {
   /// More are not learnt: hub labels grow with their square, in the worst case.
   static constexpr std::size_t kMostCorners = 8192;
-  /// More are not listed for a cell.
+  /// More are not listed for a region.
   static constexpr std::size_t kMostSeen = 24;
 
   SparseGraph graph;  ///< its vertices are the corners; free at its min_clearance
   HubLabels hubs;     ///< of the graph; not in the file, found when it is loaded
 
-  /// Which corners are worth a look from a place, by cell: cells are cubes of 2 x 2 x 2 blocks.
-  std::vector<std::uint32_t> cell_of_block;  ///< by slot; not in the file
-  std::vector<std::uint32_t> first_seen;     ///< cells + 1 entries into `seen`; empty: no graph
-  std::vector<VertexId> seen;  ///< corners of `graph`, of each cell in one piece: see seen_from
+  /// Which corners are worth a look from a place, by region: a cube of 2 x 2 x 2 blocks.
+  std::vector<std::uint32_t> region_of_block;  ///< by slot; not in the file
+  std::vector<std::uint32_t> first_seen;       ///< regions + 1 entries into `seen`; empty: no graph
+  std::vector<VertexId> seen;  ///< corners of `graph`, of each region in one piece: see seen_from
 
   /// Whether nothing was learnt.
   bool empty() const { return first_seen.empty(); }
@@ -71,8 +71,8 @@ struct TangentGraph {
   /// Corners that are worth a look from a voxel of the map; none where nothing was learnt.
   std::span<const VertexId> seen_from(VoxelId voxel) const {
     if (empty()) return {};
-    const std::uint32_t cell = cell_of_block[voxel / kBlockVoxels];
-    return std::span(seen).subspan(first_seen[cell], first_seen[cell + 1] - first_seen[cell]);
+    const std::uint32_t region = region_of_block[voxel / kBlockVoxels];
+    return std::span(seen).subspan(first_seen[region], first_seen[region + 1] - first_seen[region]);
   }
 };
 
@@ -89,11 +89,11 @@ struct TangentConfig {
 /// but for this. Deterministic. Every edge is verified. Throws InputError naming the bad field.
 TangentGraph build_tangent_graph(const Roadmap& roadmap, const TangentConfig& config = {});
 
-/// Numbers the cells of a layout, in the order of their first blocks.
-struct BlockCells {
-  std::vector<std::uint32_t> cell_of_block;  ///< by slot
-  std::uint32_t count = 0;                   ///< of cells
+/// Numbers the regions of a layout, in the order of their first blocks.
+struct BlockRegions {
+  std::vector<std::uint32_t> region_of_block;  ///< by slot
+  std::uint32_t count = 0;                     ///< of regions
 };
-BlockCells number_cells(const BlockLayout& layout);  ///< Takes time linear in the blocks.
+BlockRegions number_regions(const BlockLayout& layout);  ///< Takes time linear in the blocks.
 
 }  // namespace ridgeway

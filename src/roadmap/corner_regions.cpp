@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-#include "cell_parts.hpp"
+#include "corner_regions.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -53,35 +53,35 @@ std::vector<Part> parts_of_voxels(const Roadmap& roadmap) {
 
 }  // namespace
 
-std::vector<Part> parts_of_cells(const Roadmap& roadmap,
-                                 const std::vector<std::uint32_t>& cell_of_block,
-                                 std::size_t cells) {
+std::vector<Part> parts_of_regions(const Roadmap& roadmap,
+                                   const std::vector<std::uint32_t>& region_of_block,
+                                   std::size_t regions) {
   const std::vector<Part> part_of = parts_of_voxels(roadmap);
-  std::vector<Part> result(cells, kNewPart);
+  std::vector<Part> result(regions, kNewPart);
   for (VoxelId id = 0; id < part_of.size(); ++id) {
     if (part_of[id] == kNewPart) continue;
-    Part& of_cell = result[cell_of_block[id / kBlockVoxels]];
-    if (of_cell == kNewPart) of_cell = part_of[id];
-    if (of_cell != part_of[id]) of_cell = kNoPart;
+    Part& of_region = result[region_of_block[id / kBlockVoxels]];
+    if (of_region == kNewPart) of_region = part_of[id];
+    if (of_region != part_of[id]) of_region = kNoPart;
   }
   return result;
 }
 
 }  // namespace detail
 
-BlockCells number_cells(const BlockLayout& layout) {
-  BlockCells cells;
+BlockRegions number_regions(const BlockLayout& layout) {
+  BlockRegions regions;
   std::map<BlockIndex, std::uint32_t> numbers;
-  cells.cell_of_block.resize(layout.block_count());
+  regions.region_of_block.resize(layout.block_count());
   for (std::uint32_t rank = 0; rank < layout.block_count(); ++rank) {
     const std::uint32_t slot = layout.slot_at(rank);
     const BlockIndex& block = layout.block(slot);
-    const BlockIndex cell{block.x >> 1, block.y >> 1, block.z >> 1};
-    const auto [place, is_new] = numbers.try_emplace(cell, cells.count);
-    cells.count += is_new ? 1 : 0;
-    cells.cell_of_block[slot] = place->second;
+    const BlockIndex region{block.x >> 1, block.y >> 1, block.z >> 1};
+    const auto [place, is_new] = numbers.try_emplace(region, regions.count);
+    regions.count += is_new ? 1 : 0;
+    regions.region_of_block[slot] = place->second;
   }
-  return cells;
+  return regions;
 }
 
 }  // namespace ridgeway
