@@ -86,7 +86,19 @@ std::int64_t whole_from(py::handle value, const char* name) {
 
 std::string text_from(py::handle value, const char* name) {
   if (!PyUnicode_Check(value.ptr())) wrong_type(value, name, "a string");
-  return value.cast<std::string>();
+  Py_ssize_t size = 0;
+  if (const char* text = PyUnicode_AsUTF8AndSize(value.ptr(), &size))
+    return {text, static_cast<std::size_t>(size)};
+  PyErr_Clear();
+  throw InputError(name, "holds half of a surrogate pair, which is no character",
+                   "give text that UTF-8 can hold");
+}
+
+py::str name_to_python(const std::string& name) {
+  auto text = py::reinterpret_steal<py::str>(
+      PyUnicode_DecodeUTF8(name.data(), static_cast<Py_ssize_t>(name.size()), "surrogateescape"));
+  if (!text) throw py::error_already_set();
+  return text;
 }
 
 std::filesystem::path path_from(py::handle value, const char* name) {

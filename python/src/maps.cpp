@@ -26,10 +26,10 @@ MapFace from_numpy(py::handle states, py::handle voxel_size, py::handle origin,
 
 /// A UserWarning for each of what a person should be told.
 void warn_of(const LoadNotes& notes, const std::string& name) {
-  for (const std::string& note : notes.notes) {
-    const std::string text = std::string(name).append(": ").append(note);
-    if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
-  }
+  for (const std::string& note : notes.notes)
+    py::module_::import("warnings")
+        .attr("warn")(name_to_python(std::string(name).append(": ").append(note)),
+                      py::handle(PyExc_UserWarning), 1);
 }
 
 MapFace from_points(py::handle points, py::handle voxel_size, py::handle bounds,
@@ -107,12 +107,12 @@ std::string bounds_text(const OccupancyMap& map) {
   return "(" + literal(rounded(box->min)) + ", " + literal(rounded(box->max)) + ")";
 }
 
-std::string map_repr(const MapFace& face) {
+py::str map_repr(const MapFace& face) {
   const VoxelCounts counts = count_voxels(*face.map);
-  return "OccupancyMap(voxel_size=" + literal(face.map->voxel_size) +
-         ", free=" + std::to_string(counts.free) + ", occupied=" + std::to_string(counts.occupied) +
-         ", bounds=" + bounds_text(*face.map) +
-         (face.source.empty() ? "" : ", source='" + face.source + "'") + ")";
+  return name_to_python("OccupancyMap(voxel_size=" + literal(face.map->voxel_size) +
+                        ", free=" + std::to_string(counts.free) + ", occupied=" +
+                        std::to_string(counts.occupied) + ", bounds=" + bounds_text(*face.map) +
+                        (face.source.empty() ? "" : ", source='" + face.source + "'") + ")");
 }
 
 /// A map made of another one, without Python's lock.
@@ -245,7 +245,8 @@ void add_maps(py::module_& module) {
   type.def_property_readonly(
       "voxel_size", [](const MapFace& face) { return face.map->voxel_size; }, "Metres.");
   type.def_property_readonly(
-      "source", [](const MapFace& face) { return face.source; }, "The file's name, or ''.");
+      "source", [](const MapFace& face) { return name_to_python(face.source); },
+      "The file's name, or ''.");
   type.def_property_readonly(
       "planar", [](const MapFace& face) { return face.map->planar; },
       "Whether it is of a robot that stays in a plane.");

@@ -6,6 +6,7 @@
 #include <exception>
 #include <filesystem>
 
+#include "convert.hpp"
 #include "faces.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/version.hpp"
@@ -17,16 +18,16 @@ PyObject* input_error = nullptr;  // the class, as long as the module
 
 /// An InputError of Python with what the library's has.
 void raise(const InputError& error) {
-  const py::object value = py::handle(input_error)(error.what());
-  value.attr("where") = error.where();
-  value.attr("problem") = error.problem();
-  value.attr("remedy") = error.remedy();
+  const py::object value = py::handle(input_error)(name_to_python(error.what()));
+  value.attr("where") = name_to_python(error.where());
+  value.attr("problem") = name_to_python(error.problem());
+  value.attr("remedy") = name_to_python(error.remedy());
   PyErr_SetObject(input_error, value.ptr());
 }
 
 void raise(const std::filesystem::filesystem_error& error) {
   const py::object value = py::handle(PyExc_OSError)(error.code().value(), error.code().message(),
-                                                     error.path1().string());
+                                                     name_to_python(error.path1().string()));
   PyErr_SetObject(PyExc_OSError, value.ptr());
 }
 

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 The Ridgeway authors
+import os
+
 import numpy as np
 import pytest
 
@@ -227,3 +229,30 @@ def test_bounds_are_printed_without_what_sums_leave():
     cloud = [[0.05, 0.05, 0.05], [6.6, 6.6, 3.4]]
     assert "bounds=((0.0, 0.0, 0.0), (6.6, 6.6, 3.4))" in repr(
         OccupancyMap.from_points(cloud, 0.1, ((0, 0, 0), (6.6, 6.6, 3.4))))
+
+
+def test_names_of_files_are_any_bytes(tmp_path):
+    bare = OccupancyMap.from_numpy(np.full((20, 20, 20), FREE, np.uint8), 0.1)
+    name = b"r\xe4ume.ridge"  # Latin-1: no UTF-8
+    path = os.path.join(os.fsencode(tmp_path), name)
+    ridgeway.build(bare, min_clearance=0.2).save(path)
+    assert os.path.exists(path)
+    points = os.path.join(os.fsencode(tmp_path), b"r\xe4ume.xyz")
+    with open(points, "w") as file:
+        file.writelines(f"{x} {y} 0\n" for x in range(5) for y in range(5))
+    cloud = ridgeway.load_map(points, voxel_size=1.0, bounds=((0, 0, 0), (5, 5, 5)))
+    assert os.fsencode(cloud.source) == b"r\xe4ume.xyz"
+    assert "source" in repr(cloud)
+    roadmap = ridgeway.build(cloud, min_clearance=1.0)
+    assert os.fsencode(roadmap.source) == b"r\xe4ume.xyz" and "source" in repr(roadmap)
+    roadmap.save(path)
+    assert ridgeway.load(path).source == "r\ufffdume.xyz"  # files hold UTF-8
+    with pytest.raises(ridgeway.InputError, match="No such file") as error:
+        ridgeway.load(b"nowhere\xe4.ridge")
+    assert os.fsencode(error.value.where) == b"nowhere\xe4.ridge"
+
+
+def test_half_a_surrogate_pair_is_no_text():
+    bare = OccupancyMap.from_numpy(np.full((20, 20, 20), FREE, np.uint8), 0.1)
+    with pytest.raises(ridgeway.InputError, match="unknown.*surrogate"):
+        ridgeway.build(bare, min_clearance=0.2, unknown="\ud800")

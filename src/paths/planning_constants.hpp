@@ -33,7 +33,7 @@ struct PlanningConstants {
   int voxel_reach = 40;    ///< voxels that ends are apart at most for a search without a guide
   int unguided = 3700;     ///< voxels taken by that, which comes first: in clutter guides mislead
   /// The second where the first found no way, last of all.
-  std::array<GuidedEffort, 2> guided{{{600, 3000}, {400000, 600000}}};
+  std::array<GuidedEffort, 2> guided{{{600, 3000}, {800000, 1200000}}};
 
   // Ways past what blocks a stretch (planning/detour.cpp).
   int detour_rays = 6;             ///< around the stretch

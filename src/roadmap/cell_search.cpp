@@ -158,13 +158,14 @@ class CellSearch {
       if (next == kNoCell) continue;
       const std::size_t width = is_open ? widths_.sure : edge_width(cells_, here.cell, next, d);
       if (width < widths_.least) continue;
+      MetCell& met = met_[next];
+      if (here.cost >= met.cost) continue;  // as most have
       const VoxelIndex& o = offset_of(d);
       const Place there =
           place_in(next, first + VoxelIndex{CellGraph::kSide * o.x, CellGraph::kSide * o.y,
                                             CellGraph::kSide * o.z});
       const float cost = here.cost + (there - place).norm();
-      MetCell& met = met_[next];
-      if (cost >= met.cost) continue;  // as most have
+      if (cost >= met.cost) continue;
       if (met.rest < 0.0f) met.rest = rest_from(next, there);
       if (cost + met.rest < best && (width >= widths_.sure || is_free(here.cell, next)))
         reach(cost, here.cell, met, is_open ? static_cast<Direction>(opposite(d)) : kCentre);
