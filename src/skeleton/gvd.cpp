@@ -18,9 +18,8 @@
 namespace ridgeway {
 namespace {
 
-using detail::Cubes;
-using detail::Floats;
 using detail::load_lanes;
+using detail::Row;
 
 constexpr std::size_t kGrain = 16;
 constexpr int kEdgeNeighbours = 18;
@@ -98,16 +97,22 @@ struct SiteGather {
   }
 };
 
-/// What single precision says of four voxels without a doubt.
+/// What single precision says of some voxels without a doubt.
+template <int lanes>
 struct Verdict {
+  using Cubes = typename Row<lanes>::Cubes;
   Cubes off_ridge;  ///< the sites of all six neighbours are near or less than theta away
   Cubes on_ridge;   ///< that of one is far enough and more than theta away
 };
 
 /// One or the other is true of almost all voxels. Where unknown voxels have sites too, but no say,
 /// they may raise a doubt (`all_count`: there are none).
-Verdict judge(const SiteGather& sites, std::size_t first, double cosine, double least_squared,
-              bool all_count) {
+template <int lanes>
+[[gnu::always_inline]] inline Verdict<lanes> judge(const SiteGather& sites, std::size_t first,
+                                                   double cosine, double least_squared,
+                                                   bool all_count) {
+  using Cubes = typename Row<lanes>::Cubes;
+  using Floats = typename Row<lanes>::Floats;
   Floats v[3], vv{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     v[axis] = load_lanes<Floats>(&sites.at[axis][first]);
@@ -117,7 +122,7 @@ Verdict judge(const SiteGather& sites, std::size_t first, double cosine, double 
   const auto least = static_cast<float>(std::max(cosine, 0.0) + kDoubt);
   const auto most = static_cast<float>(all_count ? std::max(cosine - kDoubt, 0.0) : 0.0);
   const Floats off_limit = vv * (least * least), on_limit = vv * (most * most);
-  Verdict verdict{~Cubes{}, Cubes{}};
+  Verdict<lanes> verdict{~Cubes{}, Cubes{}};
   for (const Direction d : kFaceDirections) {
     const VoxelIndex o = offset_of(d);
     const std::array<int, 3> step{o.x, o.y, o.z};
@@ -244,14 +249,17 @@ VoxelMask::Block gvd_in_block(const EsdfMap& esdf, const VoxelMask& traversable,
   const double least = config.least_apart * (1.0 - 1e-9) / esdf.voxel_size;
   const bool all_count = esdf.unknown == UnknownPolicy::kObstacle && !esdf.planar;
   const SiteGather sites(esdf, slot);
-  for_each_four(traversable, slot, [&](VoxelId first, unsigned members) {
-    const Verdict verdict = judge(sites, bordered_place(first), cosine, least * least, all_count);
-    for (; members != 0; members &= members - 1) {
-      const auto x = static_cast<VoxelId>(std::countr_zero(members));
-      if (verdict.off_ridge[x]) continue;
-      if (verdict.on_ridge[x] || is_on_gvd(esdf, first + x, cosine, least * least))
-        set(gvd, first + x);
-    }
+  with_lanes([&]<int lanes>(LaneCount<lanes>) {
+    for_each_row_of<lanes>(traversable, slot, [&](VoxelId first, unsigned members) {
+      const auto verdict =
+          judge<lanes>(sites, bordered_place(first), cosine, least * least, all_count);
+      for (; members != 0; members &= members - 1) {
+        const auto x = static_cast<VoxelId>(std::countr_zero(members));
+        if (verdict.off_ridge[x]) continue;
+        if (verdict.on_ridge[x] || is_on_gvd(esdf, first + x, cosine, least * least))
+          set(gvd, first + x);
+      }
+    });
   });
   return gvd;
 }

@@ -53,33 +53,67 @@ void for_each_bordered_row(const BlockLayout& layout, std::uint32_t slot, const 
     }
 }
 
-/// Numbers of four voxels in a row along x, the first at a multiple of four, for the compiler to
-/// compare at once: comparisons give all ones where they hold.
-inline constexpr int kLanes = 4;
-using Cubes [[gnu::vector_size(16)]] = Cube27;
-using Floats [[gnu::vector_size(16)]] = float;
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wpsabi"  // what takes or gives wide numbers is always inlined
+#endif
+
+/// Numbers of some voxels in a row along x, the first at a multiple of their count, for the
+/// compiler to compare at once: comparisons give all ones where they hold.
+template <int lanes>
+struct Row {
+  using Cubes [[gnu::vector_size(4 * lanes)]] = Cube27;
+  using Floats [[gnu::vector_size(4 * lanes)]] = float;
+  using Signed [[gnu::vector_size(4 * lanes)]] = std::int32_t;
+};
 
 template <typename Lanes>
-Lanes load_lanes(const void* first) {
+[[gnu::always_inline]] inline Lanes load_lanes(const void* first) {
   Lanes lanes;
   std::memcpy(&lanes, first, sizeof lanes);
   return lanes;
 }
 
-/// The first cells of four cubes that are not empty, as directions.
-inline Cubes first_cells(const Cubes& cubes) {
-  using Signed [[gnu::vector_size(16)]] = std::int32_t;
-  const auto lowest = reinterpret_cast<Signed>(cubes & -cubes);
+/// The first cells of cubes that are not empty, as directions.
+template <int lanes>
+[[gnu::always_inline]] inline typename Row<lanes>::Cubes first_cells(
+    const typename Row<lanes>::Cubes& cubes) {
+  using Cubes = typename Row<lanes>::Cubes;
+  const auto lowest = reinterpret_cast<typename Row<lanes>::Signed>(cubes & -cubes);
   // Of a power of two as a float, the exponent.
-  return (reinterpret_cast<Cubes>(__builtin_convertvector(lowest, Floats)) >> 23) - 127u;
+  return (reinterpret_cast<Cubes>(__builtin_convertvector(lowest, typename Row<lanes>::Floats)) >>
+          23) -
+         127u;
 }
 
-/// Calls body(first of four voxels, those of a mask as four bits) for a block, where there are any.
-template <typename Body>
-void for_each_four(const VoxelMask& mask, std::uint32_t slot, const Body& body) {
-  for (std::uint32_t place = 0; place < kBlockVoxels; place += kLanes)
-    if (const unsigned members = mask.block(slot)[place / 64] >> (place % 64) & 0xf; members != 0)
+/// Calls body(first voxel of a row, those of a mask as bits) for the rows of a block in which there
+/// are any.
+template <int lanes, typename Body>
+void for_each_row_of(const VoxelMask& mask, std::uint32_t slot, const Body& body) {
+  constexpr unsigned kAll = (1u << lanes) - 1;
+  for (std::uint32_t place = 0; place < kBlockVoxels; place += lanes)
+    if (const unsigned members = mask.block(slot)[place / 64] >> (place % 64) & kAll; members != 0)
       body(slot * kBlockVoxels + place, members);
+}
+
+template <int lanes>
+using LaneCount = std::integral_constant<int, lanes>;
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+/// See with_lanes.
+template <typename Body>
+[[gnu::target("avx2"), gnu::flatten]] void with_wide_lanes(const Body& body) {
+  body(LaneCount<8>());
+}
+#endif
+
+/// Calls body(how many lanes), compiled for the widest registers of the machine that runs it: eight
+/// lanes or four, by the same operations, so with the same results.
+template <typename Body>
+[[gnu::flatten]] void with_lanes(const Body& body) {
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+  if (__builtin_cpu_supports("avx2")) return with_wide_lanes(body);
+#endif
+  body(LaneCount<4>());
 }
 
 }  // namespace ridgeway::detail

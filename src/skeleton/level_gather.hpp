@@ -27,12 +27,14 @@ inline Levels gather_levels(const EsdfMap& esdf, const VoxelMask& traversable, s
   return levels;
 }
 
-/// For four voxels, their neighbours above them and those as high as they are.
+/// For some voxels, their neighbours above them and those as high as they are.
+template <int lanes>
 struct LevelCubes {
+  using Cubes = typename Row<lanes>::Cubes;
   Cubes higher{};
   Cubes level{};
 
-  LevelCubes(const Levels& levels, std::size_t first) {
+  [[gnu::always_inline]] LevelCubes(const Levels& levels, std::size_t first) {
     const auto own = load_lanes<Cubes>(&levels[first]);
 #pragma GCC unroll 27
     for (int d = 0; d < 27; ++d) {

@@ -71,12 +71,14 @@ class KnownNeighbours {
       count = static_cast<std::uint16_t>(count + bit_count(known[z]));
     }
     block.around.reserve(count);
-    for_each_four(known_, slot, [&](VoxelId first, unsigned members) {
-      const LevelCubes by_level(levels, bordered_place(first));
-      for (; members != 0; members &= members - 1) {
-        const auto x = static_cast<std::size_t>(std::countr_zero(members));
-        block.around.push_back({by_level.higher[x], by_level.level[x] & kCells26});
-      }
+    with_lanes([&]<int lanes>(LaneCount<lanes>) {
+      for_each_row_of<lanes>(known_, slot, [&](VoxelId first, unsigned members) {
+        const LevelCubes<lanes> by_level(levels, bordered_place(first));
+        for (; members != 0; members &= members - 1) {
+          const auto x = static_cast<std::size_t>(std::countr_zero(members));
+          block.around.push_back({by_level.higher[x], by_level.level[x] & kCells26});
+        }
+      });
     });
   }
 

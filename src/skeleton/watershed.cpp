@@ -186,39 +186,46 @@ void LocalWays::grow(const BlockLayout& layout) {
   blocks.resize(layout.block_count());
 }
 
+namespace {
+
+void look_at_block(const EsdfMap& esdf, const VoxelMask& traversable, std::uint32_t slot,
+                   CubeAnswers& answers, LocalWays& ways) {
+  std::fill_n(ways.next.block(slot), kBlockVoxels, kNotTraversable);
+  ways.not_simple_at_first_turn.block(slot) = {};
+  BlockWays& own = ways.blocks[slot];
+  own = {};
+  if (is_empty(traversable.block(slot))) return;
+  const Levels levels = gather_levels(esdf, traversable, slot);
+  const Bordered<float> heights = heights_of(levels);
+  with_lanes([&]<int lanes>(LaneCount<lanes>) {
+    using Cubes = typename Row<lanes>::Cubes;
+    for_each_row_of<lanes>(traversable, slot, [&](VoxelId first, unsigned members) {
+      const VoxelId place = first % kBlockVoxels;
+      const LevelCubes<lanes> cubes(levels, bordered_place(first));
+      const Cubes higher = cubes.higher | (cubes.level & load_lanes<Cubes>(&kEarlier[place]));
+      const Cubes later = cubes.higher | (cubes.level & load_lanes<Cubes>(&kLaterFields[place]));
+      const Cubes steepest = steepest_ways<lanes>(&heights[bordered_place(first)], higher);
+      for (; members != 0; members &= members - 1) {
+        const auto x = static_cast<VoxelId>(std::countr_zero(members));
+        ways.next[first + x] = static_cast<Direction>(steepest[x]);
+        own.has_peak |= steepest[x] == kCentre;
+        own.top = std::max(own.top, esdf.squared[first + x]);
+        if (!answers.of(higher[x]).is_regular) own.critical.push_back({first + x, higher[x]});
+        if (!answers.of(later[x]).is_simple) ways.not_simple_at_first_turn.set(first + x);
+      }
+    });
+  });
+}
+
+}  // namespace
+
 void look_at_blocks(const EsdfMap& esdf, const VoxelMask& traversable,
                     std::span<const std::uint32_t> slots, LocalWays& ways) {
   assert(traversable.is_of(esdf.layout) && esdf.squared.is_of(esdf.layout));
   CubeAnswers answers;
   parallel_for_each_index(
       slots.size(),
-      [&](std::size_t i) {
-        const std::uint32_t slot = slots[i];
-        std::fill_n(ways.next.block(slot), kBlockVoxels, kNotTraversable);
-        ways.not_simple_at_first_turn.block(slot) = {};
-        BlockWays& own = ways.blocks[slot];
-        own = {};
-        if (is_empty(traversable.block(slot))) return;
-        const Levels levels = gather_levels(esdf, traversable, slot);
-        const Bordered<float> heights = heights_of(levels);
-        for_each_four(traversable, slot, [&](VoxelId first, unsigned members) {
-          const VoxelId place = first % kBlockVoxels;
-          const LevelCubes cubes(levels, bordered_place(first));
-          const Cubes higher = cubes.higher | (cubes.level & load_lanes<Cubes>(&kEarlier[place]));
-          const Cubes later =
-              cubes.higher | (cubes.level & load_lanes<Cubes>(&kLaterFields[place]));
-          const Cubes steepest = steepest_ways(&heights[bordered_place(first)], higher);
-          for (; members != 0; members &= members - 1) {
-            const auto x = static_cast<VoxelId>(std::countr_zero(members));
-            ways.next[first + x] = static_cast<Direction>(steepest[x]);
-            own.has_peak |= steepest[x] == kCentre;
-            own.top = std::max(own.top, esdf.squared[first + x]);
-            if (!answers.of(higher[x]).is_regular) own.critical.push_back({first + x, higher[x]});
-            if (!answers.of(later[x]).is_simple) ways.not_simple_at_first_turn.set(first + x);
-          }
-        });
-      },
-      16);
+      [&](std::size_t i) { look_at_block(esdf, traversable, slots[i], answers, ways); }, 16);
 }
 
 Watershed watershed_of(const EsdfMap& esdf, const VoxelMask& traversable,
