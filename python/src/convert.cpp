@@ -228,8 +228,7 @@ Box box_from(py::handle value, const char* name) {
   const bool is_flat = array.ndim() == 1 && array.shape(0) == 6;
   const bool is_square = array.ndim() == 2 && array.shape(0) == 2 && array.shape(1) == 3;
   if (!is_flat && !is_square) wrong_shape(value, name, expected);
-  const Box box = {Eigen::Map<const Point>(array.data()),
-                   Eigen::Map<const Point>(array.data() + 3)};
+  Box box = {Eigen::Map<const Point>(array.data()), Eigen::Map<const Point>(array.data() + 3)};
   validate_box(box, name);
   return box;
 }

@@ -100,7 +100,7 @@ void LiveRoadmap::State::begin_correcting(std::span<const PoseCorrection> correc
                                                       std::move(poses));
 }
 
-bool LiveRoadmap::State::is_correction_ready() {
+bool LiveRoadmap::State::is_correction_ready() const {
   return !correction || correction->is_ready(frames_of_blocks);
 }
 

@@ -73,7 +73,7 @@ struct LiveRoadmap::State {
                          const Eigen::Isometry3d& T_world_camera);
   UpdateReport integrate(std::span<const Point> points, const Eigen::Isometry3d& T_world_sensor);
   void begin_correcting(std::span<const PoseCorrection> corrections);
-  bool is_correction_ready();
+  bool is_correction_ready() const;
   UpdateReport finish_correcting();
 
   // live_update.cpp

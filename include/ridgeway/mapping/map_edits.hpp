@@ -56,7 +56,7 @@ struct LatticeTransform {
   std::array<int, 3> shift = {};               ///< ... and moved by this many voxels
 
   VoxelRange operator()(const VoxelRange& source) const;  ///< Where it takes the voxels of a range.
-  bool operator==(const LatticeTransform&) const = default;
+  bool operator==(const LatticeTransform&) const = default;  ///< Equal in every field.
 };
 
 /// Throws InputError naming `transform` unless it is a rotation and a finite translation.
