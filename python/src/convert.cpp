@@ -94,7 +94,7 @@ std::string text_from(py::handle value, const char* name) {
                    "give text that UTF-8 can hold");
 }
 
-py::str name_to_python(const std::string& name) {
+py::str text_to_python(const std::string& name) {
   auto text = py::reinterpret_steal<py::str>(
       PyUnicode_DecodeUTF8(name.data(), static_cast<Py_ssize_t>(name.size()), "surrogateescape"));
   if (!text) throw py::error_already_set();

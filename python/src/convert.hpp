@@ -29,7 +29,7 @@ std::int64_t whole_from(py::handle value, const char* name);
 std::string text_from(py::handle value, const char* name);
 /// Text that may hold the name of a file. Bytes that are no UTF-8 become what os.fsencode() turns
 /// back into them.
-py::str name_to_python(const std::string& name);
+py::str text_to_python(const std::string& name);
 /// str, bytes or os.PathLike.
 std::filesystem::path path_from(py::handle value, const char* name);
 

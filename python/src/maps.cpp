@@ -28,7 +28,7 @@ MapFace from_numpy(py::handle states, py::handle voxel_size, py::handle origin,
 void warn_of(const LoadNotes& notes, const std::string& name) {
   for (const std::string& note : notes.notes)
     py::module_::import("warnings")
-        .attr("warn")(name_to_python(std::string(name).append(": ").append(note)),
+        .attr("warn")(text_to_python(std::string(name).append(": ").append(note)),
                       py::handle(PyExc_UserWarning), 1);
 }
 
@@ -109,7 +109,7 @@ std::string bounds_text(const OccupancyMap& map) {
 
 py::str map_repr(const MapFace& face) {
   const VoxelCounts counts = count_voxels(*face.map);
-  return name_to_python("OccupancyMap(voxel_size=" + literal(face.map->voxel_size) +
+  return text_to_python("OccupancyMap(voxel_size=" + literal(face.map->voxel_size) +
                         ", free=" + std::to_string(counts.free) + ", occupied=" +
                         std::to_string(counts.occupied) + ", bounds=" + bounds_text(*face.map) +
                         (face.source.empty() ? "" : ", source='" + face.source + "'") + ")");
@@ -245,7 +245,7 @@ void add_maps(py::module_& module) {
   type.def_property_readonly(
       "voxel_size", [](const MapFace& face) { return face.map->voxel_size; }, "Metres.");
   type.def_property_readonly(
-      "source", [](const MapFace& face) { return name_to_python(face.source); },
+      "source", [](const MapFace& face) { return text_to_python(face.source); },
       "The file's name, or ''.");
   type.def_property_readonly(
       "planar", [](const MapFace& face) { return face.map->planar; },

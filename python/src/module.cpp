@@ -18,16 +18,16 @@ PyObject* input_error = nullptr;  // the class, as long as the module
 
 /// An InputError of Python with what the library's has.
 void raise(const InputError& error) {
-  const py::object value = py::handle(input_error)(name_to_python(error.what()));
-  value.attr("where") = name_to_python(error.where());
-  value.attr("problem") = name_to_python(error.problem());
-  value.attr("remedy") = name_to_python(error.remedy());
+  const py::object value = py::handle(input_error)(text_to_python(error.what()));
+  value.attr("where") = text_to_python(error.where());
+  value.attr("problem") = text_to_python(error.problem());
+  value.attr("remedy") = text_to_python(error.remedy());
   PyErr_SetObject(input_error, value.ptr());
 }
 
 void raise(const std::filesystem::filesystem_error& error) {
   const py::object value = py::handle(PyExc_OSError)(error.code().value(), error.code().message(),
-                                                     name_to_python(error.path1().string()));
+                                                     text_to_python(error.path1().string()));
   PyErr_SetObject(PyExc_OSError, value.ptr());
 }
 

@@ -165,7 +165,7 @@ py::dict check(const RoadmapFace& face, py::handle queries, py::handle seed,
 
 py::str roadmap_repr(const RoadmapFace& face) {
   const Roadmap& roadmap = *face.roadmap;
-  return name_to_python("Roadmap(min_clearance=" + literal(roadmap.min_clearance) +
+  return text_to_python("Roadmap(min_clearance=" + literal(roadmap.min_clearance) +
                         ", voxel_size=" + literal(roadmap.esdf.voxel_size) +
                         ", vertices=" + std::to_string(roadmap.graph.vertices.size()) +
                         ", edges=" + std::to_string(roadmap.graph.edges.size()) +
@@ -203,7 +203,7 @@ void add_parts(py::class_<RoadmapFace>& type) {
           "is_settled", [](const RoadmapFace& face) { return face.roadmap->is_settled; },
           "False: a live snapshot without its shortcuts around corners.")
       .def_property_readonly(
-          "source", [](const RoadmapFace& face) { return name_to_python(face.roadmap->source); },
+          "source", [](const RoadmapFace& face) { return text_to_python(face.roadmap->source); },
           "Name of the map's file, or ''.")
       .def_property_readonly(
           "config",

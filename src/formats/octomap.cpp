@@ -145,7 +145,10 @@ double check_tree(std::string_view bytes, const std::string& name, const Octomap
     } else if (const BlockIndex block = block_of(cube.min); last != block) {
       last = block;  // the file's order keeps the leaves of a block together
       const VoxelRange whole = {voxel_of(block, 0), voxel_of(block, kBlockVoxels - 1)};
-      if (!intersection(placement.motion(whole), placement.clip).empty()) blocks += 1.0;
+      // Where nothing is clipped away, the builder refuses single voxels that are out of reach.
+      if (placement.clip == kAllVoxels ||
+          !intersection(placement.motion(whole), placement.clip).empty())
+        blocks += 1.0;
     }
   });
   if (reader.remaining() > 0) {

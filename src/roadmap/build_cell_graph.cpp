@@ -25,7 +25,7 @@ static_assert(kRadiusLevels.size() == CellGraph::kLevels);
 struct PlaceInCell {
   double off;          ///< its centre from that of the cell, weighed, voxels
   std::uint8_t place;  ///< as CellGraph::Cell has it
-  VoxelId local;       ///< from the cell's first voxel
+  VoxelId local;       ///< its number less that of the cell's first voxel
 };
 
 /// The voxels of a cell, those nearest to its centre first.
@@ -81,16 +81,15 @@ class CellGraphBuilder {
            detail::local_voxel(cell, place);
   }
 
-  /// Where a cell is passed.
+  /// The voxel at which a cell is passed, and how far it is from obstacles.
   struct Passed {
     SquaredHalves squared;
     VoxelIndex voxel;
   };
-  /// In a cell that begins at a voxel.
+  /// That of a cell, whose first voxel is known.
   Passed passed_in(CellId cell, const VoxelIndex& first) const {
     const std::uint8_t place = cells_[cell].place;
-    return {esdf_.known_squared(voxel_of(cell, place)),
-            first + VoxelIndex{place & 3, place >> 2 & 3, place >> 4}};
+    return {esdf_.known_squared(voxel_of(cell, place)), first + detail::offset_of_place(place)};
   }
 
   /// Whether the robot may fit on a voxel of a block.

@@ -164,15 +164,16 @@ void note_highest(const Basins& basins, BuildMemory& memory) {
       memory.is_highest[basin] = std::isinf(basins.dynamics[basin]);
 }
 
-struct Connected {
+/// The diagram, and the basins that it was joined by.
+struct JoinedDiagram {
   Basins basins;
   VoxelMask diagram;
 };
 
-/// The diagram: edges of ridges and the kernel, joined.
-Connected find_diagram(const RememberedSpace& space, const EdgesOf& edges_of,
-                       const SpaceOf& space_of, const BuildConfig& config, BuildReport& report,
-                       BuildMemory* memory) {
+/// Peels traversable space down to the kernel, and joins it with the edges of ridges.
+JoinedDiagram find_diagram(const RememberedSpace& space, const EdgesOf& edges_of,
+                           const SpaceOf& space_of, const BuildConfig& config, BuildReport& report,
+                           BuildMemory* memory) {
   const EsdfMap& esdf = space.map();
   VoxelMask edges;
   Peeled peeled;
@@ -213,7 +214,7 @@ void build_on_watershed(const EdgesOf& edges_of, const SpaceOf& space_of, const 
   clock.start();
   SegmentMemory* const segments = memory == nullptr ? nullptr : &memory->segments;
   const RememberedSpace space(esdf, segments);
-  Connected found;
+  JoinedDiagram found;
   parallel_for_each_index(beside ? 2 : 1, [&](std::size_t task) {
     if (task == 1) return beside();
     found = find_diagram(space, edges_of, space_of, config, report, memory);

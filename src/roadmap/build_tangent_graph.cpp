@@ -151,8 +151,8 @@ class Learning {
   }
 
   /// Only corners of the region's own part: a segment may slip through where moves from voxel to
-  /// voxel cannot, and what there is a path to shall not depend on who is asked. Cells with more
-  /// than one part list none.
+  /// voxel cannot, and what there is a path to shall not depend on who is asked. Regions with
+  /// more than one part list none.
   void list_seen() {
     const std::vector<detail::Part> parts =
         detail::parts_of_regions(roadmap_, tangent_.region_of_block, widest_.size());

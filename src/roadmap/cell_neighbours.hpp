@@ -32,6 +32,11 @@ inline constexpr auto kOctantSteps = [] {
   return steps;
 }();
 
+/// Of the voxel at a place of a cell from the cell's first one.
+constexpr VoxelIndex offset_of_place(std::uint8_t place) {
+  return {place & 3, place >> 2 & 3, place >> 4};
+}
+
 /// Where the cells of a layout lie, and which are beside each other.
 class CellLattice {
  public:
@@ -53,7 +58,7 @@ class CellLattice {
 
   /// The voxel at a place of a cell.
   VoxelIndex voxel_at(CellId cell, std::uint8_t place) const {
-    return first_voxel(cell) + VoxelIndex{place & 3, place >> 2 & 3, place >> 4};
+    return first_voxel(cell) + offset_of_place(place);
   }
 
   CellId neighbour(CellId cell, int direction) const {

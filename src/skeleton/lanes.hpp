@@ -95,6 +95,7 @@ void for_each_row_of(const VoxelMask& mask, std::uint32_t slot, const Body& body
       body(slot * kBlockVoxels + place, members);
 }
 
+/// How many voxels are looked at at once, as a type.
 template <int lanes>
 using LaneCount = std::integral_constant<int, lanes>;
 

@@ -15,6 +15,7 @@
 #include <sstream>
 
 #include "mapping/random_map.hpp"
+#include "ridgeway/common/error.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ridgeway {
@@ -115,6 +116,23 @@ TEST(Octomap, TheFirstReleasesHeaderIsRead) {
   std::istringstream again(file.str());
   ASSERT_TRUE(oracle.readBinary(again));
   expect_same(oracle, read_octomap(file.str(), "legacy.bt"));
+}
+
+TEST(Octomap, SingleVoxelsOutOfReachAreRefusedForThat) {
+  octomap::OcTree tree(0.1);
+  for (const float x : {0.05f, 0.15f, 0.25f})
+    tree.updateNode(octomap::point3d(x, 0.05f, 0.05f), x < 0.1f);
+  tree.toMaxLikelihood();
+  std::ostringstream file;
+  tree.writeBinary(file);
+  VoxelPlacement placement;
+  placement.motion.shift = {kMaxVoxelIndex + 1, 0, 0};
+  try {
+    read_octomap(file.str(), "far.bt", placement);
+    FAIL() << "was not refused";
+  } catch (const InputError& error) {
+    EXPECT_NE(error.problem().find("1e9 voxels"), std::string::npos) << error.what();
+  }
 }
 
 TEST(Octomap, RealMapsEqualTheOracle) {
