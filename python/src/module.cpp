@@ -51,15 +51,12 @@ void add_errors(py::module_& module) {
   });
 }
 
-}  // namespace ridgeway::python
-
-PYBIND11_MODULE(_core, module) {
-  using namespace ridgeway::python;
+static void add_all(py::module_& module) {
   // Docstrings begin with signatures of ours, which inspect.signature reads.
-  pybind11::options options;
+  py::options options;
   options.disable_function_signatures();
   module.doc() = "The compiled part of ridgeway.";
-  module.attr("__version__") = ridgeway::kVersion;
+  module.attr("__version__") = kVersion;
   add_errors(module);
   add_maps(module);
   add_fields(module);
@@ -72,6 +69,10 @@ PYBIND11_MODULE(_core, module) {
   add_live(module);
   add_exploration(module);
   add_words_for_wrong_calls(module);
-  for (const auto& [name, value] : module.attr("__dict__").cast<pybind11::dict>())
-    if (pybind11::isinstance<pybind11::type>(value)) value.attr("__module__") = "ridgeway";
+  for (const auto& [name, value] : module.attr("__dict__").cast<py::dict>())
+    if (py::isinstance<py::type>(value)) value.attr("__module__") = "ridgeway";
 }
+
+}  // namespace ridgeway::python
+
+PYBIND11_MODULE(_core, module) { ridgeway::python::add_all(module); }
