@@ -60,6 +60,7 @@ PlanResult given_path(const Roadmap& roadmap, std::vector<Point> waypoints,
   if (path.waypoints.empty())
     throw InputError(where, "has no waypoint", "give a path of plan, or one of your own");
   path.status = PlanStatus::kOk;
+  path.answered_by = Planner::kGiven;
   path.unknown = roadmap.esdf.unknown;
   path.length = length_of(path.waypoints);
   std::vector<Point> local;

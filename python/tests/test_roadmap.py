@@ -207,6 +207,7 @@ def test_bad_queries_name_argument_and_expectation(roadmap, ask, error, words):
         (dict(threads=-1), ValueError, "threads"),
         (dict(threads=1.5), TypeError, "threads: expected a whole number"),
         (dict(tangent_pairs=-3), ValueError, "tangent_pairs"),
+        (dict(tangent_pairs=2_000_000), ValueError, "tangent_pairs"),
         (dict(theta=9), ValueError, "theta"),
     ],
 )

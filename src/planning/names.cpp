@@ -26,9 +26,9 @@ std::string_view name_of(PlanStatus status) {
 }
 
 namespace {
-constexpr std::array<std::string_view, 9> kPlannerNames{"graph",   "diagram", "esdf",
-                                                        "theta",   "rrtstar", "rrtconnect",
-                                                        "bitstar", "prmstar", "informedrrtstar"};
+constexpr std::array<std::string_view, 10> kPlannerNames{
+    "graph",      "diagram", "esdf",    "theta",           "rrtstar",
+    "rrtconnect", "bitstar", "prmstar", "informedrrtstar", "given"};
 }  // namespace
 
 std::string_view name_of(Planner planner) { return name_in(kPlannerNames, planner); }
@@ -40,13 +40,16 @@ std::string_view name_of(UnknownPolicy policy) {
 
 std::optional<Planner> planner_named(std::string_view name) {
   const auto found = std::find(kPlannerNames.begin(), kPlannerNames.end(), name);
-  if (found == kPlannerNames.end()) return std::nullopt;
-  return static_cast<Planner>(found - kPlannerNames.begin());
+  const auto planner = static_cast<Planner>(found - kPlannerNames.begin());
+  if (found == kPlannerNames.end() || planner == Planner::kGiven) return std::nullopt;
+  return planner;
 }
 
 void validate_planner(Planner planner) {
   if (!is_in(kPlannerNames, planner))
     throw InputError("planner", "is no enumerator of Planner", "give one of those, or none");
+  if (planner == Planner::kGiven)
+    throw InputError("planner", "is that of paths that are given", "leave it out to plan one");
 }
 
 }  // namespace ridgeway

@@ -44,7 +44,7 @@ SimplifyConfig simplify_config(const BuildConfig& config) {
 }
 
 TangentConfig tangent_config(const BuildConfig& config) {
-  return {.most_pairs = config.tangent_pairs};
+  return {.tangent_pairs = config.tangent_pairs};
 }
 
 /// Of the stages that follow, which take so much for each of these voxels.

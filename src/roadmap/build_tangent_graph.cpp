@@ -188,13 +188,13 @@ class Learning {
 
 void TangentConfig::validate() const {
   constexpr std::size_t kMostPairs = 1000000;
-  detail::require(most_pairs <= kMostPairs, "most_pairs", most_pairs,
+  detail::require(tangent_pairs <= kMostPairs, "tangent_pairs", tangent_pairs,
                   "give at most a million, or 0 for no tangent graph");
 }
 
 TangentGraph build_tangent_graph(const Roadmap& roadmap, const TangentConfig& config) {
   config.validate();
-  return Learning(roadmap).run(config.most_pairs);
+  return Learning(roadmap).run(config.tangent_pairs);
 }
 
 }  // namespace ridgeway

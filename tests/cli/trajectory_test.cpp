@@ -121,6 +121,7 @@ TEST_F(CliTrajectory, SaysWhereAGivenPathIsNotFree) {
   const Outcome round = run({"trajectory", map, "--path", path("round.csv"), "--json"});
   ASSERT_EQ(round.code, 0) << round.out;
   EXPECT_NEAR(round.json()["within"].get<double>(), 5.5 / 0.5, 1e-9);
+  EXPECT_EQ(round.json()["answered_by"], "given");
 }
 
 TEST_F(CliTrajectory, RefusesStopAndGoInMotion) {

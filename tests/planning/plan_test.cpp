@@ -379,7 +379,7 @@ TEST(Roadmap, PaperDiagramStillAnswersExactly) {
 }
 
 TEST(Plan, EnumeratorsMadeByACastAreRefusedAndHaveNoName) {
-  for (const int value : {9, 10, 200, 255}) {
+  for (const int value : {10, 11, 200, 255}) {
     const auto planner = static_cast<Planner>(value);
     EXPECT_EQ(name_of(planner), "invalid");
     EXPECT_THROW(PlanConfig{.planner = planner}.validate(), InputError);
@@ -389,6 +389,10 @@ TEST(Plan, EnumeratorsMadeByACastAreRefusedAndHaveNoName) {
   for (const char* name : {"graph", "informedrrtstar"})
     EXPECT_EQ(name_of(planner_named(name).value()), name);
   EXPECT_FALSE(planner_named("invalid"));
+  // Paths that were given say so; nothing is planned that way.
+  EXPECT_EQ(name_of(Planner::kGiven), "given");
+  EXPECT_FALSE(planner_named("given"));
+  EXPECT_THROW(PlanConfig{.planner = Planner::kGiven}.validate(), InputError);
 }
 
 TEST(Components, TellAtWhichRadiusAndWhereTheyWouldJoin) {

@@ -110,7 +110,7 @@ TEST(Configurations, RefuseWhatIsNoNumberOrOutOfRangeWhereAStageBegins) {
 
 TEST(Configurations, RefuseMorePairsOfPlacesThanThereIsTimeFor) {
   const Stages stages;
-  EXPECT_THROW(build_tangent_graph(stages.roadmap, {.most_pairs = static_cast<std::size_t>(-1)}),
+  EXPECT_THROW(build_tangent_graph(stages.roadmap, {.tangent_pairs = static_cast<std::size_t>(-1)}),
                InputError);
   EXPECT_THROW(build_roadmap(room(), {.tangent_pairs = static_cast<std::size_t>(-1)}), InputError);
 }

@@ -42,18 +42,22 @@ enum class Planner : std::uint8_t {
   kBitStar,
   kPrmStar,
   kInformedRrtStar,
+  /// None: a path that was given, not planned. Only ever an answer's.
+  kGiven,
 };
 /// Whether it is one of OMPL's.
-constexpr bool is_sampling(Planner planner) { return planner >= Planner::kRrtStar; }
+constexpr bool is_sampling(Planner planner) {
+  return planner >= Planner::kRrtStar && planner <= Planner::kInformedRrtStar;
+}
 
 /// Names as in the JSON output, "invalid" for what is no enumerator: "ok", "start_outside_map",
 /// ...; "graph", "diagram", "esdf", "theta", "rrtstar", "rrtconnect", "bitstar", "prmstar",
-/// "informedrrtstar".
+/// "informedrrtstar", "given".
 std::string_view name_of(PlanStatus status);
 std::string_view name_of(Planner planner);  ///< The same of a planner.
 /// "obstacle", "ignore" or "free".
 std::string_view name_of(UnknownPolicy policy);
-/// The planner of a name, or nothing.
+/// The planner of a name, or nothing; "given" is none.
 std::optional<Planner> planner_named(std::string_view name);
 /// Throws InputError where a planner is no enumerator.
 void validate_planner(Planner planner);

@@ -78,7 +78,7 @@ struct TangentGraph {
 
 /// How much is learnt of where tight paths turn.
 struct TangentConfig {
-  std::size_t most_pairs = 2000;  ///< of places, to learn from ways between them; 0: no graph
+  std::size_t tangent_pairs = 2000;  ///< of places, to learn from ways between them; 0: no graph
 
   /// Throws InputError naming the bad field.
   void validate() const;
