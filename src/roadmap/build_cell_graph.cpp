@@ -44,7 +44,11 @@ std::array<PlaceInCell, CellGraph::kNoPlace> from_centre_out() {
 class CellGraphBuilder {
  public:
   CellGraphBuilder(const EsdfMap& esdf, double radius)
-      : esdf_(esdf), space_(esdf), lattice_(esdf.layout), radius_(radius) {
+      : esdf_(esdf),
+        space_(esdf),
+        lattice_(esdf.layout),
+        radius_(radius),
+        is_plain_(esdf.unknown == UnknownPolicy::kObstacle && !esdf.limits.any()) {
     for (std::size_t i = 0; i < thresholds_.size(); ++i)
       thresholds_[i] = least_clearance(radius * kRadiusLevels[i], esdf.voxel_size);
     least_ = static_cast<std::uint32_t>(
@@ -154,9 +158,11 @@ class CellGraphBuilder {
   /// obstacles are looked at.
   std::uint8_t width_between(const Passed& a, const Passed& b) const {
     const VoxelIndex along = b.voxel - a.voxel;
-    const SquaredHalves bound = FreeSpace::move_bound(
-        a.squared, b.squared, along.x * along.x + along.y * along.y + along.z * along.z);
+    const int apart2 = along.x * along.x + along.y * along.y + along.z * along.z;
     const SquaredHalves ends = std::min(a.squared, b.squared);
+    if (is_plain_ && ends.value - apart2 >= thresholds_.back().value)
+      return static_cast<std::uint8_t>(thresholds_.size());  // move_bound is no less
+    const SquaredHalves bound = FreeSpace::move_bound(a.squared, b.squared, apart2);
     const Point place = centre_of(a.voxel, esdf_.voxel_size),
                 other = centre_of(b.voxel, esdf_.voxel_size);
     if (!space_.is_within_limits(place, other)) return 0;
@@ -221,6 +227,7 @@ class CellGraphBuilder {
   const FreeSpace space_;
   const CellLattice lattice_;
   const double radius_;
+  const bool is_plain_;  ///< nothing but distances decides whether a segment is free
   std::array<SquaredHalves, kRadiusLevels.size()> thresholds_;
   std::uint32_t least_ = 0;  ///< squared distance, as the map has it, of what the robot fits on
   CellGraph graph_;

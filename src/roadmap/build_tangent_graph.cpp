@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 #include "bounded_hub_labels.hpp"
@@ -22,17 +23,36 @@ using detail::kPlanning;
 using detail::MergedCorners;
 using detail::SampledPath;
 
+/// The widest traversable voxel of a block, the first of equally wide ones, or kNoVoxel.
+VoxelId widest_of_block(const Roadmap& roadmap, std::uint32_t slot) {
+  const std::uint32_t* const squared = roadmap.esdf.squared.block(slot);
+  const Direction* const next = roadmap.attach.next.block(slot);
+  std::array<std::uint32_t, kBlockVoxels> widths;  // 0: not traversable
+  std::uint32_t most = 0;
+  for (VoxelId i = 0; i < kBlockVoxels; ++i) {
+    widths[i] = next[i] == AttachField::kNotTraversable ? 0 : squared[i];
+    most = std::max(most, widths[i]);
+  }
+  if (most == 0) return kNoVoxel;
+  const auto first = std::find(widths.begin(), widths.end(), most) - widths.begin();
+  return slot * kBlockVoxels + static_cast<VoxelId>(first);
+}
+
 /// The widest traversable voxel of every region, the first of equally wide ones, or kNoVoxel.
 std::vector<VoxelId> widest_of_regions(const Roadmap& roadmap, const BlockRegions& regions) {
   const EsdfMap& esdf = roadmap.esdf;
-  std::vector<VoxelId> widest(regions.count, kNoVoxel);
-  for (std::uint32_t rank = 0; rank < esdf.layout.block_count(); ++rank) {
+  std::vector<VoxelId> of_block(esdf.layout.block_count()), widest(regions.count, kNoVoxel);
+  parallel_for_each_index(
+      of_block.size(),
+      [&](std::size_t slot) {
+        of_block[slot] = widest_of_block(roadmap, static_cast<std::uint32_t>(slot));
+      },
+      64);
+  for (std::uint32_t rank = 0; rank < of_block.size(); ++rank) {
     const std::uint32_t slot = esdf.layout.slot_at(rank);
     VoxelId& best = widest[regions.region_of_block[slot]];
-    for (VoxelId id = slot * kBlockVoxels; id < (slot + 1) * kBlockVoxels; ++id) {
-      if (roadmap.attach.next[id] == AttachField::kNotTraversable) continue;
-      if (best == kNoVoxel || esdf.squared[id] > esdf.squared[best]) best = id;
-    }
+    const VoxelId own = of_block[slot];
+    if (own != kNoVoxel && (best == kNoVoxel || esdf.squared[own] > esdf.squared[best])) best = own;
   }
   return widest;
 }

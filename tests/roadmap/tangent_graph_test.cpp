@@ -6,14 +6,19 @@
 
 #include <limits>
 #include <random>
+#include <set>
+#include <vector>
 
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
+#include "roadmap/attach_way.hpp"
+#include "roadmap/corner_regions.hpp"
 #include "roadmap/tangent_search.hpp"
 #include "support/dijkstra.hpp"
 #include "support/pillars.hpp"
 #include "support/places.hpp"
+#include "support/random_maps.hpp"
 
 namespace ridgeway {
 namespace {
@@ -141,6 +146,59 @@ TEST(TangentGraph, SearchFindsTheShortestRoute) {
     }
   }
   EXPECT_GT(found, 100);
+}
+
+/// By the definition: the way of every voxel is followed to its end.
+std::vector<detail::Part> plain_parts_of_regions(const Roadmap& roadmap,
+                                                 const BlockRegions& regions) {
+  const BlockLayout& layout = roadmap.esdf.layout;
+  const VoxelField<Direction>& next = roadmap.attach.next;
+  const GraphComponents parts = connected_components(roadmap.graph);
+  std::vector<std::set<std::uint32_t>> met(regions.count);
+  for (VoxelId start = 0; start < next.size(); ++start) {
+    if (next[start] == AttachField::kNotTraversable) continue;
+    VoxelId id = start;
+    while (next[id] != AttachField::kHere) id = layout.neighbour(id, next[id]);
+    const VertexId vertex = detail::vertex_at(roadmap.graph, layout.index_of(id));
+    met[regions.region_of_block[start / kBlockVoxels]].insert(
+        vertex == kNoVertex ? detail::kNoPart : parts.label[number(vertex)]);
+  }
+  std::vector<detail::Part> result;
+  for (const std::set<std::uint32_t>& labels : met)
+    result.push_back(labels.size() == 1 ? static_cast<detail::Part>(*labels.begin())
+                                        : detail::kNoPart);
+  return result;
+}
+
+TEST(TangentGraph, RegionsKnowTheOnePartThatAllTheirWaysLeadTo) {
+  std::size_t of_one_part = 0, of_several = 0, mixed = 0;
+  const auto expect_as_plain = [&](const Roadmap& roadmap) {
+    const BlockRegions regions = number_regions(roadmap.esdf.layout);
+    const std::vector<detail::Part> expected = plain_parts_of_regions(roadmap, regions),
+                                    found = detail::parts_of_regions(
+                                        roadmap, regions.region_of_block, regions.count);
+    ASSERT_EQ(found.size(), expected.size());
+    std::vector<char> has_way(regions.count);
+    for (VoxelId id = 0; id < roadmap.attach.next.size(); ++id)
+      if (roadmap.attach.next[id] != AttachField::kNotTraversable)
+        has_way[regions.region_of_block[id / kBlockVoxels]] = 1;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (has_way[i] == 0) continue;
+      EXPECT_EQ(found[i], expected[i]) << i;
+      mixed += expected[i] == detail::kNoPart;
+    }
+    (connected_components(roadmap.graph).count == 1 ? of_one_part : of_several) += 1;
+  };
+  for (unsigned seed = 0; seed < kSeeds; ++seed) {
+    SCOPED_TRACE(seed);
+    expect_as_plain(pillar_roadmap(seed, 0));
+    expect_as_plain(
+        build_roadmap(testing::random_map(seed, 24), {.min_clearance = 0.1, .tangent_pairs = 0})
+            .roadmap);
+  }
+  EXPECT_GE(of_one_part, kSeeds / 2);  // both ways of finding them are asked
+  EXPECT_GE(of_several, kSeeds / 2);
+  EXPECT_GT(mixed, 0u);
 }
 
 }  // namespace
