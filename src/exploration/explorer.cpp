@@ -242,8 +242,7 @@ ExplorationStep Explorer::decide(std::shared_ptr<const Roadmap> now, const Fligh
                      "build it with that policy");
   require_state(state);
   if (state.time < state_->flying_since)
-    throw InputError("time", "is before that of the last trajectory",
-                     "give seconds of one clock");
+    throw InputError("time", "is before that of the last trajectory", "give seconds of one clock");
   return state_->decide(std::move(now), state);
 }
 
