@@ -254,10 +254,8 @@ void add_fields(py::module_& module) {
           "(B, 8, 8, 8) uint32: squared distances in half voxels, exact; 2^32 - 1: none is near.")
       .def_property_readonly(
           "block_sites",
-          [](const py::object& self) {
-            return blocks_view<std::int16_t>(self.cast<const EsdfFace&>().esdf->site, self);
-          },
-          "(B, 8, 8, 8, 3) int16: from each voxel to the nearest obstacle, voxels.")
+          [](const EsdfFace& self) { return blocks_copy<std::int16_t>(self.esdf->site.values()); },
+          "(B, 8, 8, 8, 3) int16: from each voxel to the nearest obstacle, voxels; a copy.")
       .def(
           "block",
           [](const py::object& self, py::ssize_t slot) {

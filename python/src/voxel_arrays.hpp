@@ -39,12 +39,11 @@ py::array block_view(const VoxelField<Value>& field, py::ssize_t slot, py::handl
                  std::move(shape), std::move(strides), owner);
 }
 
-/// All blocks as (blocks, 8, 8, 8, ...) numbers [block, x, y, z]: a view where they lie in one
-/// piece, else (of live maps) a copy.
+/// The values of all blocks, in one piece, as (blocks, 8, 8, 8, ...) numbers [block, x, y, z].
 template <typename Number, typename Value>
-py::array blocks_view(const VoxelField<Value>& field, py::handle owner) {
+py::array blocks_at(const Value* values, std::size_t count, py::handle owner) {
   constexpr py::ssize_t step = sizeof(Value), part = sizeof(Number), parts = step / part;
-  const auto blocks = static_cast<py::ssize_t>(field.size() / kBlockVoxels);
+  const auto blocks = static_cast<py::ssize_t>(count / kBlockVoxels);
   std::vector<py::ssize_t> shape = {blocks, 8, 8, 8},
                            strides = {kBlockVoxels * step, step, 8 * step, 64 * step};
   if (parts > 1) {
@@ -52,13 +51,23 @@ py::array blocks_view(const VoxelField<Value>& field, py::handle owner) {
     strides.push_back(part);
   }
   if (blocks == 0) return py::array(py::dtype::of<Number>(), std::move(shape));
-  if (is_in_one_piece(field))
-    return view_of(reinterpret_cast<const Number*>(field.block(0)), std::move(shape),
-                   std::move(strides), owner);
-  auto* kept = new std::vector<Value>(field.values());
-  const py::capsule copy(kept, [](void* p) { delete static_cast<std::vector<Value>*>(p); });
-  return view_of(reinterpret_cast<const Number*>(kept->data()), std::move(shape),
-                 std::move(strides), copy);
+  return view_of(reinterpret_cast<const Number*>(values), std::move(shape), std::move(strides),
+                 owner);
+}
+
+/// The same of a copy.
+template <typename Number, typename Value>
+py::array blocks_copy(std::vector<Value> values) {
+  auto* kept = new std::vector<Value>(std::move(values));
+  const py::capsule owner(kept, [](void* p) { delete static_cast<std::vector<Value>*>(p); });
+  return blocks_at<Number>(kept->data(), kept->size(), owner);
+}
+
+/// The same of a field: a view where its blocks lie in one piece, else (of live maps) a copy.
+template <typename Number, typename Value>
+py::array blocks_view(const VoxelField<Value>& field, py::handle owner) {
+  if (field.size() == 0 || !is_in_one_piece(field)) return blocks_copy<Number>(field.values());
+  return blocks_at<Number>(field.block(0), field.size(), owner);
 }
 
 /// Low corners of a layout's blocks, (blocks, 3), metres, world.

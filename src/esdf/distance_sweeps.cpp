@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "line_envelope.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "voxel/mask_sets.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -66,10 +69,22 @@ struct Line {
   }
 };
 
+/// How far the sites go that a field of such offsets holds.
+template <typename Offset>
+constexpr int kFarthest = std::is_same_v<Offset, NearSiteOffset> ? kFarthestNear : kFarthestSite;
+
+/// What the sweeps write.
+template <typename Offset>
+struct SweptFields {
+  VoxelField<std::uint32_t> squared;
+  VoxelField<Offset> offset;
+};
+
 /// The sweep along x: the nearest obstacle of each line itself.
+template <typename Offset>
 class FirstSweep {
  public:
-  FirstSweep(const VoxelMask& obstacle, bool solid_outside, NearestSites& nearest)
+  FirstSweep(const VoxelMask& obstacle, bool solid_outside, SweptFields<Offset>& nearest)
       : obstacle_(obstacle), solid_outside_(solid_outside), nearest_(nearest) {}
 
   void sweep(const BlockRow& row) const {
@@ -111,9 +126,9 @@ class FirstSweep {
 
   void write(const Places& along, VoxelId id) const {
     for (const int k : along) {
-      const bool is_near = k >= -kFarthestSite && k <= kFarthestSite;
+      const bool is_near = k >= -kFarthest<Offset> && k <= kFarthest<Offset>;
       nearest_.squared[id] = is_near ? squared_halves(k) : kNoSite;
-      nearest_.offset[id] = {static_cast<std::int16_t>(is_near ? k : 0), 0, 0};
+      nearest_.offset[id] = {static_cast<decltype(Offset::x)>(is_near ? k : 0), 0, 0};
       ++id;
     }
   }
@@ -122,13 +137,14 @@ class FirstSweep {
 
   const VoxelMask& obstacle_;
   const bool solid_outside_;
-  NearestSites& nearest_;
+  SweptFields<Offset>& nearest_;
 };
 
 /// The sweeps along y and z: which voxel of the line has the site that is nearest to each.
+template <typename Offset>
 class EnvelopeSweep {
  public:
-  EnvelopeSweep(int axis, bool solid_outside, NearestSites& nearest)
+  EnvelopeSweep(int axis, bool solid_outside, SweptFields<Offset>& nearest)
       : axis_(axis), solid_outside_(solid_outside), nearest_(nearest) {}
 
   void sweep(const BlockRow& row) const {
@@ -139,7 +155,7 @@ class EnvelopeSweep {
  private:
   struct Scratch {
     std::vector<std::uint32_t> cost;  // of a line's voxels before the sweep, and of what follows
-    std::vector<SiteOffset> offset;   // of those that win others before the sweep
+    std::vector<Offset> offset;       // of those that win others before the sweep
     LineEnvelope envelope;
     explicit Scratch(std::size_t size) : cost(size + 1), offset(size), envelope(size) {}
   };
@@ -184,11 +200,11 @@ class EnvelopeSweep {
     });
     for_each_stretch([&](int from, int to, int winner) {
       const auto w = static_cast<std::size_t>(winner);
-      SiteOffset offset = is_inside(winner) ? scratch.offset[w] : SiteOffset{};
+      Offset offset = is_inside(winner) ? scratch.offset[w] : Offset{};
       const std::uint32_t across = is_inside(winner) ? scratch.cost[w] : 0;
       line.for_each_voxel(from, to - 1, [&](int i, VoxelId id) {
-        const int along = std::clamp(winner - i, -kFarthestSite - 1, kFarthestSite + 1);
-        (axis_ == 1 ? offset.y : offset.z) = static_cast<std::int16_t>(along);
+        const int along = std::clamp(winner - i, -kFarthest<Offset> - 1, kFarthest<Offset> + 1);
+        (axis_ == 1 ? offset.y : offset.z) = static_cast<decltype(Offset::x)>(along);
         nearest_.offset[id] = offset;
         nearest_.squared[id] = across + squared_halves(along);
       });
@@ -197,23 +213,68 @@ class EnvelopeSweep {
 
   const int axis_;
   const bool solid_outside_;
-  NearestSites& nearest_;
+  SweptFields<Offset>& nearest_;
 };
+
+template <typename Offset>
+NearestSites sweep(const BlockLayout& layout, const VoxelMask& obstacle, bool solid_outside,
+                   int axes) {
+  SweptFields<Offset> nearest{VoxelField<std::uint32_t>::unset(layout, Pages::kLarge),
+                              VoxelField<Offset>::unset(layout)};
+  const FirstSweep first(obstacle, solid_outside, nearest);
+  for_each_row(layout, 0, [&](const BlockRow& row) { first.sweep(row); });
+  for (int axis = 1; axis < axes; ++axis) {
+    const EnvelopeSweep next(axis, solid_outside, nearest);
+    for_each_row(layout, axis, [&](const BlockRow& row) { next.sweep(row); });
+  }
+  return {std::move(nearest.squared), SiteField(std::move(nearest.offset))};
+}
+
+/// Bounds on the distances in a block, from what they are in those of its row: 4 d^2 to an obstacle
+/// that is somewhere in a block so many blocks on grows by that much along the axis, at most.
+void bound_along(const BlockRow& row, bool solid_outside, std::vector<std::uint32_t>& bound) {
+  const auto most_along = [](int blocks) { return squared_halves(kBlockSide * (blocks + 1) - 1); };
+  const int size = static_cast<int>(row.size());
+  std::vector<std::uint32_t> before(row.size() + 2, solid_outside ? 0 : kNoSite);  // with both ends
+  for (std::size_t i = 0; i < row.size(); ++i) before[i + 1] = bound[row[i]];
+  for (int i = 1; i <= size; ++i) {
+    std::uint32_t least = kNoSite;
+    const auto look = [&](int from, int blocks) {
+      if (from < 0 || from > size + 1) return;
+      const std::uint32_t across = before[static_cast<std::size_t>(from)];
+      if (across != kNoSite) least = std::min(least, across + most_along(blocks));
+    };
+    for (int k = 0; k < kFarthestNear / kBlockSide + 1 && most_along(k) < least; ++k) {
+      look(i - k, k);
+      look(i + k, k);
+    }
+    bound[row[static_cast<std::size_t>(i - 1)]] = least;
+  }
+}
+
+/// Whether it is clear from the blocks that hold obstacles that all sites are near. A sweep may
+/// leave out what is not near then: it is on nobody's way to a site.
+bool are_all_near(const BlockLayout& layout, const VoxelMask& obstacle, bool solid_outside,
+                  int axes) {
+  std::vector<std::uint32_t> bound(layout.block_count());
+  for (std::uint32_t slot = 0; slot < layout.block_count(); ++slot)
+    bound[slot] = is_empty(obstacle.block(slot)) ? kNoSite : 0;
+  for (int axis = 0; axis < axes; ++axis)
+    for_each_row(layout, axis,
+                 [&](const BlockRow& row) { bound_along(row, solid_outside, bound); });
+  constexpr std::uint32_t kMost = 4u * kFarthestNear * kFarthestNear;
+  return std::all_of(bound.begin(), bound.end(), [](std::uint32_t b) { return b <= kMost; });
+}
 
 }  // namespace
 
 NearestSites sweep_distances(const BlockLayout& layout, const VoxelMask& obstacle,
-                             bool solid_outside, bool planar) {
+                             bool solid_outside, bool planar, double farthest) {
   assert(obstacle.is_of(layout));
-  NearestSites nearest{VoxelField<std::uint32_t>::unset(layout, Pages::kLarge),
-                       VoxelField<SiteOffset>::unset(layout)};
-  const FirstSweep first(obstacle, solid_outside, nearest);
-  for_each_row(layout, 0, [&](const BlockRow& row) { first.sweep(row); });
-  for (int axis = 1; axis < (planar ? 2 : 3); ++axis) {
-    const EnvelopeSweep next(axis, solid_outside, nearest);
-    for_each_row(layout, axis, [&](const BlockRow& row) { next.sweep(row); });
-  }
-  return nearest;
+  const int axes = planar ? 2 : 3;
+  if (farthest <= kFarthestNear || are_all_near(layout, obstacle, solid_outside, axes))
+    return sweep<NearSiteOffset>(layout, obstacle, solid_outside, axes);
+  return sweep<SiteOffset>(layout, obstacle, solid_outside, axes);
 }
 
 }  // namespace ridgeway::detail

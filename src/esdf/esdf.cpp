@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <type_traits>
 #include <vector>
 
 #include "common/number_text.hpp"
@@ -39,7 +40,8 @@ VoxelMask find_obstacles(const BlockLayout& layout, const VoxelField<VoxelState>
 /// Carries a field over to another layout that holds all blocks it shares with the first.
 template <typename Value>
 VoxelField<Value> move_to_layout(const BlockLayout& from, const VoxelField<Value>& field,
-                                 const BlockLayout& to, Value absent, Pages pages = Pages::kUsual) {
+                                 const BlockLayout& to, std::type_identity_t<Value> absent,
+                                 Pages pages = Pages::kUsual) {
   assert(field.is_of(from));
   auto result = VoxelField<Value>::unset(to, pages);
   parallel_for_each_index(
@@ -68,10 +70,12 @@ NearestSites sweep_through_unknown(const EsdfMap& map, double farthest) {
   VoxelMask obstacle(domain);
   for (std::uint32_t slot = 0; slot < map.layout.block_count(); ++slot)
     obstacle.block(domain.find_block(map.layout.block(slot))) = map.obstacle.block(slot);
-  NearestSites nearest = detail::sweep_distances(domain, obstacle, false, map.planar);
+  NearestSites nearest = detail::sweep_distances(domain, obstacle, false, map.planar, farthest);
   if (domain == map.layout) return nearest;
   return {move_to_layout(domain, nearest.squared, map.layout, kNoSite, Pages::kLarge),
-          move_to_layout(domain, nearest.offset, map.layout, SiteOffset{})};
+          nearest.offset.visit([&](const auto& offset) {
+            return SiteField(move_to_layout(domain, offset, map.layout, {}));
+          })};
 }
 
 /// Adds all blocks of the box around those in which something is known.
@@ -106,7 +110,7 @@ void drop_far_sites(EsdfMap& map, double farthest) {
         for (std::uint32_t v = 0; v < kBlockVoxels; ++v) {
           if (squared[v] <= limit) continue;
           squared[v] = kNoSite;
-          map.site.block(slot)[v] = {};
+          map.site.set(slot * kBlockVoxels + v, {});
         }
       },
       16);
@@ -154,9 +158,9 @@ EsdfMap compute_esdf(OccupancyMap map, const EsdfConfig& config) {
     esdf.state = move_to_layout(map.layout, map.state, esdf.layout, VoxelState::kUnknown);
   }
   esdf.obstacle = find_obstacles(esdf.layout, esdf.state, esdf.unknown);
-  NearestSites nearest =
-      solid_unknown ? detail::sweep_distances(esdf.layout, esdf.obstacle, true, esdf.planar)
-                    : sweep_through_unknown(esdf, farthest);
+  NearestSites nearest = solid_unknown ? detail::sweep_distances(esdf.layout, esdf.obstacle, true,
+                                                                 esdf.planar, farthest)
+                                       : sweep_through_unknown(esdf, farthest);
   esdf.squared = std::move(nearest.squared);
   esdf.site = std::move(nearest.offset);
   drop_far_sites(esdf, farthest);

@@ -114,7 +114,7 @@ std::optional<Point> FreeSpace::near_obstacle(const Point& p) const {
   const VoxelIndex v = voxel_at(p, esdf_.voxel_size);
   const VoxelId id = esdf_.layout.find(v);
   if (id == kNoVoxel || esdf_.squared[id] == kNoSite) return std::nullopt;
-  const SiteOffset& site = esdf_.site[id];
+  const SiteOffset site = esdf_.site[id];
   const Point low = Point(v.x + site.x, v.y + site.y, v.z + site.z) * esdf_.voxel_size;
   return p.cwiseMax(low).cwiseMin(low + Point::Constant(esdf_.voxel_size));
 }
@@ -176,7 +176,7 @@ SquaredHalves FreeSpace::slow_move_clearance(VoxelId from, VoxelId to, int direc
   double best = 0.25 * low.value;
   for (const VoxelId end : {from, to}) {
     if (esdf_.squared[end] == kNoSite) continue;
-    const SiteOffset& site = esdf_.site[end];
+    const SiteOffset site = esdf_.site[end];
     const VoxelIndex cube = (end == from ? v : v + o) + VoxelIndex{site.x, site.y, site.z};
     best = std::min(best, detail::squared_distance(a, b, detail::cube_of(cube)));
   }

@@ -284,7 +284,7 @@ class SegmentMarch {
     const VoxelId id = finder_.find(voxel);
     if (id == kNoVoxel) return esdf_.is_obstacle(id) ? 0.0 : kInfinity;
     if (esdf_.squared[id] == kNoSite || 0.25 * esdf_.squared[id] > farthest) return kInfinity;
-    const SiteOffset& o = esdf_.site[id];
+    const SiteOffset o = esdf_.site[id];
     return squared_distance(x, cube_of(voxel + VoxelIndex{o.x, o.y, o.z}));
   }
 

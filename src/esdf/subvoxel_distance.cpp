@@ -86,7 +86,7 @@ class Refinement {
       const VoxelId other = esdf_.layout.neighbour(id, direction);
       if (other == kNoVoxel || esdf_.squared[other] == kNoSite) continue;
       const VoxelIndex o = offset_of(direction);
-      const SiteOffset& s = esdf_.site[other];
+      const SiteOffset s = esdf_.site[other];
       const SiteOffset from_here{static_cast<std::int16_t>(o.x + s.x),
                                  static_cast<std::int16_t>(o.y + s.y),
                                  static_cast<std::int16_t>(o.z + s.z)};

@@ -2,8 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "live_field.hpp"
 
-#include <algorithm>
-#include <utility>
+#include <atomic>
 
 #include "line_update.hpp"
 
@@ -28,7 +27,8 @@ struct AlongX {
 
  private:
   Put put(VoxelId id, LineOffset offset) const {
-    const LineOffset before = std::exchange(field.in_line[id], offset);
+    const LineOffset before = field.in_line[id];
+    field.in_line.set(id, offset);
     return before == offset ? Put::kSame : compared(line_cost(before), line_cost(offset));
   }
 };
@@ -40,7 +40,7 @@ struct AlongY {
 
   std::uint32_t cost(VoxelId id) const { return line_cost(field.in_line[id]); }
   int way(VoxelId id) const {
-    const PlaneOffset& o = field.in_plane[id];
+    const PlaneOffset o = field.in_plane[id];
     return o.x == kNoWay ? kNoWay : o.y;
   }
   Put write(VoxelId id, VoxelId from, int along, std::uint32_t) const {
@@ -51,7 +51,8 @@ struct AlongY {
 
  private:
   Put put(VoxelId id, const PlaneOffset& offset) const {
-    const PlaneOffset before = std::exchange(field.in_plane[id], offset);
+    const PlaneOffset before = field.in_plane[id];
+    field.in_plane.set(id, offset);
     return before == offset ? Put::kSame : compared(plane_cost(before), plane_cost(offset));
   }
 };
@@ -60,6 +61,7 @@ struct AlongY {
 struct AlongZ {
   static constexpr int kAxis = 2;
   LiveField& field;
+  const bool is_cut_short;  // sites may be farther than the field holds
 
   std::uint32_t cost(VoxelId id) const { return plane_cost(field.in_plane[id]); }
   int way(VoxelId id) const {
@@ -69,7 +71,10 @@ struct AlongZ {
     const PlaneOffset o = from == kNoVoxel ? PlaneOffset{} : field.in_plane[from];
     return put(id, {o.x, o.y, static_cast<std::int16_t>(along)}, squared);
   }
-  Put write_none(VoxelId id) const { return put(id, {}, kNoSite); }
+  Put write_none(VoxelId id) const {
+    if (is_cut_short) std::atomic_ref(field.is_outgrown).store(true, std::memory_order_relaxed);
+    return put(id, {}, kNoSite);
+  }
 
  private:
   Put put(VoxelId id, const SiteOffset& site, std::uint32_t squared) const {
@@ -77,7 +82,7 @@ struct AlongZ {
     if (before == squared && field.esdf.site[id] == site) return Put::kSame;
     own_distances(field, id / kBlockVoxels);
     field.esdf.squared[id] = squared;
-    field.esdf.site[id] = site;
+    field.esdf.site.set(id, site);
     return compared(before, squared);
   }
 };
@@ -97,7 +102,7 @@ void mark_blocks(MarkedVoxels& marked, std::uint32_t first, std::uint32_t end) {
 
 void update_distances(LiveField& field) {
   const EsdfMap& esdf = field.esdf;
-  const SweepReach reach = reach_of(esdf.max_distance / esdf.voxel_size);
+  const SweepReach reach = reach_of(field.farthest());
   const std::uint32_t blocks = esdf.layout.block_count();
   const std::uint32_t first_joined = field.solid_outside() ? blocks : field.first_new;
   const auto sweep = [&](const auto& along, MarkedVoxels& due, MarkedVoxels& changed) {
@@ -115,7 +120,8 @@ void update_distances(LiveField& field) {
   field.due.name(field.flipped.slots);
   sweep(AlongX{field}, field.due, field.passed);
   sweep(AlongY{field}, field.passed, field.due);
-  sweep(AlongZ{field}, field.due, field.changed);
+  sweep(AlongZ{field, field.farthest() < esdf.max_distance / esdf.voxel_size}, field.due,
+        field.changed);
   field.first_of_last = field.first_new;
   field.first_new = blocks;
 }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -24,6 +25,33 @@ struct PlaneOffset {
   friend constexpr bool operator==(const PlaneOffset&, const PlaneOffset&) = default;
 };
 
+/// The same of obstacles that are near.
+struct NearLineOffset {
+  static constexpr std::int8_t kNoNearWay = -kFarthestNear - 1;
+  std::int8_t x = 0;
+
+  static constexpr bool can_be(LineOffset o) {
+    return o == kNoWay || (-kFarthestNear <= o && o <= kFarthestNear);
+  }
+  static constexpr NearLineOffset of(LineOffset o) {
+    return {o == kNoWay ? kNoNearWay : static_cast<std::int8_t>(o)};
+  }
+  // NOLINTNEXTLINE(google-explicit-constructor): the same value
+  constexpr operator LineOffset() const { return x == kNoNearWay ? kNoWay : LineOffset{x}; }
+};
+struct NearPlaneOffset {
+  NearLineOffset x, y;
+
+  static constexpr bool can_be(const PlaneOffset& o) {
+    return NearLineOffset::can_be(o.x) && NearLineOffset::can_be(o.y);
+  }
+  static constexpr NearPlaneOffset of(const PlaneOffset& o) {
+    return {NearLineOffset::of(o.x), NearLineOffset::of(o.y)};
+  }
+  // NOLINTNEXTLINE(google-explicit-constructor): the same value
+  constexpr operator PlaneOffset() const { return {x, y}; }
+};
+
 /// 4 d^2 to it; kNoSite where there is none.
 constexpr std::uint32_t line_cost(LineOffset x) {
   return x == kNoWay ? kNoSite : squared_halves(x);
@@ -35,10 +63,14 @@ constexpr std::uint32_t plane_cost(const PlaneOffset& o) {
 /// A map that changes and the distance field that follows it: the field, and what the sweeps along
 /// x and y left, from which those along y and z go on. All fields are on `esdf.layout`; what is
 /// farther than `max_distance` is left out by each sweep, as it can be nobody's nearest.
+///
+/// Offsets are near ones at first, and what is not near is left out too: that is right until a
+/// voxel has no near site at all.
 struct LiveField {
   EsdfMap esdf;
-  VoxelField<LineOffset> in_line;
-  VoxelField<PlaneOffset> in_plane;
+  OffsetField<NearLineOffset, LineOffset> in_line;
+  OffsetField<NearPlaneOffset, PlaneOffset> in_plane;
+  bool is_outgrown = false;  ///< a voxel's site is not near: a new field, of any, is to be made
   std::vector<std::uint16_t> known;  ///< voxels whose state is known, by block
 
   /// By block: 0 where a snapshot has the same memory, which is not to be written to.
@@ -53,9 +85,14 @@ struct LiveField {
   MarkedVoxels changed;             ///< those whose distance or site the last update changed
   MarkedVoxels due, passed;         ///< for updates: what a sweep has to look at
 
-  /// Of a map without any block.
-  LiveField(double voxel_size, const VoxelIndex& origin, const EsdfConfig& config);
+  /// Of a map without any block. `near_only`: for sites that are near.
+  LiveField(double voxel_size, const VoxelIndex& origin, const EsdfConfig& config, bool near_only);
 
+  /// How far sites count, voxels.
+  double farthest() const {
+    const double asked = esdf.max_distance / esdf.voxel_size;
+    return esdf.site.has_near_only() ? std::min(asked, double{kFarthestNear}) : asked;
+  }
   bool solid_outside() const { return esdf.unknown == UnknownPolicy::kObstacle; }
 };
 
@@ -86,6 +123,7 @@ void undo_changes(LiveField& field) noexcept;
 /// obstacles is swept again only where it holds a voxel that the sweep before has changed.
 ///
 /// Where unknown space is ignored, the layout must hold the blocks that sweeps pass through.
+/// Where it comes out as `is_outgrown`, the distances are not right.
 /// An exception leaves the field of no use, but for its map.
 void update_distances(LiveField& field);
 

@@ -43,7 +43,13 @@ std::vector<BlockIndex> missing_blocks(const LiveField& field,
 
 }  // namespace
 
-LiveField::LiveField(double voxel_size, const VoxelIndex& origin, const EsdfConfig& config) {
+LiveField::LiveField(double voxel_size, const VoxelIndex& origin, const EsdfConfig& config,
+                     bool near_only) {
+  if (near_only) {
+    esdf.site = SiteField(SiteField::Near{});
+    in_line = decltype(in_line)(decltype(in_line)::Near{});
+    in_plane = decltype(in_plane)(decltype(in_plane)::Near{});
+  }
   config.validate();
   esdf.voxel_size = voxel_size;
   esdf.origin = origin;
@@ -69,7 +75,7 @@ void add_blocks(LiveField& field, std::span<const BlockIndex> blocks) {
   field.in_line.grow(esdf.layout, solid ? LineOffset{0} : kNoWay);
   field.in_plane.grow(esdf.layout, {solid ? std::int16_t{0} : kNoWay, 0});
   esdf.squared.grow(esdf.layout, solid ? 0 : kNoSite);
-  esdf.site.grow(esdf.layout, SiteOffset{});
+  esdf.site.grow(esdf.layout);
   field.flipped.grow_voxels(esdf.layout);
   for (MarkedVoxels* marked : {&field.changed, &field.due, &field.passed})
     marked->grow(esdf.layout);

@@ -89,7 +89,7 @@ struct LiveRoadmap::State {
   std::vector<Eigen::Isometry3d> corrected(std::span<const PoseCorrection> corrections) const;
 
   void bring_up_to_date(std::span<const VoxelChange> changes, UpdateReport& report);
-  Live nothing(const VoxelIndex& origin) const;
+  Live nothing(const VoxelIndex& origin, bool near_only) const;
   Live remade() const;
   std::shared_ptr<const Roadmap> last_built_on(Live& live) const;
   detail::TouchedSpace touched_space_of(Live& live, bool has_last) const;

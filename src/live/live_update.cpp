@@ -47,7 +47,7 @@ void LiveRoadmap::State::update(std::span<const VoxelChange> changes, const Voxe
     is_stale = false;
   }
   const bool is_first = !now;
-  if (is_first) now = nothing(config.origin.value_or(first));
+  if (is_first) now = nothing(config.origin.value_or(first), true);
   try {
     bring_up_to_date(changes, report);
   } catch (...) {
@@ -90,7 +90,8 @@ void LiveRoadmap::State::bring_up_to_date(std::span<const VoxelChange> changes,
     next = built_on(*other, lap, report);
   } else {
     update_distances(field);
-    next = built_on(*now, lap, report);
+    if (field.is_outgrown) other = remade();
+    next = built_on(other ? *other : *now, lap, report);
   }
   const std::lock_guard lock(mutex);
   snapshot = std::move(next);
@@ -102,8 +103,10 @@ void LiveRoadmap::State::bring_up_to_date(std::span<const VoxelChange> changes,
 }
 
 /// A map without blocks.
-LiveRoadmap::State::Live LiveRoadmap::State::nothing(const VoxelIndex& origin) const {
-  Live live{LiveField(config.fusion.voxel_size, origin, detail::distances_config(config.build)),
+LiveRoadmap::State::Live LiveRoadmap::State::nothing(const VoxelIndex& origin,
+                                                     bool near_only) const {
+  Live live{LiveField(config.fusion.voxel_size, origin, detail::distances_config(config.build),
+                      near_only),
             {.radius = config.build.min_clearance, .config = detail::ridges_of(config.build)},
             {},
             {},
@@ -114,9 +117,15 @@ LiveRoadmap::State::Live LiveRoadmap::State::nothing(const VoxelIndex& origin) c
 
 /// The same map in fields of their own, to which it is one change.
 LiveRoadmap::State::Live LiveRoadmap::State::remade() const {
-  Live other = nothing(now->field.esdf.origin);
-  apply_changes(other.field, all_of(map_of(now->field)));
-  update_distances(other.field);
+  const std::vector<VoxelChange> changes = all_of(map_of(now->field));
+  const auto with_distances = [&](bool near_only) {
+    Live made = nothing(now->field.esdf.origin, near_only);
+    apply_changes(made.field, changes);
+    update_distances(made.field);
+    return made;
+  };
+  Live other = with_distances(!now->field.is_outgrown && now->field.esdf.site.has_near_only());
+  if (other.field.is_outgrown) other = with_distances(false);
   update_traversable(other.ridges, other.field);
   update_edges(other.ridges, other.field);
   update_basins(other.basins, other.memory->basin, other.field, other.ridges);

@@ -4,6 +4,7 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cstring>
 
@@ -73,11 +74,10 @@ bool decode_states(const std::byte* raw, EsdfMap& esdf, std::uint32_t slot, Bloc
   return bad == 0;
 }
 
-/// Sites and distances; false where an offset is zero or longer than any distance may be.
+/// Distances to sites; false where an offset is zero or longer than any distance may be.
 bool decode_distances(const SitePlanes& sites, const BlockPlane& live, EsdfMap& esdf,
                       std::uint32_t slot) {
   std::uint32_t* squared = esdf.squared.block(slot);
-  SiteOffset* site = esdf.site.block(slot);
   const VoxelMask::Block& obstacle = esdf.obstacle.block(slot);
   std::uint32_t bad = 0;
   const auto part = [&](int k) {
@@ -91,15 +91,31 @@ bool decode_distances(const SitePlanes& sites, const BlockPlane& live, EsdfMap& 
     bad |= static_cast<std::uint32_t>((live[i] != 0) & (sum == 0));
     squared[i] = sum | (live[i] != 0 ? 0u : kNoSite);
   }
-  for (std::size_t i = 0; i < kBlockVoxels; ++i) site[i] = {sites.x[i], sites.y[i], sites.z[i]};
   for (std::size_t z = 0; z < kBlockSide; ++z)
     for (std::uint64_t bits = obstacle[z]; bits != 0; bits &= bits - 1)
       squared[z * 64 + static_cast<std::size_t>(std::countr_zero(bits))] = 0;
   return bad == 0;
 }
 
-void load_esdf_blocks(const RidgeReader& reader, const BlockRange& range, const Worker& worker,
-                      EsdfMap& esdf) {
+/// The sites themselves; false where one is too far for a field of such offsets.
+template <typename Offset>
+bool store_sites(const SitePlanes& sites, Offset* field) {
+  using Part = decltype(Offset::x);
+  int lost = 0;
+  const auto part = [&](int k) {
+    lost |= k ^ static_cast<Part>(k);
+    return static_cast<Part>(k);
+  };
+  for (std::size_t i = 0; i < kBlockVoxels; ++i)
+    field[i] = {part(sites.x[i]), part(sites.y[i]), part(sites.z[i])};
+  return lost == 0;
+}
+
+/// False where `site` cannot hold what there is.
+template <typename Offset>
+bool load_esdf_blocks(const RidgeReader& reader, const BlockRange& range, const Worker& worker,
+                      EsdfMap& esdf, VoxelField<Offset>& site) {
+  bool all_stored = true;
   const std::size_t voxels = range.count() * kBlockVoxels;
   const bool narrow = worker.site.size() == 3 * voxels;
   const std::size_t width = narrow ? 1 : 2;
@@ -122,7 +138,9 @@ void load_esdf_blocks(const RidgeReader& reader, const BlockRange& range, const 
     if (!decode_distances(sites, live, esdf, slot)) {
       reader.damaged("site", "has an offset that no voxel can have");
     }
+    all_stored = store_sites(sites, site.block(slot)) && all_stored;
   }
+  return all_stored;
 }
 
 void load_diagram_blocks(const RidgeReader& reader, const BlockRange& range, const Worker& worker,
@@ -145,7 +163,8 @@ bool has_voxels(std::uint32_t type) {
 }
 
 /// The fields take their pages from the system here, which costs as much as the decoding.
-void allocate_fields(Roadmap& roadmap) {
+template <typename Offset>
+void allocate_fields(Roadmap& roadmap, VoxelField<Offset>& site) {
   EsdfMap& esdf = roadmap.esdf;
   const BlockLayout& layout = esdf.layout;
   tbb::parallel_invoke(
@@ -154,12 +173,56 @@ void allocate_fields(Roadmap& roadmap) {
         esdf.state = VoxelField<VoxelState>(layout);
         esdf.obstacle = VoxelMask(layout);
       },
-      [&] { esdf.site = VoxelField<SiteOffset>(layout); },
+      [&] { site = VoxelField<Offset>(layout); },
       [&] {
         roadmap.attach.next = VoxelField<Direction>(layout);
         roadmap.diagram.voxels = VoxelMask(layout);
       });
   detail::stop_if_cancelled();
+}
+
+/// The sections with a value for every voxel.
+struct VoxelSections {
+  const RidgeSectionEntry& state;
+  const RidgeSectionEntry& site;
+  const RidgeSectionEntry& diagram;
+  const RidgeSectionEntry& attach;
+};
+
+void load_chunk_of_diagram(const RidgeReader& reader, const VoxelSections& from, std::size_t chunk,
+                           const BlockRange& range, Worker& worker, Roadmap& roadmap) {
+  const std::size_t voxels = range.count() * kBlockVoxels;
+  read_exactly(reader, from.diagram, chunk, voxels / 8, worker, worker.diagram);
+  load_diagram_blocks(reader, range, worker, roadmap);
+  read_exactly(reader, from.attach, chunk, voxels, worker, worker.attach);
+  std::memcpy(roadmap.attach.next.block(range.first), worker.attach.data(), voxels);
+  const auto last = *std::max_element(worker.attach.begin(), worker.attach.end());
+  if (last > std::byte{AttachField::kNotTraversable}) {
+    reader.damaged("attach", "has a direction above 27");
+  }
+}
+
+/// With the sites as such offsets; false where one of them is too far for that.
+template <typename Offset>
+bool load_with(const RidgeReader& reader, const VoxelSections& from, std::uint32_t blocks,
+               Roadmap& roadmap) {
+  VoxelField<Offset> sites;
+  allocate_fields(roadmap, sites);
+  tbb::enumerable_thread_specific<Worker> workers;
+  std::atomic<bool> is_too_far = false;
+  parallel_for_each_index(from.site.chunks.size(), [&](std::size_t chunk) {
+    if (is_too_far.load(std::memory_order_relaxed)) return;
+    Worker& worker = workers.local();
+    const BlockRange range = blocks_of_chunk(chunk, blocks);
+    const std::size_t voxels = range.count() * kBlockVoxels;
+    read_exactly(reader, from.state, chunk, voxels, worker, worker.state);
+    const bool narrow = from.site.chunks[chunk].raw_bytes == 3 * voxels;
+    read_exactly(reader, from.site, chunk, (narrow ? 3 : 6) * voxels, worker, worker.site);
+    if (!load_esdf_blocks(reader, range, worker, roadmap.esdf, sites)) is_too_far = true;
+    load_chunk_of_diagram(reader, from, chunk, range, worker, roadmap);
+  });
+  roadmap.esdf.site = SiteField(std::move(sites));
+  return !is_too_far;
 }
 
 }  // namespace
@@ -177,35 +240,17 @@ void check_memory(const RidgeReader& reader, const RidgeHeader& header) {
 }
 
 void load_voxels(const RidgeReader& reader, const RidgeHeader& header, Roadmap& roadmap) {
-  const RidgeSectionEntry& state = reader.get_section("state", kStateType);
-  const RidgeSectionEntry& site = reader.get_section("site", kSiteType);
-  const RidgeSectionEntry& diagram = reader.get_section("diagram", kMaskType);
-  const RidgeSectionEntry& attach = reader.get_section("attach", kAttachType);
+  const VoxelSections from{
+      reader.get_section("state", kStateType), reader.get_section("site", kSiteType),
+      reader.get_section("diagram", kMaskType), reader.get_section("attach", kAttachType)};
   const std::size_t chunks = chunks_for(header.blocks);
-  for (const RidgeSectionEntry* section : {&state, &site, &diagram, &attach}) {
+  for (const RidgeSectionEntry* section : {&from.state, &from.site, &from.diagram, &from.attach}) {
     if (section->chunks.size() != chunks) {
       reader.damaged(section->name, "does not fit the number of blocks");
     }
   }
-  allocate_fields(roadmap);
-  tbb::enumerable_thread_specific<Worker> workers;
-  parallel_for_each_index(chunks, [&](std::size_t chunk) {
-    Worker& worker = workers.local();
-    const BlockRange range = blocks_of_chunk(chunk, header.blocks);
-    const std::size_t voxels = range.count() * kBlockVoxels;
-    read_exactly(reader, state, chunk, voxels, worker, worker.state);
-    const bool narrow = site.chunks[chunk].raw_bytes == 3 * voxels;
-    read_exactly(reader, site, chunk, (narrow ? 3 : 6) * voxels, worker, worker.site);
-    load_esdf_blocks(reader, range, worker, roadmap.esdf);
-    read_exactly(reader, diagram, chunk, voxels / 8, worker, worker.diagram);
-    load_diagram_blocks(reader, range, worker, roadmap);
-    read_exactly(reader, attach, chunk, voxels, worker, worker.attach);
-    std::memcpy(roadmap.attach.next.block(range.first), worker.attach.data(), voxels);
-    const auto last = *std::max_element(worker.attach.begin(), worker.attach.end());
-    if (last > std::byte{AttachField::kNotTraversable}) {
-      reader.damaged("attach", "has a direction above 27");
-    }
-  });
+  if (!load_with<NearSiteOffset>(reader, from, header.blocks, roadmap))
+    load_with<SiteOffset>(reader, from, header.blocks, roadmap);
 }
 
 }  // namespace ridgeway

@@ -43,14 +43,16 @@ int part_of(const SiteOffset& site, std::size_t axis) {
 }
 
 void gather(const EsdfMap& esdf, std::uint32_t slot, BlockSites& sites) {
-  const SiteOffset* const site = esdf.site.block(slot);
+  esdf.site.visit([&](const auto& field) {
+    const auto* const site = field.block(slot);
+    for (std::size_t i = 0; i < kBlockVoxels; ++i) {
+      sites.offset[0][i] = site[i].x;
+      sites.offset[1][i] = site[i].y;
+      sites.offset[2][i] = site[i].z;
+    }
+  });
   const std::uint32_t* const squared = esdf.squared.block(slot);
-  for (std::size_t i = 0; i < kBlockVoxels; ++i) {
-    sites.offset[0][i] = site[i].x;
-    sites.offset[1][i] = site[i].y;
-    sites.offset[2][i] = site[i].z;
-    sites.distance[i] = distance_of(squared[i]);
-  }
+  for (std::size_t i = 0; i < kBlockVoxels; ++i) sites.distance[i] = distance_of(squared[i]);
 }
 
 /// Checks what sites say of each other: a voxel is no farther from obstacles than from the site of

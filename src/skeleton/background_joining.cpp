@@ -109,7 +109,7 @@ class BackgroundJoining {
     const VoxelId id = layout_.find(v);
     if (id == kNoVoxel || !voxels_.test(id)) return part_at(v, id);
     if (esdf_.squared[id] == kNoSite) return kNoPart;
-    const SiteOffset& o = esdf_.site[id];
+    const SiteOffset o = esdf_.site[id];
     return parts_.part_of(v + VoxelIndex{o.x, o.y, o.z});
   }
 

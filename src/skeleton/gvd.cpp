@@ -83,17 +83,22 @@ struct SiteGather {
   std::array<detail::Bordered<float>, 3> at;
 
   SiteGather(const EsdfMap& esdf, std::uint32_t slot) {
+    esdf.site.visit([&](const auto& sites) { gather(esdf.layout, sites, slot); });
+  }
+
+ private:
+  template <typename Offset>
+  void gather(const BlockLayout& layout, const VoxelField<Offset>& sites, std::uint32_t slot) {
     constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-    detail::for_each_bordered_row(
-        esdf.layout, slot, [&](std::size_t place, VoxelId first, auto count) {
-          for (std::size_t i = 0; i < count; ++i) {
-            const SiteOffset site =
-                first == kNoVoxel ? SiteOffset{} : esdf.site[first + static_cast<VoxelId>(i)];
-            at[0][place + i] = site == SiteOffset{} ? kNone : site.x;
-            at[1][place + i] = site.y;
-            at[2][place + i] = site.z;
-          }
-        });
+    detail::for_each_bordered_row(layout, slot, [&](std::size_t place, VoxelId first, auto count) {
+      for (std::size_t i = 0; i < count; ++i) {
+        const SiteOffset site =
+            first == kNoVoxel ? SiteOffset{} : sites[first + static_cast<VoxelId>(i)];
+        at[0][place + i] = site == SiteOffset{} ? kNone : site.x;
+        at[1][place + i] = site.y;
+        at[2][place + i] = site.z;
+      }
+    });
   }
 };
 

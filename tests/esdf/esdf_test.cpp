@@ -64,7 +64,7 @@ void expect_equal_to_brute_force(const OccupancyMap& map, const EsdfConfig& conf
       continue;
     }
     ASSERT_EQ(esdf.squared[id], nearest.squared) << v.x << " " << v.y << " " << v.z;
-    const SiteOffset& o = esdf.site[id];
+    const SiteOffset o = esdf.site[id];
     ASSERT_EQ(v + (VoxelIndex{o.x, o.y, o.z}), nearest.site) << v.x << " " << v.y << " " << v.z;
   }
 }

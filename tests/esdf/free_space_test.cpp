@@ -205,7 +205,7 @@ TEST_P(FreeSpaceOnRandomMaps, NearObstacleIsThatOfTheVoxelsCentre) {
       EXPECT_NEAR(brute_squared_distance(*near / esdf.voxel_size, obstacles), 0.0, kTiny);
       // The cube that holds it is as near to the centre as any, and it is that cube's nearest.
       const VoxelId id = esdf.layout.find(voxel);
-      const SiteOffset& o = esdf.site[id];
+      const SiteOffset o = esdf.site[id];
       const std::vector<VoxelIndex> cube{voxel + VoxelIndex{o.x, o.y, o.z}};
       EXPECT_NEAR(std::sqrt(brute_squared_distance(centre, cube)) * esdf.voxel_size, brute, kTiny);
       EXPECT_NEAR((*near - p).norm(),

@@ -105,7 +105,7 @@ TEST(DistanceSweeps, FindTheFirstOfTheNearestObstaclesWhateverBlocksThereAre) {
     for (VoxelId id = 0; id < layout.voxel_count(); ++id) {
       const VoxelIndex v = layout.index_of(id);
       const detail::PlainNearest plain = detail::plain_nearest(v, obstacles);
-      const SiteOffset& o = nearest.offset[id];
+      const SiteOffset o = nearest.offset[id];
       ASSERT_EQ(nearest.squared[id], plain.squared);
       ASSERT_EQ(v + (VoxelIndex{o.x, o.y, o.z}), plain.site);
     }

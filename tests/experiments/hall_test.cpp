@@ -77,7 +77,7 @@ TEST(Hall, PeakMemoryHoldsAllFieldsOfTheRoadmap) {
   const std::vector<HallRow> rows = run_hall(config);
   ASSERT_TRUE(rows[0].peak_memory);
   const auto least = static_cast<double>(rows[0].counts.allocated_voxels) *
-                     static_cast<double>(sizeof(VoxelState) + sizeof(SiteOffset) + 4 + 1);
+                     static_cast<double>(sizeof(VoxelState) + sizeof(NearSiteOffset) + 4 + 1);
   EXPECT_GT(static_cast<double>(*rows[0].peak_memory), least);
 }
 

@@ -83,7 +83,7 @@ TEST(SpaceParts, AfterRandomChangesAreThoseThatFloodsFind) {
   for (unsigned seed = 0; seed < 25; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 random(1000 + seed);
-    detail::LiveField field(0.1, {}, {.max_distance = 0.8});
+    detail::LiveField field(0.1, {}, {.max_distance = 0.8}, true);
     detail::LiveRidges ridges = {.radius = 0.05 + 0.05 * (seed % 3)};
     detail::LiveBasins basins;
     BasinNumbers numbers;
@@ -102,7 +102,7 @@ TEST(LiveBasins, AfterRandomChangesAreThoseOfTheField) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
-    detail::LiveField field(0.1, {}, {.max_distance = seed % 2 == 0 ? 0.8 : 3.0});
+    detail::LiveField field(0.1, {}, {.max_distance = seed % 2 == 0 ? 0.8 : 3.0}, true);
     detail::LiveRidges ridges = {.radius = 0.05 + 0.05 * (seed % 3)};
     detail::LiveBasins basins;
     BasinNumbers numbers;

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "ridgeway/common/parallel.hpp"
@@ -41,6 +42,11 @@ std::vector<BlockIndex> missing(const LiveField& field, const BlockIndex& low,
   return blocks;
 }
 
+/// Whether all sites of small maps are near.
+bool is_near(const EsdfConfig& config) {
+  return config.unknown == UnknownPolicy::kObstacle || !std::isinf(config.max_distance);
+}
+
 struct Case {
   UnknownPolicy unknown;
   double max_distance;
@@ -54,7 +60,7 @@ TEST_P(LiveFieldOf, RandomChangesIsThatOfABatchBuild) {
   for (unsigned seed = 0; seed < (is_slow ? 10u : 60u); ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
-    LiveField field(0.1, {}, config);
+    LiveField field(0.1, {}, config, is_near(config) && seed % 4 != 0);
     for (int step = 0; step < 12; ++step) {
       SCOPED_TRACE(step);
       const int reach = 1 + step / 4;                // blocks, from the origin: the map grows
@@ -79,7 +85,7 @@ TEST_P(LiveFieldOf, AWholeMapIsThatOfABatchBuild) {
   for (unsigned seed = 0; seed < (is_slow ? 8u : 40u); ++seed) {
     SCOPED_TRACE(seed);
     const OccupancyMap map = testing::random_map(seed, seed % 5 == 0 ? 60 : 24);
-    LiveField field(map.voxel_size, {}, config);
+    LiveField field(map.voxel_size, {}, config, is_near(config) && seed % 4 != 0);
     if (config.unknown == UnknownPolicy::kIgnore)
       add_blocks(field, testing::blocks_of_box({-4, -4, -4}, {11, 11, 11}));
     apply_changes(field, testing::changes_to(map));
@@ -87,6 +93,26 @@ TEST_P(LiveFieldOf, AWholeMapIsThatOfABatchBuild) {
     expect_same(field, compute_esdf(map_of(field), config));
     if (HasFailure()) return;
   }
+}
+
+/// A row of blocks along each axis with an obstacle at its end, or none.
+TEST(LiveField, SaysWhereNearSitesNoLongerDo) {
+  const EsdfConfig config{UnknownPolicy::kIgnore, std::numeric_limits<double>::infinity()};
+  for (int axis = 0; axis < 3; ++axis)
+    for (const int blocks : {16, 17}) {
+      SCOPED_TRACE(axis);
+      LiveField near(0.1, {}, config, true), any(0.1, {}, config, false);
+      const BlockIndex last{axis == 0 ? blocks - 1 : 0, axis == 1 ? blocks - 1 : 0,
+                            axis == 2 ? blocks - 1 : 0};
+      for (LiveField* field : {&near, &any}) {
+        add_blocks(*field, testing::blocks_of_box({0, 0, 0}, last));
+        apply_changes(*field, std::vector<VoxelChange>{{{0, 0, 0}, VoxelState::kOccupied}});
+        update_distances(*field);
+      }
+      EXPECT_FALSE(any.is_outgrown);
+      EXPECT_EQ(near.is_outgrown, blocks == 17);
+      if (!near.is_outgrown) EXPECT_TRUE(near.esdf.site.values() == any.esdf.site.values());
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -33,7 +33,7 @@ TEST(LiveRidges, AfterRandomChangesAreThoseOfTheField) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
-    detail::LiveField field(0.1, {}, {.max_distance = seed % 2 == 0 ? 0.8 : 3.0});
+    detail::LiveField field(0.1, {}, {.max_distance = seed % 2 == 0 ? 0.8 : 3.0}, true);
     detail::LiveRidges ridges = {.radius = 0.05 + 0.05 * (seed % 3)};
     for (int step = 0; step < 12; ++step) {
       SCOPED_TRACE(step);

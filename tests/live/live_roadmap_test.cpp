@@ -135,6 +135,28 @@ TEST(LiveRoadmap, OfRoomsThatChangeInTurnHasTheBytesOfABatchBuild) {
   EXPECT_GT(kept, 200u);
 }
 
+/// The inside of a ball that is just so wide that a site is not near, but for something at its
+/// centre that goes and comes back.
+TEST(LiveRoadmap, ThatGrowsWiderThanNearSitesGoHasTheBytesOfABatchBuild) {
+  const BuildConfig build = {.min_clearance = 4.0, .tangent_pairs = 0};
+  constexpr int kBall = 129;
+  std::vector<VoxelChange> changes;
+  for (int z = -kBall; z <= kBall; ++z)
+    for (int y = -kBall; y <= kBall; ++y)
+      for (int x = -kBall; x <= kBall; ++x)
+        if (x * x + y * y + z * z <= kBall * kBall)
+          changes.push_back({{x, y, z}, VoxelState::kFree});
+  changes.push_back({{0, 0, 0}, VoxelState::kOccupied});
+  LiveRoadmap live({.build = build});
+  live.set_voxels(changes);
+  EXPECT_TRUE(live.snapshot()->esdf.site.has_near_only());
+  for (const auto state : {VoxelState::kFree, VoxelState::kOccupied}) {
+    live.set_voxels(std::vector<VoxelChange>{{{0, 0, 0}, state}});
+    EXPECT_FALSE(live.snapshot()->esdf.site.has_near_only());
+    EXPECT_TRUE(bytes_of(live.snapshot().get()) == batch_bytes(live.map(), build));
+  }
+}
+
 TEST(LiveRoadmap, DoesNotDependOnOrderAndGroupingOfChanges) {
   const BuildConfig build = small_build(UnknownPolicy::kObstacle, 1.0);
   std::mt19937 random(3);

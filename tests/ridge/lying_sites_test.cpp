@@ -51,8 +51,8 @@ class LyingSites : public ::testing::TestWithParam<UnknownPolicy> {
   /// Makes a voxel name another as its site.
   void point(EsdfMap& esdf, VoxelId id, const VoxelIndex& site) const {
     const VoxelIndex o = site - esdf.layout.index_of(id);
-    esdf.site[id] = {static_cast<std::int16_t>(o.x), static_cast<std::int16_t>(o.y),
-                     static_cast<std::int16_t>(o.z)};
+    esdf.site.set(id, {static_cast<std::int16_t>(o.x), static_cast<std::int16_t>(o.y),
+                       static_cast<std::int16_t>(o.z)});
     esdf.squared[id] = squared_halves(esdf.site[id]);
   }
 
@@ -150,7 +150,7 @@ void hand_on_sites(EsdfMap& esdf) {
   for (VoxelId id = 0; id < esdf.squared.size(); ++id) {
     const bool solid = esdf.obstacle.test(id);
     esdf.squared[id] = solid ? 0 : kNoSite;
-    esdf.site[id] = {};
+    esdf.site.set(id, {});
     if (solid) front.push_back(id);
   }
   while (!front.empty()) {
@@ -166,7 +166,7 @@ void hand_on_sites(EsdfMap& esdf) {
                                  static_cast<std::int16_t>(o.z - step.z)};
         if (squared_halves(site) >= esdf.squared[to]) continue;
         esdf.squared[to] = squared_halves(site);
-        esdf.site[to] = site;
+        esdf.site.set(to, site);
         next.push_back(to);
       }
     front = std::move(next);
@@ -210,7 +210,7 @@ TEST(LyingSitesOfFarVoxels, AVoxelWithoutASiteBesideOneNearAnObstacleIsRefused) 
     do id = static_cast<VoxelId>(random() % roadmap.esdf.squared.size());
     while (roadmap.esdf.squared[id] == 0 || roadmap.esdf.squared[id] == kNoSite);
     lying.esdf.squared[id] = kNoSite;
-    lying.esdf.site[id] = {};
+    lying.esdf.site.set(id, {});
     save_roadmap(lying, folder / "a.ridge");
     EXPECT_THROW(load_roadmap(folder / "a.ridge"), InputError);
   }

@@ -105,7 +105,9 @@ TEST(RidgeFile, ABuiltRoadmapComesBack) {
     const Roadmap roadmap = build_roadmap(synthetic_map({}), config).roadmap;
     ASSERT_FALSE(roadmap.graph.edges.empty());
     save_roadmap(roadmap, folder / "map.ridge");
-    expect_same(load_roadmap(folder / "map.ridge"), roadmap);
+    const Roadmap loaded = load_roadmap(folder / "map.ridge");
+    expect_same(loaded, roadmap);
+    EXPECT_TRUE(loaded.esdf.site.has_near_only());
   }
 }
 

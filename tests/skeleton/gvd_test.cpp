@@ -19,7 +19,7 @@ using testing::make_map;
 using testing::random_map;
 
 Eigen::Vector3d to_site(const EsdfMap& esdf, const VoxelIndex& from, const VoxelIndex& of) {
-  const SiteOffset& o = esdf.site[esdf.layout.find(of)];
+  const SiteOffset o = esdf.site[esdf.layout.find(of)];
   const VoxelIndex d = of + VoxelIndex{o.x, o.y, o.z} - from;
   return Eigen::Vector3d(d.x, d.y, d.z);
 }

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "ridgeway/esdf/site_field.hpp"
 #include "ridgeway/mapping/occupancy_map.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
 
@@ -37,15 +38,6 @@ constexpr bool is_open(VoxelState state, UnknownPolicy unknown) {
 
 /// Throws InputError where a policy is no enumerator.
 void validate_policy(UnknownPolicy policy);
-
-/// Offset from a voxel to its nearest site, voxels.
-struct SiteOffset {
-  std::int16_t x = 0;  ///< along x
-  std::int16_t y = 0;  ///< along y
-  std::int16_t z = 0;  ///< along z
-  /// Equal in every field.
-  friend constexpr bool operator==(const SiteOffset&, const SiteOffset&) = default;
-};
 
 /// A squared distance as the field has it, in squared half voxels: 4 d^2 / s^2, which is a whole
 /// number from a voxel's centre to a closed cube. Larger is farther; numbers of other units neither
@@ -147,7 +139,7 @@ struct EsdfMap {
   BlockLayout layout;                 ///< of the map's own voxels
   VoxelField<VoxelState> state;       ///< what the map knows of each
   VoxelField<std::uint32_t> squared;  ///< to the site, squared half voxels (SquaredHalves)
-  VoxelField<SiteOffset> site;        ///< from each to its nearest obstacle
+  SiteField site;                     ///< from each to its nearest obstacle
   VoxelMask obstacle;                 ///< those that are obstacles
 
   /// Whether the robot's centre may be in a voxel; never in kNoVoxel.

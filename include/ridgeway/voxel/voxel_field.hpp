@@ -154,12 +154,25 @@ class VoxelField {
     for (const Value* block : blocks_) all.insert(all.end(), block, block + kBlockVoxels);
     return all;
   }
+  /// The same values as ones of another type, in memory of their own.
+  template <typename Other>
+  VoxelField<Other> as() const {
+    VoxelField<Other> field;
+    field.stamp_ = stamp_;
+    field.take_memory(blocks_.size(), Pages::kUsual);
+    for (std::size_t slot = 0; slot < blocks_.size(); ++slot)
+      std::copy_n(blocks_[slot], kBlockVoxels, field.blocks_[slot]);
+    return field;
+  }
   /// Counts what is shared too.
   std::size_t memory_bytes() const {
     return size() * sizeof(Value) + blocks_.capacity() * sizeof(Value*);
   }
 
  private:
+  template <typename Other>
+  friend class VoxelField;
+
   /// Memory of one block, in one piece with the count of its owners: as it comes, to be written.
   struct OwnBlock {
     OwnBlock() noexcept {}  // NOLINT(modernize-use-equals-default): which would set the values

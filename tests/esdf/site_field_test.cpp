@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+// Offsets to sites are the same in either form, and the smaller one is taken where it does.
+#include "ridgeway/esdf/site_field.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "esdf/distance_sweeps.hpp"
+#include "esdf/plain_distances.hpp"
+#include "support/random_changes.hpp"
+
+namespace ridgeway {
+namespace {
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+TEST(SiteField, HoldsAnyOffsetOnceThereIsOneThatIsNotNear) {
+  const BlockLayout layout(testing::blocks_of_box({0, 0, 0}, {1, 1, 0}));
+  SiteField field(SiteField::Near(layout, {}));
+  std::vector<SiteOffset> expected(layout.voxel_count());
+  std::mt19937 random(1);
+  const auto part = [&](int most) {
+    return static_cast<std::int16_t>(static_cast<int>(random()) % (most + 1));
+  };
+  for (const int most : {kFarthestNear, kFarthestSite}) {
+    for (int i = 0; i < 2000; ++i) {
+      const auto id = static_cast<VoxelId>(random() % layout.voxel_count());
+      field.set(id, expected[id] = {part(most), part(most), part(most)});
+    }
+    EXPECT_EQ(field.has_near_only(), most == kFarthestNear);
+    EXPECT_TRUE(field.values() == expected);
+    EXPECT_TRUE(field.is_of(layout));
+    EXPECT_EQ(field[7], expected[7]);
+  }
+}
+
+TEST(SiteField, TakesHalfTheMemoryForNearOnes) {
+  const BlockLayout layout(testing::blocks_of_box({0, 0, 0}, {9, 9, 9}));
+  const SiteField near(SiteField::Near(layout, {})), any(SiteField::Any(layout, {}));
+  EXPECT_LT(near.memory_bytes(), any.memory_bytes() * 51 / 100);
+}
+
+/// Obstacles here and there in a row of blocks along an axis.
+class SitesAlong : public ::testing::TestWithParam<int> {};
+
+TEST_P(SitesAlong, AxisAreExactInTheFormThatTheyAreIn) {
+  const int axis = GetParam();
+  std::size_t near = 0, far = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const int blocks = 15 + static_cast<int>(random() % 24);
+    const auto along = [&](int k) {
+      return VoxelIndex{axis == 0 ? k : 0, axis == 1 ? k : 0, axis == 2 ? k : 0};
+    };
+    const VoxelIndex last = along(blocks - 1);
+    const BlockLayout layout(testing::blocks_of_box({0, 0, 0}, {last.x, last.y, last.z}));
+    VoxelMask obstacle(layout);
+    std::vector<VoxelIndex> obstacles;
+    for (unsigned i = 0; i < 1 + seed % 3; ++i)
+      obstacle.set(static_cast<VoxelId>(random() % layout.voxel_count()));
+    for (int z = 0; z < 8 * (last.z + 1); ++z)
+      for (int y = 0; y < 8 * (last.y + 1); ++y)
+        for (int x = 0; x < 8 * (last.x + 1); ++x)
+          if (obstacle.test(layout.find({x, y, z}))) obstacles.push_back({x, y, z});
+    const detail::NearestSites found =
+        detail::sweep_distances(layout, obstacle, false, false, kNoLimit);
+    std::uint32_t farthest = 0;
+    for (VoxelId id = 0; id < layout.voxel_count(); ++id) {
+      const VoxelIndex v = layout.index_of(id);
+      const detail::PlainNearest plain = detail::plain_nearest(v, obstacles);
+      const SiteOffset o = found.offset[id];
+      ASSERT_EQ(found.squared[id], plain.squared);
+      ASSERT_EQ(v + (VoxelIndex{o.x, o.y, o.z}), plain.site);
+      farthest = std::max(farthest, found.squared[id]);
+    }
+    // As near as it may be without a look at voxels; what is not near is in the other form.
+    const bool has_near_only = found.offset.has_near_only();
+    if (farthest > squared_halves(kFarthestNear)) EXPECT_FALSE(has_near_only);
+    if (farthest < squared_halves(kFarthestNear - 2 * kBlockSide)) EXPECT_TRUE(has_near_only);
+    (has_near_only ? near : far) += 1;
+  }
+  EXPECT_GT(near, 10u);
+  EXPECT_GT(far, 10u);
+}
+
+TEST_P(SitesAlong, AxisAreExactAsFarAsIsAskedFor) {
+  const VoxelIndex last{GetParam() == 0 ? 39 : 0, GetParam() == 1 ? 39 : 0, GetParam() == 2 ? 39 : 0};
+  const BlockLayout layout(testing::blocks_of_box({0, 0, 0}, {last.x, last.y, last.z}));
+  VoxelMask obstacle(layout);
+  obstacle.set(layout.find({3, 2, 1}));
+  const auto near = detail::sweep_distances(layout, obstacle, false, false, kFarthestNear);
+  const auto any = detail::sweep_distances(layout, obstacle, false, false, kNoLimit);
+  ASSERT_TRUE(near.offset.has_near_only());
+  ASSERT_FALSE(any.offset.has_near_only());
+  for (VoxelId id = 0; id < layout.voxel_count(); ++id) {
+    const bool is_asked_for = any.squared[id] <= 4u * kFarthestNear * kFarthestNear;
+    ASSERT_EQ(near.squared[id] <= 4u * kFarthestNear * kFarthestNear, is_asked_for);
+    if (!is_asked_for) continue;
+    ASSERT_EQ(near.squared[id], any.squared[id]);
+    ASSERT_EQ(near.offset[id], any.offset[id]);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, SitesAlong, ::testing::Values(0, 1, 2));
+
+}  // namespace
+}  // namespace ridgeway
