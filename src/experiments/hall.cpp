@@ -80,6 +80,7 @@ class Measurement {
     row_.counts = built.report;
     row_.vertices = built.roadmap.graph.vertices.size();
     row_.edges = built.roadmap.graph.edges.size();
+    has_near_sites_ = built.roadmap.esdf.site.has_near_only();
     return std::move(built.roadmap);
   }
 
@@ -107,7 +108,7 @@ class Measurement {
       row.seconds.*stage.number = median_of(std::move(seconds));
     }
     row.voxels = detail::voxels_walked(row.counts);
-    row.bytes = detail::least_traffic(row.counts);
+    row.bytes = detail::least_traffic(row.counts, has_near_sites_);
     return row;
   }
 
@@ -163,6 +164,7 @@ class Measurement {
   const HallExperimentConfig& config_;
   const std::function<OccupancyMap()> make_;
   HallRow row_;
+  bool has_near_sites_ = false;  // the roadmap's
   std::vector<StageNumbers> runs_;
 };
 

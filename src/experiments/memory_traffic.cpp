@@ -16,25 +16,25 @@ namespace {
 
 // Bytes a voxel, of the fields as they are.
 constexpr double kState = sizeof(std::declval<EsdfMap&>().state[0]);
-constexpr double kSite = sizeof(std::declval<EsdfMap&>().site[0]);
 constexpr double kSquared = sizeof(std::declval<EsdfMap&>().squared[0]);
 constexpr double kNext = sizeof(std::declval<AttachField&>().next[0]);
 constexpr double kMask = static_cast<double>(sizeof(VoxelMask::Block)) / kBlockVoxels;
 
 }  // namespace
 
-StageNumbers least_traffic(const BuildReport& counts) {
+StageNumbers least_traffic(const BuildReport& counts, bool near_sites) {
+  const double site = near_sites ? sizeof(NearSiteOffset) : sizeof(SiteOffset);
   const auto allocated = static_cast<double>(counts.allocated_voxels);
   const auto traversable = static_cast<double>(counts.traversable_voxels);
   const auto diagram = static_cast<double>(counts.diagram_voxels);
   StageNumbers bytes;
   // Obstacles; three sweeps that write distances and sites, of which the first reads obstacles, the
   // others distances; a look for those too far; traversable voxels.
-  const double sweeps = kMask + 2.0 * kSquared + 3.0 * (kSquared + kSite);
+  const double sweeps = kMask + 2.0 * kSquared + 3.0 * (kSquared + site);
   bytes.esdf = allocated * (kState + kMask + sweeps + kSquared +  //
                             kState + kSquared + kMask);
   // Sites of the traversable voxels. Those of the neighbours beyond are not counted.
-  bytes.gvd = 2.0 * allocated * kMask + traversable * kSite;
+  bytes.gvd = 2.0 * allocated * kMask + traversable * site;
   bytes.edges = 2.0 * allocated * kMask;
   bytes.thin = 2.0 * allocated * kMask;
   // Basins: heights to ways. Kernel: heights once more, to order the deletions.

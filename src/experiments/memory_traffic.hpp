@@ -12,7 +12,8 @@ namespace ridgeway::detail {
 /// what is derived (masks, sites, distances) from what it is derived from, over the voxels that
 /// have a say. Queues, lists, the voxels of a cache line that nobody asked for and second looks at
 /// the same voxel come on top. Fields count as they are in memory, masks with a bit a voxel.
-StageNumbers least_traffic(const BuildReport& counts);
+/// `near_sites`: whether the distance field's sites are near ones.
+StageNumbers least_traffic(const BuildReport& counts, bool near_sites);
 
 /// Voxels that each stage walks over.
 StageNumbers voxels_walked(const BuildReport& counts);

@@ -62,15 +62,15 @@ SparseGraph make_graph(const EsdfMap& esdf, const DiagramCurves& diagram,
   graph.min_clearance = min_clearance;
   for (const DiagramNumber v : vertices) {
     const VoxelId id = diagram.voxels[v];
-    graph.vertices.push_back({esdf.layout.index_of(id), diagram.position[v], esdf.distance(id)});
+    graph.vertices.push_back({esdf.layout.index_of(id), diagram.position(v), esdf.distance(id)});
   }
   graph.edges.resize(segments.size());
   const detail::RememberedSpace space(esdf, memory);
   parallel_for_each_index(
       segments.size(),
       [&](std::size_t i) {
-        const Point& a = diagram.position[segments[i].from];
-        const Point& b = diagram.position[segments[i].to];
+        const Point a = diagram.position(segments[i].from);
+        const Point b = diagram.position(segments[i].to);
         graph.edges[i] = {id_of(segments[i].from), id_of(segments[i].to), (b - a).norm(),
                           space.clearance(a, b)};
       },

@@ -80,6 +80,7 @@ DiagramCurves index_diagram(const EsdfMap& esdf, const VoxelMask& diagram, doubl
   const RememberedSpace space(esdf, memory);
   DiagramCurves curves;
   curves.layout = &esdf.layout;
+  curves.voxel_size = esdf.voxel_size;
   curves.voxels = diagram.members(esdf.layout);
   curves.first_of_block.assign(esdf.layout.block_count() + 1, 0);
   for (const VoxelId id : curves.voxels)
@@ -87,7 +88,6 @@ DiagramCurves index_diagram(const EsdfMap& esdf, const VoxelMask& diagram, doubl
   std::partial_sum(curves.first_of_block.begin(), curves.first_of_block.end(),
                    curves.first_of_block.begin());
   curves.squared.resize(curves.size());
-  curves.position.resize(curves.size());
   std::vector<Cube27> neighbours(curves.size());
   curves.first_move.assign(curves.size() + 1, 0);
   parallel_for_each_index(
@@ -95,7 +95,6 @@ DiagramCurves index_diagram(const EsdfMap& esdf, const VoxelMask& diagram, doubl
       [&](std::size_t i) {
         const VoxelId id = curves.voxels[i];
         curves.squared[i] = esdf.squared[id];
-        curves.position[i] = centre_of(esdf.layout.index_of(id), esdf.voxel_size);
         neighbours[i] = cube_around(esdf.layout, diagram, id) & kCells26;
         curves.first_move[i + 1] = static_cast<std::uint32_t>(bit_count(neighbours[i]));
       },

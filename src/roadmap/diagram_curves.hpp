@@ -27,16 +27,20 @@ struct DiagramMove {
 /// graph is made from, in a few cache lines a voxel.
 struct DiagramCurves {
   const BlockLayout* layout = nullptr;        ///< of the map
+  double voxel_size = 0.0;                    ///< metres
   std::vector<VoxelId> voxels;                ///< in the layout's order
   std::vector<std::uint32_t> first_of_block;  ///< by the block's place in that order, of `voxels`
   std::vector<std::uint32_t> squared;         ///< as in EsdfMap
-  std::vector<Point> position;                ///< voxel centres, metres
   std::vector<std::uint32_t> first_move;      ///< voxels.size() + 1 entries into `moves`
   std::vector<DiagramMove> moves;
 
   std::size_t size() const { return voxels.size(); }
   std::span<const DiagramMove> moves_of(DiagramNumber v) const {
     return std::span(moves).subspan(first_move[v], first_move[v + 1] - first_move[v]);
+  }
+  /// Centre of a voxel, metres.
+  Point position(DiagramNumber v) const {
+    return centre_of(layout->index_of(voxels[v]), voxel_size);
   }
   /// Number of a diagram voxel; kNowhere for any other.
   DiagramNumber find(VoxelId id) const;

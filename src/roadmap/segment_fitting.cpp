@@ -21,12 +21,12 @@ struct Farthest {
 /// Interior voxel of curve[first..last] that is farthest from the straight line between its ends.
 Farthest farthest_from_line(const DiagramCurves& curves, const Curve& curve, std::size_t first,
                             std::size_t last) {
-  const Point a = curves.position[curve[first]];
-  const Point along = curves.position[curve[last]] - a;
+  const Point a = curves.position(curve[first]);
+  const Point along = curves.position(curve[last]) - a;
   const double squared = along.squaredNorm();
   Farthest farthest{(first + last) / 2, 0.0};
   for (std::size_t i = first + 1; i < last; ++i) {
-    const Point off = curves.position[curve[i]] - a;
+    const Point off = curves.position(curve[i]) - a;
     const double t = squared > 0.0 ? std::clamp(off.dot(along) / squared, 0.0, 1.0) : 0.0;
     const double distance = (off - t * along).norm();
     if (distance > farthest.distance) farthest = {i, distance};
@@ -57,7 +57,7 @@ void fit_segments(const EsdfMap& esdf, const DiagramCurves& curves, const Curve&
                             width.begin() + static_cast<std::ptrdiff_t>(last));
       const double clearance = narrowest.metres(esdf.voxel_size);
       const double wanted = std::max(config.min_clearance, std::min(clearance, config.widest_kept));
-      if (space.is_free(curves.position[curve[first]], curves.position[curve[last]], wanted)) {
+      if (space.is_free(curves.position(curve[first]), curves.position(curve[last]), wanted)) {
         segments.push_back({curve[first], curve[last]});
         continue;
       }

@@ -52,9 +52,15 @@ bool VertexMerging::run() {
 /// Those of which one is fresh, the shortest first.
 std::vector<NeighbourPair> VertexMerging::pairs_to_ask(const std::vector<char>& fresh) const {
   std::vector<NeighbourPair> pairs;
-  for (Number v = 0; v < graph_.size(); ++v)
-    for (const auto& [w, link] : graph_.links_of(v))
-      if (fresh[v] || fresh[w]) pairs.push_back({graph_.length(v, w), v, w});
+  const auto for_each_fresh = [&](const auto& body) {
+    for (Number v = 0; v < graph_.size(); ++v)
+      for (const auto& [w, link] : graph_.links_of(v))
+        if (fresh[v] || fresh[w]) body(v, w);
+  };
+  std::size_t count = 0;  // growing would take twice the memory, where there is most
+  for_each_fresh([&](Number, Number) { ++count; });
+  pairs.reserve(count);
+  for_each_fresh([&](Number v, Number w) { pairs.push_back({graph_.length(v, w), v, w}); });
   parallel_sort(pairs.begin(), pairs.end());
   return pairs;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -70,11 +71,14 @@ BasinNumbers::InBlock basins_in_block(const VoxelMask& traversable, std::uint32_
     if (same == found.basins.end()) found.basins.push_back(basin);
   });
   if (found.basins.size() < 2) return found;
-  constexpr std::size_t kPlaces = kBlockVoxels;
-  const std::size_t bytes = found.basins.size() > 256 ? 2 : 1;  // of a place
-  found.place.resize(bytes * kPlaces);
-  for (std::size_t i = 0; i < bytes * kPlaces; ++i)
-    found.place[i] = static_cast<std::uint8_t>(place_of_end[end[i % kPlaces]] >> 8 * (i / kPlaces));
+  const unsigned bits =
+      std::bit_ceil(static_cast<unsigned>(std::bit_width(found.basins.size() - 1)));
+  found.place.assign(kBlockVoxels * bits / 8, 0);
+  for (std::size_t i = 0; i < kBlockVoxels; ++i) {
+    const unsigned place = static_cast<unsigned>(place_of_end[end[i]]) << i * bits % 8;
+    found.place[i * bits / 8] |= static_cast<std::uint8_t>(place);
+    if (bits == 16) found.place[i * 2 + 1] = static_cast<std::uint8_t>(place >> 8);
+  }
   return found;
 }
 

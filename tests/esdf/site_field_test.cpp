@@ -87,7 +87,8 @@ TEST_P(SitesAlong, AxisAreExactInTheFormThatTheyAreIn) {
 }
 
 TEST_P(SitesAlong, AxisAreExactAsFarAsIsAskedFor) {
-  const VoxelIndex last{GetParam() == 0 ? 39 : 0, GetParam() == 1 ? 39 : 0, GetParam() == 2 ? 39 : 0};
+  const VoxelIndex last{GetParam() == 0 ? 39 : 0, GetParam() == 1 ? 39 : 0,
+                        GetParam() == 2 ? 39 : 0};
   const BlockLayout layout(testing::blocks_of_box({0, 0, 0}, {last.x, last.y, last.z}));
   VoxelMask obstacle(layout);
   obstacle.set(layout.find({3, 2, 1}));

@@ -63,7 +63,7 @@ void expect_to_be_what_every_voxel_sees(const EsdfMap& esdf, const VoxelMask& tr
 
 /// Every voxel a peak: far more basins than any map's block has.
 TEST(Watershed, NumbersAsManyBasinsAsABlockHasVoxels) {
-  for (const VoxelId count : {1u, 2u, 256u, 257u, 512u}) {
+  for (const VoxelId count : {1u, 2u, 3u, 4u, 5u, 16u, 17u, 256u, 257u, 512u}) {
     const BlockLayout layout({{0, 0, 0}});
     VoxelMask traversable(layout);
     for (VoxelId id = 0; id < count; ++id) traversable.set(id);

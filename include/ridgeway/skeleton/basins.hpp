@@ -42,15 +42,15 @@ struct BasinNumbers {
   /// The basins of a block in which several meet.
   struct InBlock {
     std::vector<std::uint32_t> basins;  ///< that meet in the block
-    /// Among those, by voxel: a byte for each, and behind them all, if there are more than 256
-    /// basins, the higher byte for each.
+    /// Which of those, by voxel: each in 1, 2, 4, 8 or 16 bits, as many as are needed, the lower
+    /// ones first.
     std::vector<std::uint8_t> place;
 
     /// The number of the basin at a place in the block.
     std::uint32_t at(VoxelId voxel) const {
-      constexpr std::size_t kPlaces = kBlockVoxels;
-      const std::uint32_t high = place.size() > kPlaces ? place[kPlaces + voxel] : 0;
-      return basins[place[voxel] | high << 8];
+      const std::size_t bits = place.size() * 8 / kBlockVoxels, first = voxel * bits;
+      if (bits == 16) return basins[place[first / 8] | place[first / 8 + 1] << 8];
+      return basins[place[first / 8] >> first % 8 & ((1u << bits) - 1)];
     }
 
     friend bool operator==(const InBlock&, const InBlock&) = default;  ///< Equal in every field.
