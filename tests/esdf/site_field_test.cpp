@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 // Offsets to sites are the same in either form, and the smaller one is taken where it does.
-#include "ridgeway/esdf/site_field.hpp"
-
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "esdf/distance_sweeps.hpp"
 #include "esdf/plain_distances.hpp"
+#include "ridgeway/esdf/esdf.hpp"
 #include "support/random_changes.hpp"
 
 namespace ridgeway {

@@ -10,7 +10,6 @@
 #include <span>
 #include <vector>
 
-#include "ridgeway/esdf/site_field.hpp"
 #include "ridgeway/mapping/occupancy_map.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
 
@@ -38,6 +37,44 @@ constexpr bool is_open(VoxelState state, UnknownPolicy unknown) {
 
 /// Throws InputError where a policy is no enumerator.
 void validate_policy(UnknownPolicy policy);
+
+/// Offset from a voxel to its nearest site, voxels.
+struct SiteOffset {
+  std::int16_t x = 0;  ///< along x
+  std::int16_t y = 0;  ///< along y
+  std::int16_t z = 0;  ///< along z
+  /// Equal in every field.
+  friend constexpr bool operator==(const SiteOffset&, const SiteOffset&) = default;
+};
+
+/// The longest part of an offset that is kept in a byte an axis, voxels.
+inline constexpr int kFarthestNear = 127;
+
+/// The same in half the memory, where no part of it is longer than kFarthestNear.
+struct NearSiteOffset {
+  std::int8_t x = 0;  ///< along x
+  std::int8_t y = 0;  ///< along y
+  std::int8_t z = 0;  ///< along z
+
+  /// Whether an offset can be one.
+  static constexpr bool can_be(const SiteOffset& o) {
+    const auto fits = [](int k) { return -kFarthestNear <= k && k <= kFarthestNear; };
+    return fits(o.x) && fits(o.y) && fits(o.z);
+  }
+  /// Of one that can.
+  static constexpr NearSiteOffset of(const SiteOffset& o) {
+    return {static_cast<std::int8_t>(o.x), static_cast<std::int8_t>(o.y),
+            static_cast<std::int8_t>(o.z)};
+  }
+  /// As any offset.
+  // NOLINTNEXTLINE(google-explicit-constructor): the same value
+  constexpr operator SiteOffset() const { return {x, y, z}; }
+  /// Equal in every field.
+  friend constexpr bool operator==(const NearSiteOffset&, const NearSiteOffset&) = default;
+};
+
+/// From each voxel to its nearest site.
+using SiteField = OffsetField<NearSiteOffset, SiteOffset>;
 
 /// A squared distance as the field has it, in squared half voxels: 4 d^2 / s^2, which is a whole
 /// number from a voxel's centre to a closed cube. Larger is farther; numbers of other units neither

@@ -11,6 +11,7 @@
 #include <new>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "ridgeway/common/parallel.hpp"
@@ -199,6 +200,84 @@ class VoxelField {
   detail::SharedPages<std::shared_ptr<void>> owners_;  // of those that have
   std::vector<Value*> blocks_;                         // by slot
   std::uint64_t stamp_ = 0;                            // of the layout
+};
+
+/// For each voxel of a layout an offset, in one of two forms: near ones, which take half the
+/// memory, or any. What it holds is the same in either. As VoxelField in all else.
+template <typename NearOffset, typename AnyOffset>
+class OffsetField {
+ public:
+  using Near = VoxelField<NearOffset>;  ///< the one form
+  using Any = VoxelField<AnyOffset>;    ///< the other
+
+  OffsetField() = default;  ///< Without voxels, for any offsets.
+  /// Of values that stand.
+  explicit OffsetField(Near near) : field_(std::move(near)) {}
+  /// Of values that stand.
+  explicit OffsetField(Any any) : field_(std::move(any)) {}
+
+  /// Of a voxel, by its handle in the layout.
+  AnyOffset operator[](VoxelId id) const {
+    if (const Near* near = std::get_if<Near>(&field_)) return (*near)[id];
+    return (*std::get_if<Any>(&field_))[id];
+  }
+  /// Sets that of a voxel. The first that is not near turns a field of near ones into one of any:
+  /// for one thread alone where that may be.
+  void set(VoxelId id, const AnyOffset& offset) {
+    if (Near* near = std::get_if<Near>(&field_)) {
+      if (NearOffset::can_be(offset)) {
+        (*near)[id] = NearOffset::of(offset);
+        return;
+      }
+      field_ = near->template as<AnyOffset>();
+    }
+    (*std::get_if<Any>(&field_))[id] = offset;
+  }
+
+  /// Calls body(field) with the VoxelField itself, for loops over many voxels.
+  template <typename Body>
+  decltype(auto) visit(const Body& body) const {
+    return std::visit(body, field_);
+  }
+
+  bool has_near_only() const { return std::holds_alternative<Near>(field_); }  ///< its form
+  /// Voxels that have a value.
+  std::size_t size() const {
+    return visit([](const auto& field) { return field.size(); });
+  }
+  /// See VoxelField.
+  bool is_of(const BlockLayout& layout) const {
+    return visit([&](const auto& field) { return field.is_of(layout); });
+  }
+  /// See VoxelField.
+  OffsetField shared() const {
+    return visit([](const auto& field) { return OffsetField(field.shared()); });
+  }
+  /// See VoxelField.
+  void own_block(std::uint32_t slot) {
+    std::visit([&](auto& field) { field.own_block(slot); }, field_);
+  }
+  /// See VoxelField; `initial` can be a near one.
+  void grow(const BlockLayout& layout, const AnyOffset& initial = {}) {
+    if (Near* near = std::get_if<Near>(&field_))
+      near->grow(layout, NearOffset::of(initial));
+    else
+      std::get_if<Any>(&field_)->grow(layout, initial);
+  }
+  /// All of them, by handle: a copy.
+  std::vector<AnyOffset> values() const {
+    return visit([](const auto& field) {
+      const auto values = field.values();
+      return std::vector<AnyOffset>(values.begin(), values.end());
+    });
+  }
+  /// Counts what is shared too.
+  std::size_t memory_bytes() const {
+    return visit([](const auto& field) { return field.memory_bytes(); });
+  }
+
+ private:
+  std::variant<Any, Near> field_;
 };
 
 }  // namespace ridgeway
