@@ -40,7 +40,7 @@ std::vector<Point> random_path(const EsdfMap& esdf, std::mt19937& random) {
   while (path.size() < points) {
     const auto id = static_cast<VoxelId>(random() % esdf.layout.voxel_count());
     if (esdf.state[id] == VoxelState::kFree)
-      path.push_back(
+      path.emplace_back(
           centre_of(esdf.layout.index_of(id), esdf.voxel_size) +
           Point::Constant(0.2 * esdf.voxel_size * (static_cast<double>(random() % 5) - 2.0)));
   }

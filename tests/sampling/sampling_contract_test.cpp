@@ -87,7 +87,7 @@ TEST(Sampling, TimeLimitEndsARoundOfManySmallMotions) {
 
 TEST(Sampling, RefusesBadConfigurations) {
   const EsdfMap esdf = compute_esdf(two_rooms(false), {.max_distance = 1.0});
-  const auto expect_refused = [&](SamplingConfig config, const std::string& where) {
+  const auto expect_refused = [&](const SamplingConfig& config, const std::string& where) {
     try {
       plan_by_sampling(esdf, kLeft, kRight, config);
       ADD_FAILURE() << where << " was accepted";
