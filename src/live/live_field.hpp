@@ -118,6 +118,9 @@ void apply_changes(LiveField& field, std::span<const VoxelChange> changes);
 /// Neither obstacles nor distances follow: a new field is to be made of map_of().
 void undo_changes(LiveField& field) noexcept;
 
+/// Gives up the distances, to make room: what is left is of no use, but for its map.
+void drop_distances(LiveField& field);
+
 /// Brings the distances up to date after `esdf.obstacle` has changed where `flipped` says. Same
 /// bytes as compute_esdf of the whole map, by induction over its three sweeps: a run between
 /// obstacles is swept again only where it holds a voxel that the sweep before has changed.

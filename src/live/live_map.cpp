@@ -134,6 +134,13 @@ void undo_changes(LiveField& field) noexcept {
   field.before.clear();
 }
 
+void drop_distances(LiveField& field) {
+  field.in_line = {};
+  field.in_plane = {};
+  field.esdf.squared = {};
+  field.esdf.site = {};
+}
+
 OccupancyMap map_of(const LiveField& field) {
   OccupancyMap map;
   map.voxel_size = field.esdf.voxel_size;

@@ -90,7 +90,11 @@ void LiveRoadmap::State::bring_up_to_date(std::span<const VoxelChange> changes,
     next = built_on(*other, lap, report);
   } else {
     update_distances(field);
-    if (field.is_outgrown) other = remade();
+    if (field.is_outgrown) {
+      report.in_batch = true;
+      drop_distances(field);
+      other = remade();
+    }
     next = built_on(other ? *other : *now, lap, report);
   }
   const std::lock_guard lock(mutex);
@@ -117,15 +121,18 @@ LiveRoadmap::State::Live LiveRoadmap::State::nothing(const VoxelIndex& origin,
 
 /// The same map in fields of their own, to which it is one change.
 LiveRoadmap::State::Live LiveRoadmap::State::remade() const {
-  const std::vector<VoxelChange> changes = all_of(map_of(now->field));
   const auto with_distances = [&](bool near_only) {
     Live made = nothing(now->field.esdf.origin, near_only);
-    apply_changes(made.field, changes);
+    apply_changes(made.field, all_of(map_of(now->field)));
     update_distances(made.field);
     return made;
   };
-  Live other = with_distances(!now->field.is_outgrown && now->field.esdf.site.has_near_only());
-  if (other.field.is_outgrown) other = with_distances(false);
+  const bool near_only = !now->field.is_outgrown && now->field.esdf.site.has_near_only();
+  Live other = with_distances(near_only);
+  if (other.field.is_outgrown) {
+    other = nothing(now->field.esdf.origin, false);  // makes room
+    other = with_distances(false);
+  }
   update_traversable(other.ridges, other.field);
   update_edges(other.ridges, other.field);
   update_basins(other.basins, other.memory->basin, other.field, other.ridges);

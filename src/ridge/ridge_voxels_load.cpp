@@ -7,6 +7,7 @@
 #include <atomic>
 #include <bit>
 #include <cstring>
+#include <type_traits>
 
 #include "mapping/memory_limit.hpp"
 #include "ridge_sections.hpp"
@@ -100,11 +101,11 @@ bool decode_distances(const SitePlanes& sites, const BlockPlane& live, EsdfMap& 
 /// The sites themselves; false where one is too far for a field of such offsets.
 template <typename Offset>
 bool store_sites(const SitePlanes& sites, Offset* field) {
-  using Part = decltype(Offset::x);
+  constexpr int farthest = std::is_same_v<Offset, NearSiteOffset> ? kFarthestNear : kFarthestSite;
   int lost = 0;
   const auto part = [&](int k) {
-    lost |= k ^ static_cast<Part>(k);
-    return static_cast<Part>(k);
+    lost |= static_cast<int>((k > farthest) | (k < -farthest));
+    return static_cast<decltype(Offset::x)>(k);
   };
   for (std::size_t i = 0; i < kBlockVoxels; ++i)
     field[i] = {part(sites.x[i]), part(sites.y[i]), part(sites.z[i])};
@@ -167,6 +168,9 @@ template <typename Offset>
 void allocate_fields(Roadmap& roadmap, VoxelField<Offset>& site) {
   EsdfMap& esdf = roadmap.esdf;
   const BlockLayout& layout = esdf.layout;
+  esdf.squared = {};  // those of an attempt before make room
+  esdf.state = {};
+  roadmap.attach.next = {};
   tbb::parallel_invoke(
       [&] {
         esdf.squared = VoxelField<std::uint32_t>(layout, 0, Pages::kLarge);
@@ -221,7 +225,7 @@ bool load_with(const RidgeReader& reader, const VoxelSections& from, std::uint32
     if (!load_esdf_blocks(reader, range, worker, roadmap.esdf, sites)) is_too_far = true;
     load_chunk_of_diagram(reader, from, chunk, range, worker, roadmap);
   });
-  roadmap.esdf.site = SiteField(std::move(sites));
+  if (!is_too_far) roadmap.esdf.site = SiteField(std::move(sites));
   return !is_too_far;
 }
 

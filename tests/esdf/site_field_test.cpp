@@ -35,6 +35,18 @@ TEST(SiteField, HoldsAnyOffsetOnceThereIsOneThatIsNotNear) {
   }
 }
 
+TEST(SiteField, OwnsBlocksInTheOtherFormToo) {
+  const BlockLayout layout(testing::blocks_of_box({0, 0, 0}, {1, 0, 0}));
+  SiteField field(SiteField::Near{});
+  field.grow(layout);
+  field.set(3, {kFarthestNear + 1, 0, 0});
+  const SiteField before = field.shared();
+  field.own_block(0);
+  field.set(3, {1, 2, 3});
+  EXPECT_EQ(before[3], (SiteOffset{kFarthestNear + 1, 0, 0}));
+  EXPECT_EQ(field[3], (SiteOffset{1, 2, 3}));
+}
+
 TEST(SiteField, TakesHalfTheMemoryForNearOnes) {
   const BlockLayout layout(testing::blocks_of_box({0, 0, 0}, {9, 9, 9}));
   const SiteField near(SiteField::Near(layout, {})), any(SiteField::Any(layout, {}));

@@ -151,7 +151,8 @@ TEST(LiveRoadmap, ThatGrowsWiderThanNearSitesGoHasTheBytesOfABatchBuild) {
   live.set_voxels(changes);
   EXPECT_TRUE(live.snapshot()->esdf.site.has_near_only());
   for (const auto state : {VoxelState::kFree, VoxelState::kOccupied}) {
-    live.set_voxels(std::vector<VoxelChange>{{{0, 0, 0}, state}});
+    const UpdateReport report = live.set_voxels(std::vector<VoxelChange>{{{0, 0, 0}, state}});
+    EXPECT_EQ(report.in_batch, state == VoxelState::kFree);
     EXPECT_FALSE(live.snapshot()->esdf.site.has_near_only());
     EXPECT_TRUE(bytes_of(live.snapshot().get()) == batch_bytes(live.map(), build));
   }

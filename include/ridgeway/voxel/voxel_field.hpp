@@ -161,6 +161,7 @@ class VoxelField {
     VoxelField<Other> field;
     field.stamp_ = stamp_;
     field.take_memory(blocks_.size(), Pages::kUsual);
+    field.owners_.grow(owners_.size());
     for (std::size_t slot = 0; slot < blocks_.size(); ++slot)
       std::copy_n(blocks_[slot], kBlockVoxels, field.blocks_[slot]);
     return field;
@@ -203,7 +204,7 @@ class VoxelField {
 };
 
 /// For each voxel of a layout an offset, in one of two forms: near ones, which take half the
-/// memory, or any. What it holds is the same in either. As VoxelField in all else.
+/// memory, or any. What it holds is the same in either. Else it does what a VoxelField does.
 template <typename NearOffset, typename AnyOffset>
 class OffsetField {
  public:
