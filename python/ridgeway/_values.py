@@ -27,7 +27,7 @@ class Grid(NamedTuple):
     """Values of a full box of voxels, in the order that `OccupancyMap.from_numpy` takes them."""
 
     values: np.ndarray
-    """(nx, ny, nz), a copy."""
+    """(nx, ny, nz), or (nx, ny) of a planar map; a copy."""
     voxel_size: float
     """Metres."""
     origin: Tuple[float, float, float]

@@ -220,7 +220,8 @@ void add_maps(py::module_& module) {
       py::arg("occupied_above") = 0.5,
       "from_numpy(states, voxel_size, origin=(0.0, 0.0, 0.0), free_below=0.5, "
       "occupied_above=0.5)\n--\n\n"
-      "The map of an (nx, ny, nz) array [x, y, z], in any memory order.\n\n"
+      "The map of an (nx, ny, nz) array [x, y, z], in any memory order. An (nx, ny) array "
+      "gives a planar map,\nof a robot that stays in that layer.\n\n"
       "  states: bool (True: occupied, False: free); whole numbers (UNKNOWN, FREE, "
       "OCCUPIED); or\n"
       "    floats, the probability of being occupied: free below `free_below`, "

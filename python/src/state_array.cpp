@@ -10,19 +10,22 @@
 #include "mapping/state_grid.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "ridgeway/mapping/map_edits.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
 
 namespace ridgeway::python {
 namespace {
 
 constexpr const char* kExpected =
-    "an (nx, ny, nz) array of bool (True: occupied), of whole numbers (0 unknown, 1 free, 2 "
-    "occupied) or of floats (probability of being occupied)";
+    "an (nx, ny, nz) array, or one of (nx, ny) for a robot that stays in a plane, of bool (True: "
+    "occupied), of whole numbers (0 unknown, 1 free, 2 occupied) or of floats (probability of "
+    "being occupied)";
 
 /// Where an array lies, for threads that know nothing of Python.
 struct Layout {
   const char* data;
   std::array<std::ptrdiff_t, 3> shape, strides;  // strides in bytes
+  bool is_plane;                                 // the array has no third axis
 
   template <typename Value>
   Value at(std::ptrdiff_t x, std::ptrdiff_t y, std::ptrdiff_t z) const {
@@ -84,9 +87,9 @@ void require_valid(const Layout& layout, const States& states) {
   if (first == bad.end()) return;
   const std::ptrdiff_t x = first - bad.begin(), y = *first / layout.shape[2],
                        z = *first % layout.shape[2];
-  throw InputError(
-      "states[" + std::to_string(x) + ", " + std::to_string(y) + ", " + std::to_string(z) + "]",
-      "is " + number_text(layout.at<Value>(x, y, z)), States::kRemedy);
+  throw InputError("states[" + std::to_string(x) + ", " + std::to_string(y) +
+                       (layout.is_plane ? "" : ", " + std::to_string(z)) + "]",
+                   "is " + number_text(layout.at<Value>(x, y, z)), States::kRemedy);
 }
 
 template <typename Value, typename States>
@@ -104,7 +107,11 @@ OccupancyMap read_map(const Layout& layout, const VoxelIndex& low, double voxel_
           block[x + 8 * y + 64 * z] =
               states(layout.at<Value>(first.x + x, first.y + y, first.z + z));
   };
-  return map_from_grid(grid, voxel_size, "states");
+  OccupancyMap map = map_from_grid(grid, voxel_size, "states");
+  if (!layout.is_plane) return map;
+  if (known_range(map).empty())
+    throw InputError("states", "has no voxel that is known", "give those that are free at least");
+  return flatten(map, low.z * voxel_size, (low.z + 1) * voxel_size);
 }
 
 /// The lattice's voxel whose low corner the origin is.
@@ -136,19 +143,19 @@ py::array array_from(py::handle states) {
                          describe(states));
   require_no_mask(states, "states");
   const auto array = py::reinterpret_borrow<py::array>(states);
-  if (array.ndim() != 3)
+  if (array.ndim() != 3 && array.ndim() != 2)
     throw InputError("states", "is " + describe(states), std::string("give ") + kExpected);
   if (!array.dtype().attr("isnative").cast<bool>())
     throw py::type_error(
         "states: is in another byte order than this machine's (use "
         "states.astype(states.dtype.newbyteorder('=')))");
-  for (int axis = 0; axis < 3; ++axis)
+  for (int axis = 0; axis < array.ndim(); ++axis)
     if (array.shape(axis) > kMaxVoxelIndex)
       throw InputError("states", "is " + describe(states), "give 1e9 voxels at most along an axis");
   // Every voxel is looked at: more would take hours, as a view that repeats a value may have them.
   constexpr double kMostVoxels = 1e11;
   double voxels = 1.0;
-  for (int axis = 0; axis < 3; ++axis) voxels *= static_cast<double>(array.shape(axis));
+  for (int axis = 0; axis < array.ndim(); ++axis) voxels *= static_cast<double>(array.shape(axis));
   if (voxels > kMostVoxels)
     throw InputError("states", "is " + describe(states),
                      "give 1e11 voxels at most: cut it down to what is known");
@@ -170,10 +177,10 @@ OccupancyMap map_of_array(py::handle states, double voxel_size, const Point& ori
   const py::array array = array_from(states);
   validate_voxel_size(voxel_size, "voxel_size");
   const VoxelIndex low = voxel_at_corner(origin, voxel_size);
-  Layout layout{static_cast<const char*>(array.data()), {}, {}};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    layout.shape[axis] = array.shape(static_cast<py::ssize_t>(axis));
-    layout.strides[axis] = array.strides(static_cast<py::ssize_t>(axis));
+  Layout layout{static_cast<const char*>(array.data()), {1, 1, 1}, {}, array.ndim() == 2};
+  for (py::ssize_t axis = 0; axis < array.ndim(); ++axis) {
+    layout.shape[static_cast<std::size_t>(axis)] = array.shape(axis);
+    layout.strides[static_cast<std::size_t>(axis)] = array.strides(axis);
   }
   const char kind = array.dtype().kind();
   const py::ssize_t size = array.itemsize();

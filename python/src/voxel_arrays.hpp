@@ -7,6 +7,7 @@
 #include "convert.hpp"
 #include "mapping/memory_limit.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "ridgeway/esdf/esdf.hpp"
 
 namespace ridgeway::python {
 
@@ -96,9 +97,11 @@ inline VoxelRange dense_range(py::handle bounds, const VoxelRange& known, double
 }
 
 /// The values of a range of the lattice's voxels as a Grid: value(id) of each, id kNoVoxel where
-/// none is allocated. Refused where memory would not do.
+/// none is allocated. Of a planar map those of the robot's layer, whatever the heights. Refused
+/// where memory would not do.
 template <typename Value, typename Map, typename Get>
-py::object dense(const Map& map, const VoxelRange& range, const Get& value) {
+py::object dense(const Map& map, VoxelRange range, const Get& value) {
+  if (map.planar && !range.empty()) range.min.z = range.max.z = map.origin.z + kPlanarLayer;
   const auto count = [](int first, int last) { return static_cast<py::ssize_t>(last) - first + 1; };
   std::array<py::ssize_t, 3> shape{};
   if (!range.empty())
@@ -121,8 +124,9 @@ py::object dense(const Map& map, const VoxelRange& range, const Get& value) {
     });
   }
   const Point corner = Point(range.min.x, range.min.y, range.min.z) * map.voxel_size;
+  const py::object as_asked = map.planar ? values.reshape({shape[0], shape[1]}) : values;
   return py::module_::import("ridgeway._values")
-      .attr("Grid")(values, map.voxel_size, tuple_of(corner));
+      .attr("Grid")(as_asked, map.voxel_size, tuple_of(corner));
 }
 
 }  // namespace ridgeway::python

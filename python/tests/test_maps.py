@@ -35,6 +35,31 @@ def test_states_come_back_as_they_went_in(seed):
     assert np.array_equal(again.values, grid.values) and again.origin == grid.origin
 
 
+def test_an_array_of_two_axes_is_a_planar_map_and_comes_back_as_one():
+    states = random_states(9)[:, :, 0]
+    grid = OccupancyMap.from_numpy(states, 0.25, (-1.0, 0.5, 2.25))
+    assert grid.planar
+    dense = grid.to_numpy()
+    expected, low = trimmed(states)
+    assert np.array_equal(dense.values, expected)
+    assert np.allclose(dense.origin, (-1.0 + 0.25 * low[0], 0.5 + 0.25 * low[1], 2.25), atol=1e-12)
+    again = OccupancyMap.from_numpy(*dense)
+    assert again.planar and again.to_numpy().origin == dense.origin
+    assert np.array_equal(again.to_numpy().values, dense.values)
+    part = grid.to_numpy(((0.0, 1.0, -9.0), (2.0, 3.5, 99.0))).values  # whatever the heights
+    assert np.array_equal(part, states[4:12, 2:12])
+    assert np.array_equal(OccupancyMap.from_numpy(states.T[::-1], 0.25).to_numpy().values, trimmed(states.T[::-1])[0])
+    bad = states.astype(int)
+    bad[3, 4] = 7
+    with pytest.raises(ValueError, match=r"states\[3, 4\]: is 7"):
+        OccupancyMap.from_numpy(bad, 0.25)
+    with pytest.raises(ValueError, match="states: has no voxel that is known"):
+        OccupancyMap.from_numpy(np.zeros((4, 5), np.uint8), 0.25)
+    for shape in ((4,), (0, 5), (2, 3, 4, 5)):
+        with pytest.raises(ValueError, match="states: "):
+            OccupancyMap.from_numpy(np.ones(shape, np.uint8), 0.25)
+
+
 def reordered(states):
     """The same array in every way that memory can hold it."""
     odd = np.zeros(states.size + 1, np.uint8)[1:].reshape(states.shape)

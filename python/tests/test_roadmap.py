@@ -94,6 +94,19 @@ def test_distances_are_those_of_brute_force(rooms):
     assert esdf.block_sites.shape == blocks.shape + (3,)
 
 
+def test_routes_of_a_plan_from_above_stay_in_its_plane():
+    plan = np.full((60, 40), ridgeway.FREE)
+    plan[[0, -1]] = plan[:, [0, -1]] = plan[30, 10:] = ridgeway.OCCUPIED
+    roadmap = ridgeway.build(ridgeway.OccupancyMap.from_numpy(plan, 0.1, (0, 0, 1.0)), min_clearance=0.3)
+    distances = roadmap.esdf.distances().values
+    solid = np.argwhere(plan == ridgeway.OCCUPIED)
+    gaps = np.maximum(np.abs(np.argwhere(plan == ridgeway.FREE)[:, None] - solid) - 0.5, 0.0)
+    assert np.allclose(distances[plan == ridgeway.FREE], 0.1 * np.sqrt((gaps**2).sum(2).min(1)), rtol=1e-6)
+    path = roadmap.plan((1.0, 3.0, 0.0), (5.0, 3.0, 9.0))
+    assert path and 6.0 < path.length < 7.0 and path.clearance >= 0.3
+    assert np.allclose(path.waypoints[:, 2], 1.05)
+
+
 def test_free_space_is_asked_point_by_point(roadmap):
     esdf = roadmap.esdf
     points = np.random.default_rng(3).uniform((0, 0, 0), (6.4, 4.4, 2.4), (500, 3))

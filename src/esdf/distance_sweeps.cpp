@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "line_envelope.hpp"
+#include "mapping/memory_limit.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "voxel/mask_sets.hpp"
 
@@ -69,10 +69,6 @@ struct Line {
   }
 };
 
-/// How far the sites go that a field of such offsets holds.
-template <typename Offset>
-constexpr int kFarthest = std::is_same_v<Offset, NearSiteOffset> ? kFarthestNear : kFarthestSite;
-
 /// What the sweeps write.
 template <typename Offset>
 struct SweptFields {
@@ -126,7 +122,7 @@ class FirstSweep {
 
   void write(const Places& along, VoxelId id) const {
     for (const int k : along) {
-      const bool is_near = k >= -kFarthest<Offset> && k <= kFarthest<Offset>;
+      const bool is_near = k >= -Offset::kFarthest && k <= Offset::kFarthest;
       nearest_.squared[id] = is_near ? squared_halves(k) : kNoSite;
       nearest_.offset[id] = {static_cast<decltype(Offset::x)>(is_near ? k : 0), 0, 0};
       ++id;
@@ -203,7 +199,7 @@ class EnvelopeSweep {
       Offset offset = is_inside(winner) ? scratch.offset[w] : Offset{};
       const std::uint32_t across = is_inside(winner) ? scratch.cost[w] : 0;
       line.for_each_voxel(from, to - 1, [&](int i, VoxelId id) {
-        const int along = std::clamp(winner - i, -kFarthest<Offset> - 1, kFarthest<Offset> + 1);
+        const int along = std::clamp(winner - i, -Offset::kFarthest - 1, Offset::kFarthest + 1);
         (axis_ == 1 ? offset.y : offset.z) = static_cast<decltype(Offset::x)>(along);
         nearest_.offset[id] = offset;
         nearest_.squared[id] = across + squared_halves(along);
@@ -219,6 +215,7 @@ class EnvelopeSweep {
 template <typename Offset>
 NearestSites sweep(const BlockLayout& layout, const VoxelMask& obstacle, bool solid_outside,
                    int axes) {
+  require_memory_for_blocks(layout.block_count(), sizeof(std::uint32_t) + sizeof(Offset), "map");
   SweptFields<Offset> nearest{VoxelField<std::uint32_t>::unset(layout, Pages::kLarge),
                               VoxelField<Offset>::unset(layout)};
   const FirstSweep first(obstacle, solid_outside, nearest);
@@ -244,7 +241,7 @@ void bound_along(const BlockRow& row, bool solid_outside, std::vector<std::uint3
       const std::uint32_t across = before[static_cast<std::size_t>(from)];
       if (across != kNoSite) least = std::min(least, across + most_along(blocks));
     };
-    for (int k = 0; k < kFarthestNear / kBlockSide + 1 && most_along(k) < least; ++k) {
+    for (int k = 0; k < NearSiteOffset::kFarthest / kBlockSide + 1 && most_along(k) < least; ++k) {
       look(i - k, k);
       look(i + k, k);
     }
@@ -262,7 +259,7 @@ bool are_all_near(const BlockLayout& layout, const VoxelMask& obstacle, bool sol
   for (int axis = 0; axis < axes; ++axis)
     for_each_row(layout, axis,
                  [&](const BlockRow& row) { bound_along(row, solid_outside, bound); });
-  constexpr std::uint32_t kMost = 4u * kFarthestNear * kFarthestNear;
+  constexpr std::uint32_t kMost = 4u * NearSiteOffset::kFarthest * NearSiteOffset::kFarthest;
   return std::all_of(bound.begin(), bound.end(), [](std::uint32_t b) { return b <= kMost; });
 }
 
@@ -272,7 +269,7 @@ NearestSites sweep_distances(const BlockLayout& layout, const VoxelMask& obstacl
                              bool solid_outside, bool planar, double farthest) {
   assert(obstacle.is_of(layout));
   const int axes = planar ? 2 : 3;
-  if (farthest <= kFarthestNear || are_all_near(layout, obstacle, solid_outside, axes))
+  if (farthest <= NearSiteOffset::kFarthest || are_all_near(layout, obstacle, solid_outside, axes))
     return sweep<NearSiteOffset>(layout, obstacle, solid_outside, axes);
   return sweep<SiteOffset>(layout, obstacle, solid_outside, axes);
 }

@@ -20,7 +20,7 @@ namespace {
 
 using detail::NearestSites;
 
-constexpr int kSweepBytesPerVoxel = 11;  // of blocks that sweeps pass through, with the layout
+constexpr int kSweepBytesPerVoxel = 8;  // of blocks that sweeps pass through, with the layout
 
 VoxelMask find_obstacles(const BlockLayout& layout, const VoxelField<VoxelState>& state,
                          UnknownPolicy unknown) {
@@ -72,10 +72,11 @@ NearestSites sweep_through_unknown(const EsdfMap& map, double farthest) {
     obstacle.block(domain.find_block(map.layout.block(slot))) = map.obstacle.block(slot);
   NearestSites nearest = detail::sweep_distances(domain, obstacle, false, map.planar, farthest);
   if (domain == map.layout) return nearest;
-  return {move_to_layout(domain, nearest.squared, map.layout, kNoSite, Pages::kLarge),
-          nearest.offset.visit([&](const auto& offset) {
-            return SiteField(move_to_layout(domain, offset, map.layout, {}));
-          })};
+  nearest.squared = move_to_layout(domain, nearest.squared, map.layout, kNoSite, Pages::kLarge);
+  nearest.offset = nearest.offset.visit([&](const auto& offset) {
+    return SiteField(move_to_layout(domain, offset, map.layout, {}));
+  });
+  return nearest;
 }
 
 /// Adds all blocks of the box around those in which something is known.

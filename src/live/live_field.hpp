@@ -27,11 +27,11 @@ struct PlaneOffset {
 
 /// The same of obstacles that are near.
 struct NearLineOffset {
-  static constexpr std::int8_t kNoNearWay = -kFarthestNear - 1;
+  static constexpr std::int8_t kNoNearWay = -NearSiteOffset::kFarthest - 1;
   std::int8_t x = 0;
 
   static constexpr bool can_be(LineOffset o) {
-    return o == kNoWay || (-kFarthestNear <= o && o <= kFarthestNear);
+    return o == kNoWay || (-NearSiteOffset::kFarthest <= o && o <= NearSiteOffset::kFarthest);
   }
   static constexpr NearLineOffset of(LineOffset o) {
     return {o == kNoWay ? kNoNearWay : static_cast<std::int8_t>(o)};
@@ -91,7 +91,7 @@ struct LiveField {
   /// How far sites count, voxels.
   double farthest() const {
     const double asked = esdf.max_distance / esdf.voxel_size;
-    return esdf.site.has_near_only() ? std::min(asked, double{kFarthestNear}) : asked;
+    return esdf.site.has_near_only() ? std::min(asked, double{NearSiteOffset::kFarthest}) : asked;
   }
   bool solid_outside() const { return esdf.unknown == UnknownPolicy::kObstacle; }
 };

@@ -11,7 +11,7 @@ namespace ridgeway {
 
 /// What an allocated voxel costs at the peak (kPipelineBytesPerVoxel in the whole pipeline): in the
 /// distance field alone, and in a map that is only read to be coarsened or cut down.
-inline constexpr int kEsdfBytesPerVoxel = 12;
+inline constexpr int kEsdfBytesPerVoxel = 9;
 inline constexpr int kMapBytesPerVoxel = 3;
 /// What the kernel takes of a voxel of the thinned edges, beyond that, and the graph of a voxel of
 /// the diagram, bytes: measured on space full of single voxels, where they take the most.

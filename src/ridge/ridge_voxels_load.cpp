@@ -7,7 +7,6 @@
 #include <atomic>
 #include <bit>
 #include <cstring>
-#include <type_traits>
 
 #include "mapping/memory_limit.hpp"
 #include "ridge_sections.hpp"
@@ -101,10 +100,9 @@ bool decode_distances(const SitePlanes& sites, const BlockPlane& live, EsdfMap& 
 /// The sites themselves; false where one is too far for a field of such offsets.
 template <typename Offset>
 bool store_sites(const SitePlanes& sites, Offset* field) {
-  constexpr int farthest = std::is_same_v<Offset, NearSiteOffset> ? kFarthestNear : kFarthestSite;
   int lost = 0;
   const auto part = [&](int k) {
-    lost |= static_cast<int>((k > farthest) | (k < -farthest));
+    lost |= static_cast<int>((k > Offset::kFarthest) | (k < -Offset::kFarthest));
     return static_cast<decltype(Offset::x)>(k);
   };
   for (std::size_t i = 0; i < kBlockVoxels; ++i)
@@ -168,9 +166,6 @@ template <typename Offset>
 void allocate_fields(Roadmap& roadmap, VoxelField<Offset>& site) {
   EsdfMap& esdf = roadmap.esdf;
   const BlockLayout& layout = esdf.layout;
-  esdf.squared = {};  // those of an attempt before make room
-  esdf.state = {};
-  roadmap.attach.next = {};
   tbb::parallel_invoke(
       [&] {
         esdf.squared = VoxelField<std::uint32_t>(layout, 0, Pages::kLarge);
@@ -229,10 +224,10 @@ bool load_with(const RidgeReader& reader, const VoxelSections& from, std::uint32
   return !is_too_far;
 }
 
-}  // namespace
-
-void check_memory(const RidgeReader& reader, const RidgeHeader& header) {
-  constexpr int kBytesPerVoxel = 14;  // the fields, and the layout's share
+/// Throws InputError where memory would not do for all of a file, with sites as such offsets.
+template <typename Offset>
+void require_memory_for(const RidgeReader& reader, const RidgeHeader& header) {
+  constexpr double kBytesPerVoxel = 8 + sizeof(Offset);  // the fields, and the layout's share
   // A list is inflated whole, and what is made of it takes up to three times as much.
   constexpr int kBytesPerListed = 4;
   double listed = 0.0;
@@ -241,6 +236,12 @@ void check_memory(const RidgeReader& reader, const RidgeHeader& header) {
   require_memory(
       static_cast<double>(header.blocks) * kBlockVoxels * kBytesPerVoxel + kBytesPerListed * listed,
       reader.path(), "use a machine with more, or a coarser map");
+}
+
+}  // namespace
+
+void check_memory(const RidgeReader& reader, const RidgeHeader& header) {
+  require_memory_for<NearSiteOffset>(reader, header);
 }
 
 void load_voxels(const RidgeReader& reader, const RidgeHeader& header, Roadmap& roadmap) {
@@ -253,8 +254,12 @@ void load_voxels(const RidgeReader& reader, const RidgeHeader& header, Roadmap& 
       reader.damaged(section->name, "does not fit the number of blocks");
     }
   }
-  if (!load_with<NearSiteOffset>(reader, from, header.blocks, roadmap))
-    load_with<SiteOffset>(reader, from, header.blocks, roadmap);
+  if (load_with<NearSiteOffset>(reader, from, header.blocks, roadmap)) return;
+  roadmap.esdf.squared = {};  // makes room
+  roadmap.esdf.state = {};
+  roadmap.attach.next = {};
+  require_memory_for<SiteOffset>(reader, header);
+  load_with<SiteOffset>(reader, from, header.blocks, roadmap);
 }
 
 }  // namespace ridgeway

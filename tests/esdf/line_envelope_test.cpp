@@ -7,8 +7,8 @@
 #include <random>
 
 #include "esdf/distance_sweeps.hpp"
-#include "esdf/plain_distances.hpp"
 #include "esdf/plain_envelope.hpp"
+#include "support/plain_sites.hpp"
 
 namespace ridgeway {
 namespace {
@@ -102,13 +102,8 @@ TEST(DistanceSweeps, FindTheFirstOfTheNearestObstaclesWhateverBlocksThereAre) {
           obstacles.push_back({x, y, z});
         }
     const detail::NearestSites nearest = detail::sweep_distances(layout, obstacle, true);
-    for (VoxelId id = 0; id < layout.voxel_count(); ++id) {
-      const VoxelIndex v = layout.index_of(id);
-      const detail::PlainNearest plain = detail::plain_nearest(v, obstacles);
-      const SiteOffset o = nearest.offset[id];
-      ASSERT_EQ(nearest.squared[id], plain.squared);
-      ASSERT_EQ(v + (VoxelIndex{o.x, o.y, o.z}), plain.site);
-    }
+    for (VoxelId id = 0; id < layout.voxel_count(); ++id)
+      ASSERT_TRUE(testing::has_plain_site(layout, nearest, id, obstacles));
   }
 }
 

@@ -34,23 +34,38 @@ extern "C" void __tsan_release(void* address);
 namespace ridgeway::detail {
 
 /// Tells the thread sanitizer what it cannot see inside the precompiled oneTBB: tasks run after
-/// their loop has begun and before it ends. Races between tasks stay visible. Nothing otherwise.
+/// their loop has begun and before it ends, by an exception too. Races between tasks stay visible.
+/// Nothing otherwise.
+#ifdef RIDGEWAY_THREAD_SANITIZER
 class ForkJoin {
  public:
-#ifdef RIDGEWAY_THREAD_SANITIZER
   ForkJoin() { __tsan_release(&begin_); }
-  void enter() { __tsan_acquire(&begin_); }
-  void leave() { __tsan_release(&end_); }
-  void join() { __tsan_acquire(&end_); }
+  ~ForkJoin() { __tsan_acquire(&end_); }
+  ForkJoin(const ForkJoin&) = delete;
+  ForkJoin& operator=(const ForkJoin&) = delete;
+
+  /// One task, as long as it runs.
+  class Task {
+   public:
+    explicit Task(ForkJoin& loop) : loop_(loop) { __tsan_acquire(&loop_.begin_); }
+    ~Task() { __tsan_release(&loop_.end_); }
+    Task(const Task&) = delete;
+    Task& operator=(const Task&) = delete;
+
+   private:
+    ForkJoin& loop_;
+  };
 
  private:
   char begin_ = 0, end_ = 0;
-#else
-  void enter() {}
-  void leave() {}
-  void join() {}
-#endif
 };
+#else
+struct ForkJoin {
+  struct Task {
+    explicit Task(ForkJoin&) {}
+  };
+};
+#endif
 
 /// Throws Cancelled where what this is part of was cancelled: its loops end early then, and leave
 /// undone what they were to do.
@@ -71,14 +86,12 @@ namespace ridgeway {
 /// is part of something that was cancelled (with_progress, a task group of the caller's).
 template <typename Body>
 void parallel_for_each_index(std::size_t count, const Body& body, std::size_t grain = 1) {
-  detail::ForkJoin order;
+  detail::ForkJoin loop;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
                     [&](const tbb::blocked_range<std::size_t>& range) {
-                      order.enter();
+                      const detail::ForkJoin::Task task(loop);
                       for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
-                      order.leave();
                     });
-  order.join();
   detail::stop_if_cancelled();
 }
 

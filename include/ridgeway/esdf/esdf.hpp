@@ -38,8 +38,13 @@ constexpr bool is_open(VoxelState state, UnknownPolicy unknown) {
 /// Throws InputError where a policy is no enumerator.
 void validate_policy(UnknownPolicy policy);
 
+/// Longest distance that is ever stored, voxels; farther voxels have no site.
+inline constexpr int kFarthestSite = 16000;
+
 /// Offset from a voxel to its nearest site, voxels.
 struct SiteOffset {
+  static constexpr int kFarthest = kFarthestSite;  ///< the longest part
+
   std::int16_t x = 0;  ///< along x
   std::int16_t y = 0;  ///< along y
   std::int16_t z = 0;  ///< along z
@@ -47,18 +52,17 @@ struct SiteOffset {
   friend constexpr bool operator==(const SiteOffset&, const SiteOffset&) = default;
 };
 
-/// The longest part of an offset that is kept in a byte an axis, voxels.
-inline constexpr int kFarthestNear = 127;
-
-/// The same in half the memory, where no part of it is longer than kFarthestNear.
+/// The same in half the memory, where no part of it is longer than kFarthest.
 struct NearSiteOffset {
+  static constexpr int kFarthest = 127;  ///< the longest part
+
   std::int8_t x = 0;  ///< along x
   std::int8_t y = 0;  ///< along y
   std::int8_t z = 0;  ///< along z
 
   /// Whether an offset can be one.
   static constexpr bool can_be(const SiteOffset& o) {
-    const auto fits = [](int k) { return -kFarthestNear <= k && k <= kFarthestNear; };
+    const auto fits = [](int k) { return -kFarthest <= k && k <= kFarthest; };
     return fits(o.x) && fits(o.y) && fits(o.z);
   }
   /// Of one that can.
@@ -153,8 +157,6 @@ FlightLimits limits_in_world(const EsdfMap& esdf);
 /// Throws InputError where `keep_in` (local) is so flat that it holds the centre of no voxel.
 void require_room(const EsdfMap& esdf, const FlightLimits& limits);
 
-/// Longest distance that is ever stored, voxels; farther voxels have no site.
-inline constexpr int kFarthestSite = 16000;
 /// The layer of a planar map's blocks that robots are in: one with others on both sides.
 inline constexpr int kPlanarLayer = 3;
 /// `squared` of a voxel without a site.

@@ -13,9 +13,10 @@
 
 namespace ridgeway {
 
-/// What an allocated voxel costs at the peak, bytes, from map to roadmap, in any map. Diagram and
-/// graph cost more where space is full of small things; that is reckoned with once it is known.
-inline constexpr int kPipelineBytesPerVoxel = 18;
+/// What an allocated voxel costs at the peak, bytes, from map to roadmap. Sites that are not near
+/// (NearSiteOffset) cost three more, and diagram and graph cost more where space is full of small
+/// things; both are reckoned with once they are known.
+inline constexpr int kPipelineBytesPerVoxel = 15;
 
 /// Makes an OccupancyMap from voxels and boxes of voxels of the lattice that come in any order.
 /// Where they overlap, occupied wins over free, free over unknown, so the order does not matter.
