@@ -13,8 +13,9 @@ namespace ridgeway::cli {
 /// Of drone, camera and planner: what `explore` and `bench explore` share.
 struct ExploreSettings {
   std::string camera = "pinhole", planner = "ridgeway";
-  int width = 160, rows = 32;
-  double vertical_angle = 60.0;  // degrees
+  int width = 160;
+  std::optional<int> rows;               // of a lidar; default: 32
+  std::optional<double> vertical_angle;  // of a lidar, degrees; default: 60
   double sigma = 0.01, max_range = 10.0, max_yaw_rate = 90.0;
   std::optional<Box> bounds;
   ExplorationFlightConfig config;

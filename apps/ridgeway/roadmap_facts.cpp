@@ -37,6 +37,13 @@ std::string shut_text(const BlockedRoute& blocked) {
   return "obstacles enclose one of them";
 }
 
+/// A place in the map's frame; in a planar map at the height of its layer, whatever its own.
+Point in_layer(const EsdfMap& esdf, const Point& point_world) {
+  Point local = to_local(esdf, point_world);
+  if (esdf.planar) local.z() = (kPlanarLayer + 0.5) * esdf.voxel_size;
+  return local;
+}
+
 nlohmann::ordered_json or_null(const std::optional<Point>& place) {
   return place ? json_of(*place) : nlohmann::ordered_json(nullptr);
 }
@@ -62,13 +69,14 @@ PlanResult given_path(const Roadmap& roadmap, std::vector<Point> waypoints,
   path.status = PlanStatus::kOk;
   path.answered_by = Planner::kGiven;
   path.unknown = roadmap.esdf.unknown;
-  path.length = length_of(path.waypoints);
   std::vector<Point> local;
-  for (const Point& p : path.waypoints) {
-    local.push_back(to_local(roadmap.esdf, p));
+  for (Point& p : path.waypoints) {
+    local.push_back(in_layer(roadmap.esdf, p));
     if (!has_voxel(local.back(), roadmap.esdf.voxel_size))
       throw InputError(where, "has a waypoint far outside the map", "give metres, in its frame");
+    if (roadmap.esdf.planar) p = to_world(roadmap.esdf, local.back());
   }
+  path.length = length_of(path.waypoints);
   path.clearance = FreeSpace(roadmap.esdf).clearance(local);
   const double straight = (path.waypoints.back() - path.waypoints.front()).norm();
   path.within = straight > 0.0      ? std::max(path.length / straight, 1.0)
@@ -78,7 +86,7 @@ PlanResult given_path(const Roadmap& roadmap, std::vector<Point> waypoints,
 }
 
 std::string AnswerFacts::explain_collision(const Query& query, const Point& place) const {
-  const double distance = FreeSpace(roadmap_.esdf).distance(to_local(roadmap_.esdf, place));
+  const double distance = FreeSpace(roadmap_.esdf).distance(in_layer(roadmap_.esdf, place));
   if (distance <= 0.0) {
     // Farther away it is hardly the place that was meant.
     const std::optional<double> snap =
@@ -88,6 +96,10 @@ std::string AnswerFacts::explain_collision(const Query& query, const Point& plac
     return snap ? inside + ", or let --snap " + text_of(rounded_up(*snap)) + " do so" : inside;
   }
   std::string text = "it is " + metres(distance) + " from the nearest obstacle";
+  if (robot_height_ > 0.0)
+    return text + ", and " + robot_text(query) +
+           " does not fit there: move it, let --snap do so, or give a smaller --radius or "
+           "--robot-height";
   if (distance >= query.radius)
     return text + ", but no voxel beside it can be reached at a radius of " + metres(query.radius) +
            ": move it a little, or let --snap do so";
@@ -126,23 +138,37 @@ std::string AnswerFacts::explain_endpoint(const Query& query, PlanStatus status)
   }
 }
 
+std::string AnswerFacts::robot_text(const Query& query) const {
+  return "a robot with a radius of " + metres(query.radius) + " and a height of " +
+         metres(robot_height_);
+}
+
 std::string AnswerFacts::explain_no_route(const Query& query) {
-  std::string text = "start and goal are not connected at a radius of " + metres(query.radius);
+  const bool is_upright = robot_height_ > 0.0;
+  std::string text =
+      "start and goal are not connected " +
+      (is_upright ? "for " + robot_text(query) : "at a radius of " + metres(query.radius));
   const std::optional<BlockedRoute> blocked = this->blocked(query, PlanStatus::kNoRoute);
-  if (!blocked) return text;
+  const std::string or_lower = is_upright ? ", or a smaller --robot-height" : "";
+  if (!blocked) return is_upright ? text + ": give a smaller --robot-height" : text;
   if (blocked->by == Blocker::kLimits)
-    return text + " within the limits of the flight, but they are without: give wider limits";
+    return text + " within the limits of the flight, but " +
+           (is_upright ? "a ball of that radius is" : "they are") + " without: give wider limits" +
+           or_lower;
+  if (is_upright) text += ", nor for a ball of that radius";
+  if (limits_.any()) text += ", whatever the limits of the flight";
   const std::string parts = " (the start is in component " + part_text(*blocked, true) +
                             ", the goal in component " + part_text(*blocked, false) + ")";
   const char* what = blocked->by == Blocker::kUnknown ? "unknown space" : "an obstacle";
   if (blocked->radius == 0.0)
     return text + ", nor at any other" + parts + ": " + shut_text(*blocked);
-  const std::string most = metres_at_most(blocked->radius);
-  return text + parts + ", but they are at " + most + ", where " + what + " is in the way at " +
-         point_text(*blocked->place) +
-         (detail::is_as_wide(rounded_down(blocked->radius), roadmap_.min_clearance)
-              ? ": give that --radius"
-              : ": build the map with that --min-clearance");
+  text += parts + ", but " + (is_upright ? "balls" : "they") + " are at " +
+          metres_at_most(blocked->radius) + ", where " + what + " is in the way at " +
+          point_text(*blocked->place) +
+          (detail::is_as_wide(rounded_down(blocked->radius), roadmap_.min_clearance)
+               ? ": give that --radius"
+               : ": build the map with that --min-clearance");
+  return limits_.any() ? text + ", if the limits leave room for it" : text;
 }
 
 std::string AnswerFacts::reason(const Query& query, PlanStatus status) {
@@ -170,7 +196,13 @@ std::string AnswerFacts::reason(const Query& query, PlanStatus status) {
 std::optional<BlockedRoute> AnswerFacts::blocked(const Query& query, PlanStatus status) {
   if (status != PlanStatus::kNoRoute) return std::nullopt;
   if (!blocks_) blocks_.emplace(roadmap_);
-  return blocks_->between(query.start, query.goal, query.radius, limits_);
+  auto blocked = blocks_->between(query.start, query.goal, query.radius, limits_);
+  // What is known is of balls. Where one gets through that is as wide as the robot, its height is
+  // what does not fit.
+  if (robot_height_ > 0.0 && blocked && blocked->by != Blocker::kLimits &&
+      detail::is_as_wide(blocked->radius, query.radius))
+    return std::nullopt;
+  return blocked;
 }
 
 PathSurroundings AnswerFacts::surroundings(std::span<const Point> path, double radius) {

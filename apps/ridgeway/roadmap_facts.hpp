@@ -52,6 +52,7 @@ class AnswerFacts {
   std::string explain_no_route(const Query& query);
   std::string explain_endpoint(const Query& query, PlanStatus status) const;
   std::string explain_collision(const Query& query, const Point& place) const;
+  std::string robot_text(const Query& query) const;
 
   const Roadmap& roadmap_;
   const bool escapes_;

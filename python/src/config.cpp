@@ -139,6 +139,7 @@ std::string literal(double value) {
   std::string text = number_text(value);
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }
+std::string shown(double value) { return std::isinf(value) ? number_text(value) : literal(value); }
 std::string literal(bool value) { return value ? "True" : "False"; }
 std::string literal(int value) { return std::to_string(value); }
 std::string literal(std::size_t value) { return std::to_string(value); }

@@ -62,6 +62,8 @@ void read(py::handle value, const char* name, std::optional<Value>& field) {
 
 // Defaults as a signature has them.
 std::string literal(double value);
+/// As people read it: inf where `literal` has what Python reads as that.
+std::string shown(double value);
 std::string literal(bool value);
 std::string literal(int value);
 std::string literal(std::size_t value);

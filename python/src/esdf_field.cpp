@@ -4,9 +4,11 @@
 // Distance fields: distances, gradients, and what is free.
 #include <limits>
 
+#include "common/number_text.hpp"
 #include "config.hpp"
 #include "faces.hpp"
 #include "long_call.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/distance_field.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/esdf/free_space.hpp"
@@ -52,6 +54,8 @@ py::object states(const EsdfFace& face, py::handle bounds) {
 py::tuple distance_at(const EsdfFace& face, py::handle points, py::handle deepest) {
   const std::vector<Point> places = points_from(points, "points");
   const double depth = number_from(deepest, "deepest");
+  if (!(depth >= 0.0))
+    throw InputError("deepest", "is " + number_text(depth), "give metres, 0 or more");
   std::vector<double> distance(places.size(), kNaN);
   std::vector<Point> gradient(places.size(), Point::Constant(kNaN));
   {

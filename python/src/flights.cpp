@@ -66,7 +66,7 @@ std::string flight_repr(const FlightFace& flight) {
   const TrajectoryResult& result = flight.result;
   if (!result.ok()) return "Trajectory(status='" + std::string(name_of(result.status)) + "')";
   return "Trajectory(status='ok', duration=" + literal(result.duration) +
-         ", clearance=" + literal(result.clearance) + ", max_speed=" + literal(result.peaks.speed) +
+         ", clearance=" + shown(result.clearance) + ", max_speed=" + literal(result.peaks.speed) +
          ", segments=" + std::to_string(result.trajectory.segments.size()) + ")";
 }
 

@@ -270,7 +270,8 @@ void add_maps(py::module_& module) {
 
   const std::string doc = "load_map(path" + load_fields().signature().replace(0, 2, ", *, ") +
                           ")\n--\n\nReads a map: OctoMap .bt and .ot; clouds .pcd, .ply, .xyz; "
-                          "MovingAI .3dmap; fused .ridge.\n" +
+                          "meshes .dae, .glb, .obj, .stl, .ply;\nworlds and ROS maps .yaml; "
+                          "voxblox layers; MovingAI .3dmap; fused .ridge.\n" +
                           load_fields().docs();
   module.def(
       "load_map",

@@ -80,7 +80,7 @@ PlanFace plan_face(const std::shared_ptr<const Roadmap>& roadmap, const Point& s
 std::string plan_repr(const PlanResult& plan) {
   if (!plan.ok()) return "PlanResult(status='" + std::string(name_of(plan.status)) + "')";
   return "PlanResult(status='ok', length=" + literal(plan.length) +
-         ", clearance=" + literal(plan.clearance) +
+         ", clearance=" + shown(plan.clearance) +
          ", waypoints=" + std::to_string(plan.waypoints.size()) + ", answered_by='" +
          std::string(name_of(plan.answered_by)) + "')";
 }

@@ -197,7 +197,11 @@ OccupancyMap map_of_array(py::handle states, double voxel_size, const Point& ori
     return read_map<std::uint8_t>(layout, low, voxel_size, TruthStates<std::uint8_t>{});
   if (kind == 'u' && size == 1) return whole(std::uint8_t{});
   if (kind == 'i' && size == 1) return whole(std::int8_t{});
+  if (kind == 'u' && size == 2) return whole(std::uint16_t{});
+  if (kind == 'i' && size == 2) return whole(std::int16_t{});
+  if (kind == 'u' && size == 4) return whole(std::uint32_t{});
   if (kind == 'i' && size == 4) return whole(std::int32_t{});
+  if (kind == 'u' && size == 8) return whole(std::uint64_t{});
   if (kind == 'i' && size == 8) return whole(std::int64_t{});
   if (kind == 'f' && size == 4) return real(float{});
   if (kind == 'f' && size == 8) return real(double{});

@@ -116,7 +116,17 @@ FlightLimits moved_limits(const FlightLimits& limits, const Move& move) {
 }  // namespace
 
 FlightLimits limits_in_local(const EsdfMap& esdf, const FlightLimits& limits_world) {
-  return moved_limits(limits_world, [&](const Point& p) { return to_local(esdf, p); });
+  FlightLimits local =
+      moved_limits(limits_world, [&](const Point& p) { return to_local(esdf, p); });
+  if (!esdf.planar) return local;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  local.keep_in.min.z() = -kInfinity;
+  local.keep_in.max.z() = kInfinity;
+  for (Box& box : local.keep_out) {  // all of the block
+    box.min.z() = 0.0;
+    box.max.z() = kBlockSide * esdf.voxel_size;
+  }
+  return local;
 }
 
 FlightLimits limits_in_world(const EsdfMap& esdf) {

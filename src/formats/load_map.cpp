@@ -63,9 +63,9 @@ VoxelRange reach_before(const Eigen::Isometry3d& T_map_file, const Box& bounds, 
 }  // namespace
 
 OccupancyMap finished(OccupancyMap map, const LoadConfig& config, const std::string& name,
-                      LoadNotes* notes) {
+                      LoadNotes* notes, double beyond) {
   map = without_specks(std::move(map), config, notes);
-  if (config.bounds) map = crop(std::move(map), *config.bounds);
+  if (config.bounds) map = crop(std::move(map), *config.bounds, beyond);
   require_memory_for_blocks(map.layout.block_count(), kPipelineBytesPerVoxel, name);
   map = add_no_fly(std::move(map), config.exclude);
   if (has_free_voxel(map)) return map;
@@ -138,7 +138,8 @@ OccupancyMap load_cloud(const PointCloud& cloud, const LoadConfig& config, const
                                       .margin = config.isolated_below,
                                       .T_map_cloud = config.transform},
                                      name, notes);
-  return finished(std::move(map), config, name, notes);
+  const double on_the_face = 1e-3 * *config.voxel_size;
+  return finished(std::move(map), config, name, notes, on_the_face);
 }
 
 void require_mesh_options_unused(const LoadConfig& config, const std::string& name) {
@@ -254,6 +255,8 @@ OccupancyMap load_map(const std::filesystem::path& file, const LoadConfig& confi
                      "give a file; recordings of cameras and scans are fused to one first");
   if (is_tsdf_file(file)) return load_fused_map(file, config, notes);
   const std::string bytes = read_file(file), name = file.string();
+  if (bytes.starts_with("RIDGEWAY"))
+    throw InputError(name, "is a roadmap already", "give the map that it was built from");
   if (const std::string format = mesh_format(bytes, file); !format.empty())
     return load_mesh_map(file, bytes, format, config, notes);
   require_mesh_options_unused(config, name);

@@ -135,7 +135,11 @@ OccupancyMap load_mesh_map(const std::filesystem::path& file, std::string_view b
 OccupancyMap load_world_map(const std::filesystem::path& file, const LoadConfig& config,
                             LoadNotes* notes) {
   const std::string name = file.string();
-  const World world = load_world(file);
+  World world = load_world(file);
+  if (!world.timed.empty()) {
+    tell(notes, "solids that are there for a time (timed) are in the map, whenever that is");
+    world = world_at_all_times(world);
+  }
   const auto extent = extent_of(world);
   if (!config.transform.isApprox(Eigen::Isometry3d::Identity(), 0.0))
     throw InputError("transform", "cannot move a world, which is in its own frame",

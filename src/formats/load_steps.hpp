@@ -25,10 +25,11 @@ inline void tell(LoadNotes* notes, std::string_view note) {
   if (notes != nullptr) notes->notes.emplace_back(note);
 }
 
-/// The edits that every kind of file ends with: isolated filter, crop, no-fly boxes. Throws
-/// InputError, naming `name`, where nothing free is left.
+/// The edits that every kind of file ends with: isolated filter, crop (obstacles stay so far
+/// above the upper faces of the bounds, metres), no-fly boxes. Throws InputError, naming `name`,
+/// where nothing free is left.
 OccupancyMap finished(OccupancyMap map, const LoadConfig& config, const std::string& name,
-                      LoadNotes* notes);
+                      LoadNotes* notes, double beyond = 0.0);
 
 /// Reads the voxels, moves them, makes them coarser, and ends as `finished`. Only what can come to
 /// lie within the bounds is read: large files with small bounds fit.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "files/text.hpp"
+#include "repeated_key.hpp"
 #include "ridgeway/common/error.hpp"
 
 namespace ridgeway {
@@ -111,7 +112,10 @@ MapServerFile read_map_server(std::string_view text, const std::string& name) {
   try {
     const YAML::Node map = YAML::Load(std::string(text));
     if (!map.IsMap()) throw InputError(name, "is no map of keys and values", "write it again");
-    return read_keys({map, name});
+    const Keys keys(map, name);
+    if (const auto again = find_repeated_key(map))
+      keys.fail(*again, "has the key '" + again->Scalar() + "' again", "give it once");
+    return read_keys(keys);
   } catch (const YAML::Exception& error) {
     throw InputError(name, std::string("is no YAML: ") + error.what(), "correct it");
   }

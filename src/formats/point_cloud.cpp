@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "ridgeway/formats/point_cloud.hpp"
 
+#include <algorithm>
 #include <iomanip>
 #include <optional>
 #include <sstream>
@@ -109,7 +110,9 @@ OccupancyMap map_from_points(const PointCloud& cloud, const CloudMapConfig& conf
                              const std::string& name, LoadNotes* notes) {
   validate_voxel_size(config.voxel_size, "voxel_size");
   const VoxelRange known = checked_range(config.bounds, config.voxel_size);
-  OccupancyBuilder builder(config.voxel_size, {.clip = grown(known, config.margin), .name = name});
+  // With voxels that stick out of the bounds, or touch them: points on them are obstacles, too.
+  OccupancyBuilder builder(config.voxel_size,
+                           {.clip = grown(known, std::max(config.margin, 1)), .name = name});
   builder.fill(known, VoxelState::kFree);
   const double reach = kMaxVoxelIndex * config.voxel_size;
   const CloudVoxels voxels(config.T_map_cloud, config.voxel_size);
@@ -120,10 +123,10 @@ OccupancyMap map_from_points(const PointCloud& cloud, const CloudMapConfig& conf
       throw InputError(name, "has a point at " + describe(point) + ", beyond 1e9 voxels",
                        "check the units of the cloud and voxel_size");
     }
-    const VoxelIndex voxel = voxels.find(point_cloud, point);
-    inside += known.contains(voxel) ? 1 : 0;
-    outside += is_beside(config.bounds, point) ? 1 : 0;
-    builder.set(voxel, VoxelState::kOccupied);
+    const bool is_outside = is_beside(config.bounds, point);
+    (is_outside ? outside : inside) += 1;
+    if (is_outside && config.margin == 0) continue;
+    builder.set(voxels.find(point_cloud, point), VoxelState::kOccupied);
   }
   if (inside == 0) {
     throw InputError(name, "has no point within the bounds " + describe(config.bounds),

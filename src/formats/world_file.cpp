@@ -16,6 +16,7 @@
 #include "files/atomic_file.hpp"
 #include "files/read_file.hpp"
 #include "mesh_file.hpp"
+#include "repeated_key.hpp"
 #include "ridgeway/common/error.hpp"
 
 namespace ridgeway {
@@ -42,6 +43,9 @@ class WorldReader {
       if (std::find(known.begin(), known.end(), key) == known.end())
         fail(entry.first.Mark(), "has an unknown key '" + key + "'", "known are " + list);
     }
+    if (const auto again = find_repeated_key(map))
+      fail(again->Mark(), "has the key '" + again->Scalar() + "' again",
+           "give it once, with all that belongs to it");
   }
 
   double number(const YAML::Node& map, const char* key) const {

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "common/number_text.hpp"
+#include "planar.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/mapping/map_edits.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
@@ -53,6 +54,7 @@ void require_heights(double low, double high) {
 
 OccupancyMap flatten(const OccupancyMap& map, double low, double high) {
   require_heights(low, high);
+  detail::require_three_dimensions(map);
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const VoxelRange slice = voxels_overlapping(
       {Point(-kInfinity, -kInfinity, low), Point(kInfinity, kInfinity, high)}, map.voxel_size);

@@ -83,16 +83,20 @@ void change_small_clusters(OccupancyMap& map, VoxelState state, double enough, V
 
 }  // namespace
 
-OccupancyMap crop(OccupancyMap map, const Box& box) {
+OccupancyMap crop(OccupancyMap map, const Box& box, double beyond) {
   validate_box(box, "bounds");
   detail::require_three_dimensions(map);
   const VoxelRange inside = own_voxels(map, voxels_inside(box, map.voxel_size));
+  const Box with_upper_faces = {box.min, box.max + Point::Constant(beyond)};
+  const VoxelRange touched = own_voxels(map, voxels_overlapping(with_upper_faces, map.voxel_size));
   for_each_block(map.layout, [&](std::uint32_t slot, const VoxelRange& block) {
     if (inside.contains(block.min) && inside.contains(block.max)) return;
     VoxelState* states = map.state.block(slot);
-    for (int local = 0; local < kBlockVoxels; ++local)
-      if (!inside.contains(voxel_of(map.layout.block(slot), local)))
-        states[local] = VoxelState::kUnknown;
+    for (int local = 0; local < kBlockVoxels; ++local) {
+      const VoxelIndex voxel = voxel_of(map.layout.block(slot), local);
+      const VoxelRange& kept = states[local] == VoxelState::kOccupied ? touched : inside;
+      if (!kept.contains(voxel)) states[local] = VoxelState::kUnknown;
+    }
   });
   return normalised(std::move(map));
 }

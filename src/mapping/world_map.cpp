@@ -23,9 +23,10 @@ std::vector<BlockIndex> blocks_up_to(const VoxelIndex& end) {
 
 }  // namespace
 
-OccupancyMap occupancy_of(const World& world, double voxel_size, const Box& bounds) {
+OccupancyMap occupancy_of(const World& given, double voxel_size, const Box& bounds) {
   validate_voxel_size(voxel_size, "voxel_size");
-  validate_world(world);
+  validate_world(given);
+  const World world = world_at_all_times(given);
   validate_box(bounds, "bounds");
   const VoxelRange range = grown(voxels_overlapping(bounds, voxel_size), 1);
   require_memory_for_blocks(range.block_count(), kPipelineBytesPerVoxel, "the world");

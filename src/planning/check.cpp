@@ -10,6 +10,7 @@
 
 #include "common/number_text.hpp"
 #include "common/rounding.hpp"
+#include "mapping/memory_limit.hpp"
 #include "query.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
@@ -199,6 +200,9 @@ void check_roadmap(const Roadmap& roadmap, const CheckConfig& config, const Prog
                    CheckReport& report) {
   report = {};
   detail::validate_robot_height(config.robot_height);
+  constexpr double kBytesPerQuery = 1000.0;  // with what was answered
+  require_memory(static_cast<double>(config.queries) * kBytesPerQuery, "queries",
+                 "ask for fewer at a time");
   require_room_for_balls(roadmap, config);
   check_edges(roadmap, progress, report);
   const std::vector<Query> queries = draw_queries(roadmap, config);

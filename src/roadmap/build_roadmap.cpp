@@ -294,8 +294,10 @@ BuildResult build_by_stages(OccupancyMap map, const BuildConfig& config, const P
   if (report.traversable_voxels == 0)
     throw InputError("min_clearance " + number_text(config.min_clearance),
                      "leaves no traversable voxel in this map",
-                     esdf.limits.any() ? "give a smaller min_clearance, or wider limits"
-                                       : "give a smaller min_clearance, or ignore the unknown");
+                     std::string("give a smaller min_clearance") +
+                         (esdf.limits.any()                          ? ", or wider limits"
+                          : esdf.unknown == UnknownPolicy::kObstacle ? ", or ignore the unknown"
+                                                                     : ""));
 
   detail::build_on_distances(std::move(traversable), config, result, clock, [&] {
     roadmap.cells = build_cell_graph(roadmap.esdf, config.min_clearance);

@@ -4,6 +4,7 @@
 
 #include "common/parallel_sort.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "swept_triangle.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -119,17 +120,10 @@ bool VertexMerging::may_merge(Number from, Number to) const {
         !space_.is_free(graph_.at(to), graph_.at(other), width_needed(from, to, link)))
       return false;
   return std::all_of(here.begin(), here.end(), [&](const auto& link) {
-    return link.first == to || sweeps(graph_.at(to), graph_.at(from), graph_.at(link.first));
+    return link.first == to ||
+           sweeps(space_, widths_.radius,
+                  {graph_.at(to), graph_.at(from), graph_.at(link.first), widths_.radius});
   });
-}
-
-/// Whether the triangle of a point and a segment can be swept by the segment between them.
-bool VertexMerging::sweeps(const Point& apex, const Point& a, const Point& b) const {
-  const int steps = static_cast<int>(std::ceil((b - a).norm() / widths_.radius));
-  for (int i = 1; i < steps; ++i)
-    if (!space_.is_free(apex, a + (b - a) * (static_cast<double>(i) / steps), widths_.radius))
-      return false;
-  return true;
 }
 
 /// What a link from `to` must be as wide as if it replaces that of `from`, so that the widest ways

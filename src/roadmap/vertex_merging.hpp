@@ -62,7 +62,6 @@ class VertexMerging {
   void refuse(const NeighbourPair& pair);
   Answer ask(const NeighbourPair& pair) const;
   bool may_merge(Number from, Number to) const;
-  bool sweeps(const Point& apex, const Point& a, const Point& b) const;
   double width_needed(Number from, Number to, const EditableGraph::Link& replaced) const;
   void merge(Number from, Number to, const Answer& answer);
 

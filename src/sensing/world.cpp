@@ -216,16 +216,31 @@ void validate_world(const World& world) {
   }
 }
 
-World world_at(const World& world, double time) {
+namespace {
+
+/// The world with those timed solids that `is_there`.
+template <typename IsThere>
+World world_with(const World& world, const IsThere& is_there) {
   World now = world;
   now.timed.clear();
   for (const TimedSolids& timed : world.timed) {
-    if (time < timed.from || time >= timed.until) continue;
+    if (!is_there(timed)) continue;
     append(now.boxes, timed.boxes);
     append(now.spheres, timed.spheres);
     append(now.cylinders, timed.cylinders);
   }
   return now;
+}
+
+}  // namespace
+
+World world_at(const World& world, double time) {
+  return world_with(
+      world, [time](const TimedSolids& timed) { return time >= timed.from && time < timed.until; });
+}
+
+World world_at_all_times(const World& world) {
+  return world_with(world, [](const TimedSolids&) { return true; });
 }
 
 SurfaceDistance surface_distance(const World& world, const Point& point) {

@@ -72,6 +72,11 @@ TEST_F(CliExplore, SaysThatAFlightWasCutOff) {
 
 TEST_F(CliExplore, RefusesBeforeTheFlight) {
   expect_refused(words("9,1,1"), {"outside"});
+  for (const std::string option : {"--rows", "--vertical-angle"}) {
+    std::vector<std::string> of_a_lidar = words("1.3,1.3,1.2");
+    of_a_lidar.insert(of_a_lidar.end(), {option, "10"});
+    expect_refused(of_a_lidar, {option, "is of a lidar"});
+  }
   expect_refused(words("0.1,1,1"), {"from an obstacle"});
   std::vector<std::string> near_sighted = words("1.3,1.3,1.2");
   near_sighted.insert(near_sighted.end(), {"--max-range", "0.3"});

@@ -185,6 +185,14 @@ TEST_F(CliLimits, PlanarMapsAreBuiltSavedAndChecked) {
   // Other heights are the same place.
   EXPECT_EQ(run({"plan", map, "--from", "-2,1,0", "--to", "2,1,7", "--json"}).json()["length"],
             json["length"]);
+  const std::string near_wall = run({"plan", map, "--from", "-2.9,1,0", "--to", "2,1,7"}).out;
+  EXPECT_NE(near_wall.find("0.1 m from the nearest obstacle"), std::string::npos) << near_wall;
+  // Nor do those of limits, and of paths that are given.
+  for (const char* box : {"-1.5,0,5,-1,2,6", "-1.5,0,-1,-1,2,0.2", "-1.5,0,0,-1,2,2"})
+    EXPECT_GT(run(plan(map, {"--keep-out", box})).json()["length"], json["length"]) << box;
+  EXPECT_EQ(run(plan(map, {"--height", "3,4"})).json()["length"], json["length"]);
+  write_whole(path("low.csv"), "x,y,z\n-2,1,0\n-1.5,1,0\n");
+  EXPECT_EQ(run({"trajectory", map, "--path", path("low.csv"), "--json"}).json()["status"], "ok");
   EXPECT_TRUE(run({"check", map, "--queries", "60", "--json"}).json()["clean"]);
   const Json flown = run({"trajectory", map, "--from", "-2,1,1", "--to", "2,1,1", "--json"}).json();
   ASSERT_EQ(flown["status"], "ok");
@@ -206,8 +214,20 @@ TEST_F(CliLimits, CylindersPassWhereTheyFit) {
   EXPECT_EQ(flat["status"], "ok");
   EXPECT_EQ(run(plan(map, {"--radius", "0.65", "--robot-height", "0.4"})).json()["status"],
             "no_route");
-  EXPECT_EQ(run(plan(map, {"--radius", "0.3", "--robot-height", "2.2"})).json()["status"],
-            "start_in_collision");
+  const Json tall = run(plan(map, {"--radius", "0.3", "--robot-height", "2.2"})).json();
+  EXPECT_EQ(tall["status"], "start_in_collision");
+  EXPECT_NE(tall["reason"].get<std::string>().find("smaller --radius or --robot-height"),
+            std::string::npos);
+  EXPECT_EQ(tall["reason"].get<std::string>().find("--escape"), std::string::npos);
+  // Where a ball gets through, under a lintel, it is the height.
+  ASSERT_EQ(build_rooms("lintel.ridge", {"--exclude", "-0.1,-0.6,1.2,0.2,0.6,2"}).code, 0);
+  const std::string lintel = path("lintel.ridge");
+  EXPECT_EQ(run(plan(lintel, {"--robot-height", "0.8"})).json()["status"], "ok");
+  const Json high = run(plan(lintel, {"--robot-height", "1.6"})).json();
+  EXPECT_EQ(high["status"], "no_route");
+  EXPECT_NE(high["reason"].get<std::string>().find("give a smaller --robot-height"),
+            std::string::npos);
+  EXPECT_FALSE(high.contains("blocked"));
   EXPECT_TRUE(
       run({"check", map, "--queries", "15", "--robot-height", "0.8", "--json"}).json()["clean"]);
   const Json flown = run({"trajectory", map, "--from", "-2,1,1", "--to", "2,1,1", "--radius",

@@ -111,6 +111,8 @@ TEST(MapServer, DamagedFilesAreRefusedByName) {
   EXPECT_NE(says(yaml("a.pgm", "[0, .nan, 0]"), pgm()).find("origin"), std::string::npos);
   EXPECT_NE(says(yaml("a.pgm", "[0, 0, 0]", "mode: odd\n"), pgm()).find("mode"), std::string::npos);
   EXPECT_NE(says("image: a.pgm\norigin: [0, 0, 0]\n", pgm()).find("resolution"), std::string::npos);
+  EXPECT_NE(says(yaml("a.pgm", "[0, 0, 0]", "resolution: 2\n"), pgm()).find("'resolution' again"),
+            std::string::npos);
   EXPECT_NE(says(good, "P5\n4 3\n255\nshort").find("a.pgm"), std::string::npos);
   EXPECT_NE(says(good, "P5\n99999 99999\n255\n").find("a.pgm"), std::string::npos);
   EXPECT_NE(says(good, "P2\n2 2\n255\n1 2 3 999\n").find("brighter"), std::string::npos);

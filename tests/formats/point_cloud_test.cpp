@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <set>
 #include <vector>
 
 #include "formats/pcd.hpp"
@@ -16,6 +18,7 @@
 #include "ridgeway/formats/load_map.hpp"
 #include "support/lattice.hpp"
 #include "support/map_file_writers.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace ridgeway {
 namespace {
@@ -218,14 +221,16 @@ TEST(MapFromPoints, VoxelsWithPointsAreOccupiedAndTheRestOfTheBoundsFree) {
   const OccupancyMap map = map_from_points(
       cloud, {.voxel_size = 0.5, .bounds = {Point::Constant(-10), Point::Constant(10)}}, "cloud");
   std::size_t inside = 0;
+  std::set<VoxelIndex> on_the_upper_faces;
   for (const Point& p : cloud.points) {
-    const bool within = p.minCoeff() >= -10.0 && p.maxCoeff() < 10.0;
+    const bool within = p.minCoeff() >= -10.0 && p.maxCoeff() <= 10.0;
     inside += within ? 1 : 0;
+    if (within && p.maxCoeff() == 10.0) on_the_upper_faces.insert(voxel_at(p, 0.5));
     EXPECT_EQ(testing::state_at(map, voxel_at(p, 0.5)),
               within ? VoxelState::kOccupied : VoxelState::kUnknown);
   }
   EXPECT_GT(inside, 10u);
-  EXPECT_EQ(count_voxels(map).known(), 64000u);
+  EXPECT_EQ(count_voxels(map).known(), 64000u + on_the_upper_faces.size());
   EXPECT_LE(count_voxels(map).occupied, inside);
 }
 
@@ -249,6 +254,42 @@ TEST(MapFromPoints, PointsThatAreLeftOutAreTold) {
   LoadNotes none;
   map_from_points(cloud, config, "cloud", &none);
   EXPECT_TRUE(none.notes.empty());
+}
+
+/// Who takes the extent of a cloud for its bounds has points on all of them.
+TEST(MapFromPoints, PointsOnTheBoundsAndInVoxelsThatTheyCutThroughAreObstacles) {
+  for (const double wall : {4.0, 4.03}) {  // on a plane of the lattice, and within a voxel
+    PointCloud cloud;
+    for (double y = 0.05; y < 2.0; y += 0.1)
+      for (double z = 0.05; z < 2.0; z += 0.1)
+        for (const double x : {0.0, wall}) cloud.add(x, y, z);
+    cloud.add(4.09, 1.0, 1.0);  // outside, in a voxel that the bounds cut through
+    const Box bounds{Point::Zero(), Point(wall == 4.0 ? wall : 4.05, 2.0, 2.0)};
+    for (const int filter : {0, 2}) {
+      LoadConfig config;
+      config.voxel_size = 0.1;
+      config.bounds = bounds;
+      config.isolated_below = filter;
+      const TemporaryFolder folder;
+      std::string text;
+      for (const Point& p : cloud.points)
+        text += std::to_string(p.x()) + " " + std::to_string(p.y()) + " " + std::to_string(p.z()) +
+                "\n";
+      write_whole(folder / "walls.xyz", text);
+      LoadNotes notes;
+      const OccupancyMap map = load_map(folder / "walls.xyz", config, &notes);
+      for (int y = 0; y < 20; ++y)
+        for (int z = 0; z < 20; ++z) {
+          EXPECT_EQ(testing::state_at(map, {40, y, z}), VoxelState::kOccupied);
+          EXPECT_EQ(testing::state_at(map, {39, y, z}), VoxelState::kFree);
+          EXPECT_EQ(testing::state_at(map, {41, y, z}), VoxelState::kUnknown);
+        }
+      EXPECT_EQ(count_voxels(map).known(), 41u * 20u * 20u);
+      EXPECT_TRUE(std::any_of(notes.notes.begin(), notes.notes.end(), [](const std::string& note) {
+        return note.starts_with("1 of 801 points lie outside");
+      }));
+    }
+  }
 }
 
 TEST(MapFromPoints, RefusesPointsBeyondTheLattice) {

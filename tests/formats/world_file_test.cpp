@@ -4,10 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/random.hpp"
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/formats/load_map.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
 #include "sensing/world_generators.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -66,6 +69,27 @@ TEST(WorldFile, KeepsSolidsThatComeAndGo) {
     write_whole(folder / "bad.yaml", bad);
     EXPECT_THROW(load_world(folder / "bad.yaml"), InputError) << bad;
   }
+}
+
+TEST(WorldFile, SolidsThatComeAndGoAreObstaclesOfItsMap) {
+  const TemporaryFolder folder;
+  write_whole(folder / "door.yaml",
+              "boxes:\n"
+              "  - {centre: [0, 0, 0], size: [0.2, 0.2, 0.2]}\n"
+              "timed:\n"
+              "  - {from: 6, until: 14, boxes: [{centre: [2, 1, 1], size: [0.2, 0.6, 0.6]}]}\n");
+  LoadConfig config;
+  config.bounds = Box{Point::Zero(), Point(4, 2, 2)};
+  LoadNotes notes;
+  const OccupancyMap map = load_map(folder / "door.yaml", config, &notes);
+  EXPECT_EQ(map.at(voxel_at(Point(2, 1, 1), map.voxel_size) - map.origin), VoxelState::kOccupied);
+  EXPECT_EQ(map.at(voxel_at(Point(3, 1, 1), map.voxel_size) - map.origin), VoxelState::kFree);
+  EXPECT_TRUE(std::any_of(notes.notes.begin(), notes.notes.end(), [](const std::string& note) {
+    return note.find("(timed)") != std::string::npos;
+  }));
+  const World world = load_world(folder / "door.yaml");
+  const OccupancyMap known = occupancy_of(world, 0.1, *config.bounds);
+  EXPECT_EQ(known.at(voxel_at(Point(2, 1, 1), 0.1) - known.origin), VoxelState::kOccupied);
 }
 
 TEST(WorldFile, TheHouseIsThatOfThePaper) {
@@ -149,6 +173,8 @@ TEST(WorldFile, MistakesAreNamedWithTheirLine) {
            {"meshes:\n- {file: none.stl, translation: 5}\n", "line 2: has a translation"},
            {"meshes:\n- {file: none.stl, rotation: [1, 2]}\n", "[roll, pitch, yaw]"},
            {"meshes:\n- {file: bad.yaml}\n", "bad.yaml names no format"},
+           {"boxes: []\nname: a\nboxes: []\n", "line 3: has the key 'boxes' again"},
+           {box + "size: [1, 1, 1],\n     size: [2, 2, 2]}\n", "line 3: has the key 'size' again"},
            {"boxes: [\n", "is no YAML"},
            {"boxes: {{{{\n", "bad.yaml"},
            {std::string(100000, '['), "bad.yaml"}}) {

@@ -17,14 +17,24 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-TEST(Crop, KeepsExactlyWhatIsWhollyInside) {
-  const OccupancyMap map = testing::random_map(2);
+TEST(Crop, KeepsWhatIsWhollyInsideAndObstaclesThatTheBoxCutsThrough) {
   const Box box = {{-1.0, -0.55, -0.3}, {0.7, 1.2, 0.95}};  // faces on and between the planes
-  const OccupancyMap cut = crop(map, box);
-  testing::for_each_known(map, [&](const VoxelIndex& v, VoxelState state) {
-    const bool inside = v.x >= -10 && v.x <= 6 && v.y >= -5 && v.y <= 11 && v.z >= -3 && v.z <= 8;
-    EXPECT_EQ(testing::state_at(cut, v), inside ? state : VoxelState::kUnknown);
-  });
+  const VoxelRange inside{{-10, -5, -3}, {6, 11, 8}}, touched{{-10, -6, -3}, {6, 11, 9}},
+      with_faces{{-10, -6, -3}, {7, 12, 9}};
+  for (const double beyond : {0.0, 1e-4}) {
+    std::size_t cut_through = 0;
+    for (unsigned seed = 0; seed < 20; ++seed) {
+      const OccupancyMap map = testing::random_map(seed);
+      const OccupancyMap cut = crop(map, box, beyond);
+      testing::for_each_known(map, [&](const VoxelIndex& v, VoxelState state) {
+        const bool is_obstacle = state == VoxelState::kOccupied;
+        const VoxelRange& kept = !is_obstacle ? inside : beyond > 0.0 ? with_faces : touched;
+        EXPECT_EQ(testing::state_at(cut, v), kept.contains(v) ? state : VoxelState::kUnknown);
+        cut_through += is_obstacle && kept.contains(v) && !inside.contains(v);
+      });
+    }
+    EXPECT_GT(cut_through, 0u);
+  }
 }
 
 TEST(Crop, InfiniteBoundsChangeNothing) {
@@ -137,6 +147,7 @@ TEST(PlanarMap, IsNotTakenApart) {
   EXPECT_THROW(crop(planar_map(), half), InputError);
   EXPECT_THROW(add_no_fly(planar_map(), boxes), InputError);
   EXPECT_THROW(resample(planar_map(), 1.0), InputError);
+  EXPECT_THROW(flatten(planar_map(), 0.0, 0.5), InputError);
   EXPECT_THROW(transform_map(planar_map(), Eigen::Isometry3d::Identity(), 0.5), InputError);
   EXPECT_TRUE(add_no_fly(planar_map(), {}).planar);
   EXPECT_TRUE(resample(planar_map(), 0.5).planar);

@@ -12,7 +12,8 @@
 
 namespace ridgeway::testing {
 
-/// Whether distance and site of a voxel are those of the plain form; `obstacles` in (z, y, x) order.
+/// Whether distance and site of a voxel are those of the plain form; `obstacles` in (z, y, x)
+/// order.
 inline ::testing::AssertionResult has_plain_site(const BlockLayout& layout,
                                                  const detail::NearestSites& nearest, VoxelId id,
                                                  const std::vector<VoxelIndex>& obstacles) {

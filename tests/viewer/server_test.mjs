@@ -93,6 +93,15 @@ test("tells why there is no route, and where", async () => {
   }
 });
 
+test("refuses parameters that are misspelt, given twice or of another answer", async () => {
+  const query = "from=-2,0.3,1&to=2,-0.5,1";
+  for (const [path, word] of [[`api/plan?${query}&raduis=0.6`, "raduis"], [`api/plan?${query}&from=0,0,0`, "from.*twice"], [`api/plan?${query}&escape=2`, "escape"], [`api/plan?${query}&explain=no`, "explain"], [`api/plan?${query}&max_speed=1`, "max_speed"], ["api/info?at=0,0,0", "at"], ["api/slice?z=1&radius=2", "radius"]]) {
+    const { status: code, body } = await ask(path);
+    assert.equal(code, 400, path);
+    assert.match(body.error, new RegExp(word), path);
+  }
+});
+
 test("serves nothing but its page and its answers", async () => {
   for (const path of ["/../../etc/passwd", "/../etc/passwd", "//etc/passwd", "/%2e%2e/%2e%2e/etc/passwd", "/..%2f..%2fetc%2fpasswd", "/page.js/../../../etc/passwd", "/page.js%00.html", "/etc/passwd", "/api/../../etc/passwd", "/rooms.ridge", "/api/", "/api/info/x", "/.", "/\\..\\..", `/${encodeURIComponent(map)}`, "file:///etc/passwd"]) {
     const answer = await get(path);

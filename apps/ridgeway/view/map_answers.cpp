@@ -3,9 +3,12 @@
 #include "view/map_answers.hpp"
 
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "arguments.hpp"
@@ -31,10 +34,47 @@ constexpr int kMostSliceSamples = 1024, kMostSectionCells = 2048;
 /// A page waits no longer for a planner that searches voxels.
 constexpr double kLongestPlan = 10.0;
 
+/// What is asked with parameters, and with which.
+const std::map<std::string_view, std::set<std::string_view>> kParameters = {
+    {"/api/components", {"of"}},
+    {"/api/slice", {"z"}},
+    {"/api/section", {"z"}},
+    {"/api/plan",
+     {"from", "to", "radius", "planner", "prefer_clearance", "snap", "escape", "alternatives",
+      "explain"}},
+    {"/api/trajectory",
+     {"from", "to", "radius", "planner", "prefer_clearance", "snap", "escape", "explain", "path",
+      "max_speed", "max_acceleration"}},
+    {"/api/place", {"at"}}};
+
+/// What is misspelt or given twice would be passed over.
+void require_known_parameters(const Question& question) {
+  const auto found = kParameters.find(question.path);
+  const std::set<std::string_view> known =
+      found == kParameters.end() ? std::set<std::string_view>{} : found->second;
+  std::string list;
+  for (const std::string_view name : known) list.append(list.empty() ? "" : ", ").append(name);
+  for (const auto& [name, value] : question.parameters) {
+    if (!known.contains(name))
+      throw InputError("parameter " + in_quotes(name), "is none of " + question.path,
+                       known.empty() ? "leave it out" : "known are " + list);
+    if (question.parameters.count(name) > 1)
+      throw InputError("parameter " + in_quotes(name), "is given twice", "give it once");
+  }
+}
+
 std::optional<std::string> find(const Question& question, const std::string& name) {
   const auto found = question.parameters.find(name);
   if (found == question.parameters.end()) return std::nullopt;
   return found->second;
+}
+
+/// 1 or 0.
+bool is_set(const Question& question, const std::string& name, bool initial) {
+  const std::string text = find(question, name).value_or(initial ? "1" : "0");
+  if (text != "0" && text != "1")
+    throw InputError(name, "is " + in_quotes(text), "give 1 for yes, 0 for no");
+  return text == "1";
 }
 
 std::string get(const Question& question, const std::string& name) {
@@ -75,7 +115,7 @@ PlanConfig config_of(const Question& question, double radius) {
   }
   config.prefer_clearance = number_of(question, "prefer_clearance", {0.0, 1e6}, 0.0);
   config.snap = number_of(question, "snap", kLengthsFromZero, 0.0);
-  config.escape = find(question, "escape").value_or("0") == "1";
+  config.escape = is_set(question, "escape", false);
   config.validate();
   return config;
 }
@@ -179,9 +219,9 @@ std::string MapAnswers::narrow_places() {
 void MapAnswers::explain(const Question& question, const Query& query, PlanStatus status,
                          Json& json) {
   json["radius"] = query.radius;
-  if (status == PlanStatus::kOk || find(question, "explain").value_or("1") == "0") return;
+  if (!is_set(question, "explain", true) || status == PlanStatus::kOk) return;
   const std::lock_guard<std::mutex> lock(facts_mutex_);
-  AnswerFacts& facts = facts_.at(find(question, "escape").value_or("0") == "1");
+  AnswerFacts& facts = facts_.at(is_set(question, "escape", false));
   json["reason"] = facts.reason(query, status);
   if (const auto blocked = facts.blocked(query, status)) json.update(cli::json_of(*blocked));
 }
@@ -203,7 +243,7 @@ Json MapAnswers::plan(const Question& question) {
                {"routes", Json::array()}};
   for (const PlanResult& route : found.routes)
     json["routes"].push_back(Json::parse(plan_json(route)));
-  const bool is_asked_why = !found.ok() && find(question, "explain").value_or("1") != "0";
+  const bool is_asked_why = !found.ok() && is_set(question, "explain", true);
   explain(question,
           is_asked_why  // planning once more tells where the ends were moved to
               ? as_planned(query, ridgeway::plan(roadmap_, query.start, query.goal, config))
@@ -256,6 +296,7 @@ Json MapAnswers::place(const Question& question) {
 Reply MapAnswers::answer(const Question& question) {
   const std::string& path = question.path;
   try {
+    require_known_parameters(question);
     if (path == "/api/info") return kept(info_, kJson, [&] { return info(); });
     if (path == "/api/surface")
       return kept(surface_, kBytes, [&] { return surface_layer(roadmap_.esdf, kMostQuads); });

@@ -150,7 +150,8 @@ struct FlightLimits {
 FlightLimits both_of(const FlightLimits& a, const FlightLimits& b);
 
 struct EsdfMap;
-/// Limits of the world in a map's local frame.
+/// Limits of the world in a map's local frame. In a planar map heights play no part: boxes reach
+/// through its layer, whatever theirs.
 FlightLimits limits_in_local(const EsdfMap& esdf, const FlightLimits& limits_world);
 /// Those of the map, in the world.
 FlightLimits limits_in_world(const EsdfMap& esdf);

@@ -38,10 +38,11 @@ struct CloudMapConfig {
   Eigen::Isometry3d T_map_cloud = Eigen::Isometry3d::Identity();
 };
 
-/// Voxels that hold a point are occupied; of the others, those wholly inside the bounds are free:
-/// a cloud does not say where it saw nothing. Throws InputError naming `name` where no point lies
-/// within the bounds, they hold no voxel, or a point lies beyond 1e9 voxels. `notes`: of points
-/// that are left out, as they lie outside of the bounds or were skipped.
+/// Voxels that hold a point within the bounds, or on them, are occupied; of the others, those
+/// wholly inside the bounds are free: a cloud does not say where it saw nothing. Throws InputError
+/// naming `name` where no point lies within the bounds, they hold no voxel, or a point lies beyond
+/// 1e9 voxels. `notes`: of points that are left out, as they lie outside of the bounds or were
+/// skipped.
 OccupancyMap map_from_points(const PointCloud& cloud, const CloudMapConfig& config,
                              const std::string& name, LoadNotes* notes = nullptr);
 

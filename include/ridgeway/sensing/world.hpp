@@ -63,12 +63,14 @@ struct World {
   std::vector<SolidSphere> spheres;      ///< balls
   std::vector<SolidCylinder> cylinders;  ///< upright
   std::vector<PlacedMesh> meshes;        ///< surfaces of triangles
-  std::vector<TimedSolids> timed;        ///< which only world_at() sees
+  std::vector<TimedSolids> timed;        ///< which only world_at() and world_at_all_times() see
 };
 
 /// The world as it is at a time, seconds: with the timed solids that are there then, and none that
 /// come or go.
 World world_at(const World& world, double time);
+/// The world with all timed solids, as if they never came or went: what is in the way at some time.
+World world_at_all_times(const World& world);
 
 /// Throws InputError naming the first solid without a size (a mesh without triangles), with a
 /// number that is not finite, or a normal that is not of length one, and timed solids that are
