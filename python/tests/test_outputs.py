@@ -139,6 +139,9 @@ def test_scans_are_written_whole_or_not_at_all(tmp_path):
             raise RuntimeError("in between")
     assert not list(tmp_path.iterdir())
     writer = ridgeway.ScanWriter(tmp_path / "run")
+    with pytest.raises(ValueError, match="no scan yet"):
+        writer.finish()
+    writer.add(np.zeros((1, 3)), np.eye(4))
     writer.finish()
     for call in (writer.finish, lambda: writer.add(np.zeros((1, 3)), np.eye(4))):
         with pytest.raises(ValueError, match="written already"):

@@ -3,6 +3,7 @@
 #include "atomic_file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -40,6 +41,9 @@ fs::path AtomicFile::checked(const fs::path& target) {
 AtomicFile::AtomicFile(const fs::path& target)
     : target_(checked(target)), temporary_(target_, Temporary::Kind::kFile) {
   if (temporary_.error() != 0) fail(temporary_.error());
+  // Who kept others from reading the file that is replaced wants no less of the new one.
+  if (struct stat old{}; ::stat(target_.c_str(), &old) == 0)
+    ::fchmod(temporary_.descriptor(), old.st_mode & 0777);
 }
 
 void AtomicFile::write(std::span<const std::byte> bytes) {

@@ -5,6 +5,7 @@
 
 #include "files/atomic_file.hpp"
 #include "recording_folder.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/recordings/scan_sequence.hpp"
 
 namespace ridgeway {
@@ -30,6 +31,7 @@ void ScanWriter::add(std::span<const Point> points, const Eigen::Isometry3d& T_w
 }
 
 void ScanWriter::finish() {
+  if (count_ == 0) throw InputError(folder_.string(), "has no scan yet", "add one first");
   write_text_file(temporary_->path() / "poses.txt", poses_);
   finish_folder(*temporary_, folder_);
 }

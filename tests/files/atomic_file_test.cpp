@@ -40,6 +40,19 @@ TEST(AtomicFile, LeavesTheOldFileWithoutCommit) {
   EXPECT_EQ(files_in(folder), 1u);
 }
 
+TEST(AtomicFile, IsReadByWhomTheOldOneWas) {
+  namespace fs = std::filesystem;
+  const TemporaryFolder folder;
+  const auto file = folder / "a.txt";
+  write_text_file(file, "old");
+  for (const auto mode : {fs::perms::owner_read | fs::perms::owner_write,
+                          fs::perms::owner_all | fs::perms::group_read}) {
+    fs::permissions(file, mode);
+    write_text_file(file, "new");
+    EXPECT_EQ(fs::status(file).permissions(), mode);
+  }
+}
+
 TEST(AtomicFile, ReplacesWhatALinkPointsTo) {
   const TemporaryFolder folder;
   write_text_file(folder / "real.txt", "old");

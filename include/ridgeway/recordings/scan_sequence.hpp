@@ -61,7 +61,9 @@ class ScanWriter {
   ScanWriter& operator=(const ScanWriter&) = delete;
   /// Points in the sensor's frame, its origin at 0.
   void add(std::span<const Point> points, const Eigen::Isometry3d& T_world_sensor);
-  void finish();  ///< Puts the folder in its place. Throws InputError where that cannot be done.
+  /// Puts the folder in its place. Throws InputError where that cannot be done, or nothing was
+  /// added.
+  void finish();
 
  private:
   std::filesystem::path folder_;
