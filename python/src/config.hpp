@@ -75,7 +75,7 @@ std::string literal(const VoxelRange& value);
 std::string literal(ExplorationStrategy value);
 std::string literal(DiagramColour value);
 std::string literal(const std::string& value);
-std::string literal(const Point& value);
+std::string literal(const Point& p);
 std::string literal(const std::filesystem::path& value);
 template <typename Value>
 std::string literal(const std::optional<Value>&) {

@@ -142,7 +142,7 @@ py::array array_from(py::handle states) {
     throw py::type_error("states: expected " + std::string(kExpected) + ", got " +
                          describe(states));
   require_no_mask(states, "states");
-  const auto array = py::reinterpret_borrow<py::array>(states);
+  auto array = py::reinterpret_borrow<py::array>(states);
   if (array.ndim() != 3 && array.ndim() != 2)
     throw InputError("states", "is " + describe(states), std::string("give ") + kExpected);
   if (!array.dtype().attr("isnative").cast<bool>())

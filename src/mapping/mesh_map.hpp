@@ -58,6 +58,6 @@ Box box_around(const TriangleSoup& mesh, const std::string& name);
 /// Throws InputError naming `name` where bounds hold no voxel, a place of `inside` is in a wall or
 /// outside the bounds, nothing is free, or memory would not do.
 OccupancyMap map_from_mesh(const TriangleSoup& mesh, const MeshMapConfig& config,
-                           const std::string& name, MeshMapReport* report = nullptr);
+                           const std::string& name, MeshMapReport* told = nullptr);
 
 }  // namespace ridgeway

@@ -23,10 +23,9 @@ std::vector<BlockIndex> blocks_up_to(const VoxelIndex& end) {
 
 }  // namespace
 
-OccupancyMap occupancy_of(const World& given, double voxel_size, const Box& bounds) {
+OccupancyMap occupancy_of(const World& world, double voxel_size, const Box& bounds) {
   validate_voxel_size(voxel_size, "voxel_size");
-  validate_world(given);
-  const World world = world_at_all_times(given);
+  validate_world(world);
   validate_box(bounds, "bounds");
   const VoxelRange range = grown(voxels_overlapping(bounds, voxel_size), 1);
   require_memory_for_blocks(range.block_count(), kPipelineBytesPerVoxel, "the world");
@@ -36,6 +35,7 @@ OccupancyMap occupancy_of(const World& given, double voxel_size, const Box& boun
   map.origin = range.min;
   map.layout = BlockLayout(blocks_up_to(range.max - range.min));
   map.state = VoxelField<VoxelState>(map.layout);
+  const World all = world_at_all_times(world);
   World meshes;  // alone: walls without an inside are in the way, too
   meshes.meshes = world.meshes;
   const double half_diagonal = 0.5 * std::sqrt(3.0) * voxel_size;
@@ -45,7 +45,7 @@ OccupancyMap occupancy_of(const World& given, double voxel_size, const Box& boun
       const VoxelIndex voxel = map.origin + map.layout.index_of(id);
       if (!range.contains(voxel)) continue;
       const Point centre = centre_of(voxel, voxel_size);
-      const bool is_free = surface_distance(world, centre).distance > 0.0 &&
+      const bool is_free = surface_distance(all, centre).distance > 0.0 &&
                            surface_distance(meshes, centre).distance > half_diagonal;
       map.state[id] = is_free ? VoxelState::kFree : VoxelState::kOccupied;
     }

@@ -46,9 +46,10 @@ void gather(const EsdfMap& esdf, std::uint32_t slot, BlockSites& sites) {
   esdf.site.visit([&](const auto& field) {
     const auto* const site = field.block(slot);
     for (std::size_t i = 0; i < kBlockVoxels; ++i) {
-      sites.offset[0][i] = site[i].x;
-      sites.offset[1][i] = site[i].y;
-      sites.offset[2][i] = site[i].z;
+      const SiteOffset offset = site[i];
+      sites.offset[0][i] = offset.x;
+      sites.offset[1][i] = offset.y;
+      sites.offset[2][i] = offset.z;
     }
   });
   const std::uint32_t* const squared = esdf.squared.block(slot);

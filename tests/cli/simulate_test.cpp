@@ -143,7 +143,8 @@ TEST_F(CliSimulate, FuseTellsWhereTheWorldOfThePosesLiesOnItsSide) {
     std::istringstream row(line);
     std::string time, x, y, z;
     if (line.starts_with("#") || !(row >> time >> x >> y >> z)) continue;
-    turned += time + " " + x + " " + y + " " + z + " 0 0 0 1\n";
+    for (const std::string& word : {time, x, y, z}) turned.append(word).append(" ");
+    turned += "0 0 0 1\n";
   }
   write_whole(folder_ / "run/groundtruth.txt", turned);
   const Outcome lying = run({"fuse", path("run"), "-o", path("map.ridge")});

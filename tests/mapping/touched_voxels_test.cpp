@@ -44,7 +44,7 @@ bool is_set(const BlockMasks& masks, const VoxelIndex& voxel) {
 
 VoxelTriangles moved(const testing::TriangleList& mesh, const Point& by, double scale) {
   VoxelTriangles all;
-  for (const Point& v : mesh.vertices) all.vertices.push_back(v * scale + by);
+  for (const Point& v : mesh.vertices) all.vertices.emplace_back(v * scale + by);
   all.triangles = mesh.triangles;
   return all;
 }

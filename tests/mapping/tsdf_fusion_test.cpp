@@ -123,9 +123,9 @@ TEST(TsdfFusion, DistancesStayWithinTheTruncationHoweverOftenSpaceIsSeen) {
   Random random(3);
   TsdfFusion fusion;
   for (int scan = 0; scan < 10; ++scan) {  // thousands of rays through the sensor's own voxel
-    std::vector<Point> points;
-    for (int i = 0; i < 10000; ++i)
-      points.push_back(2.0 * Point(random.normal(), random.normal(), random.normal()).normalized());
+    std::vector<Point> points(10000);
+    for (Point& point : points)
+      point = 2.0 * Point(random.normal(), random.normal(), random.normal()).normalized();
     fusion.integrate(points, level_pose({0.01, 0.02, 0.03}, 0.1 * scan));
   }
   const TsdfMap map = fusion.map();

@@ -70,11 +70,11 @@ TEST_F(ScanFolder, WhatIsWrittenIsReadAgain) {
   {
     ScanWriter writer(folder_ / "run");
     for (int i = 0; i < 3; ++i) {
-      std::vector<Point> points;
-      for (int k = 0; k < 10 * i + 1; ++k)
-        points.push_back(
+      std::vector<Point> points(static_cast<std::size_t>(10 * i + 1));
+      for (Point& point : points)
+        point =
             Eigen::Vector3f(Point(random.normal(), random.normal(), random.normal()).cast<float>())
-                .cast<double>());
+                .cast<double>();
       const Eigen::Isometry3d pose = random_pose({1.0 * i, 2.0, 3.0}, random);
       writer.add(points, pose);
       scans.emplace_back(points, pose);

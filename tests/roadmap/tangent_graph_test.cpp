@@ -164,6 +164,7 @@ std::vector<detail::Part> plain_parts_of_regions(const Roadmap& roadmap,
         vertex == kNoVertex ? detail::kNoPart : parts.label[number(vertex)]);
   }
   std::vector<detail::Part> result;
+  result.reserve(met.size());
   for (const std::set<std::uint32_t>& labels : met)
     result.push_back(labels.size() == 1 ? static_cast<detail::Part>(*labels.begin())
                                         : detail::kNoPart);
