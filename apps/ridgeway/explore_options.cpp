@@ -3,7 +3,6 @@
 #include "explore_options.hpp"
 
 #include <numbers>
-#include <utility>
 
 #include "ridgeway/common/error.hpp"
 
@@ -20,15 +19,14 @@ ExplorationFlightConfig ExploreSettings::flight() const {
   sensor.camera.cy = 0.5 * (sensor.camera.height - 1);
   sensor.range_sigma = sigma;
   sensor.max_range = max_range;
-  for (const auto& [option, is_given] : {std::pair("--rows", rows.has_value()),
-                                         std::pair("--vertical-angle", vertical_angle.has_value())})
-    if (is_given && camera != "lidar")
-      throw InputError(option, "is of a lidar, and the camera is " + camera,
+  for (const Option& option : of_lidars)
+    if (option.is_given() && camera != "lidar")
+      throw InputError(option.name(), "is of a lidar, and the camera is " + camera,
                        "leave it out, or give --camera lidar");
   if (camera == "lidar")
-    flight.lidar = {.rows = rows.value_or(32),
+    flight.lidar = {.rows = rows,
                     .columns = 4 * width,
-                    .vertical = vertical_angle.value_or(60.0) * std::numbers::pi / 180.0,
+                    .vertical = vertical_angle * std::numbers::pi / 180.0,
                     .max_range = max_range,
                     .range_sigma = sigma};
   flight.bounds = bounds;
@@ -58,11 +56,11 @@ void add_explore_settings(Command& command, ExploreSettings& settings) {
                  "A perfect one, a stereo pair, or a lidar that spins");
   command.whole("--width", settings.width, {4, 4096},
                 "Pixels across, of 90 degrees; 3/4 as many down, of a lidar --rows");
-  command.whole("--rows", settings.rows, {2, 4096},
-                "Of a lidar, one above the other (default: 32)");
-  command.number("--vertical-angle", settings.vertical_angle,
-                 {.least = 0.0, .most = 179.0, .above = true},
-                 "Of a lidar, from the lowest row to the highest, degrees (default: 60)");
+  settings.of_lidars = {
+      command.whole("--rows", settings.rows, {2, 4096}, "Of a lidar, one above the other"),
+      command.number("--vertical-angle", settings.vertical_angle,
+                     {.least = 0.0, .most = 179.0, .above = true},
+                     "Of a lidar, from the lowest row to the highest, degrees")};
   command.number("--sigma", settings.sigma, kLengthsFromZero,
                  "Gaussian noise on every range, metres");
   command.number("--max-range", settings.max_range, kLengths,

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "command.hpp"
 #include "experiments/exploration_flight.hpp"
@@ -13,12 +14,12 @@ namespace ridgeway::cli {
 /// Of drone, camera and planner: what `explore` and `bench explore` share.
 struct ExploreSettings {
   std::string camera = "pinhole", planner = "ridgeway";
-  int width = 160;
-  std::optional<int> rows;               // of a lidar; default: 32
-  std::optional<double> vertical_angle;  // of a lidar, degrees; default: 60
+  int width = 160, rows = 32;
+  double vertical_angle = 60.0;  // degrees
   double sigma = 0.01, max_range = 10.0, max_yaw_rate = 90.0;
   std::optional<Box> bounds;
   ExplorationFlightConfig config;
+  std::vector<Option> of_lidars;
 
   /// All of it, checked but for what belongs to the world.
   ExplorationFlightConfig flight() const;

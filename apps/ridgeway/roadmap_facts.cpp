@@ -37,13 +37,6 @@ std::string shut_text(const BlockedRoute& blocked) {
   return "obstacles enclose one of them";
 }
 
-/// A place in the map's frame; in a planar map at the height of its layer, whatever its own.
-Point in_layer(const EsdfMap& esdf, const Point& point_world) {
-  Point local = to_local(esdf, point_world);
-  if (esdf.planar) local.z() = (kPlanarLayer + 0.5) * esdf.voxel_size;
-  return local;
-}
-
 nlohmann::ordered_json or_null(const std::optional<Point>& place) {
   return place ? json_of(*place) : nlohmann::ordered_json(nullptr);
 }
@@ -71,7 +64,7 @@ PlanResult given_path(const Roadmap& roadmap, std::vector<Point> waypoints,
   path.unknown = roadmap.esdf.unknown;
   std::vector<Point> local;
   for (Point& p : path.waypoints) {
-    local.push_back(in_layer(roadmap.esdf, p));
+    local.push_back(flight_place(roadmap.esdf, p));
     if (!has_voxel(local.back(), roadmap.esdf.voxel_size))
       throw InputError(where, "has a waypoint far outside the map", "give metres, in its frame");
     if (roadmap.esdf.planar) p = to_world(roadmap.esdf, local.back());
@@ -86,7 +79,7 @@ PlanResult given_path(const Roadmap& roadmap, std::vector<Point> waypoints,
 }
 
 std::string AnswerFacts::explain_collision(const Query& query, const Point& place) const {
-  const double distance = FreeSpace(roadmap_.esdf).distance(in_layer(roadmap_.esdf, place));
+  const double distance = FreeSpace(roadmap_.esdf).distance(flight_place(roadmap_.esdf, place));
   if (distance <= 0.0) {
     // Farther away it is hardly the place that was meant.
     const std::optional<double> snap =

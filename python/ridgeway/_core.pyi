@@ -493,12 +493,14 @@ class World:
         max_range: float = ...,
         range_sigma: float = ...,
         seed: int = ...,
+        time: float = ...,
     ) -> NDArray[np.float32]: ...
     def scan_with(
         self,
         lidar: SpinningLidar,
         T_world_sensor: ArrayLike,
         seed: int = ...,
+        time: float = ...,
     ) -> NDArray[np.float64]: ...
     def __repr__(self) -> str: ...
 

@@ -52,7 +52,7 @@ py::tuple frame_of(const DepthSequence& sequence, py::ssize_t i) {
 }
 
 py::array render(const World& world, const PinholeCamera& camera, py::handle pose,
-                 py::handle max_range, py::handle range_sigma, py::handle seed) {
+                 py::handle max_range, py::handle range_sigma, py::handle seed, py::handle time) {
   DepthSensor sensor;
   sensor.camera = camera;
   read(max_range, "max_range", sensor.max_range);
@@ -60,21 +60,24 @@ py::array render(const World& world, const PinholeCamera& camera, py::handle pos
   sensor.validate();
   const Eigen::Isometry3d T_world_camera = pose_from(pose, "T_world_camera");
   const auto number = static_cast<std::uint64_t>(whole_from(seed, "seed"));
+  const double now = number_from(time, "time");
   DepthImage image;
   {
     const py::gil_scoped_release release;
-    image = render_depth(world, sensor, T_world_camera, number);
+    image = render_depth(world_at(world, now), sensor, T_world_camera, number);
   }
   return image_array(std::move(image));
 }
 
-py::array scan(const World& world, const SpinningLidar& lidar, py::handle pose, py::handle seed) {
+py::array scan(const World& world, const SpinningLidar& lidar, py::handle pose, py::handle seed,
+               py::handle time) {
   const Eigen::Isometry3d T_world_sensor = pose_from(pose, "T_world_sensor");
   const auto number = static_cast<std::uint64_t>(whole_from(seed, "seed"));
+  const double now = number_from(time, "time");
   std::vector<Point> points;
   {
     const py::gil_scoped_release release;
-    points = scan_with(world, lidar, T_world_sensor, number);
+    points = scan_with(world_at(world, now), lidar, T_world_sensor, number);
   }
   return array_of(std::move(points));
 }
@@ -92,16 +95,22 @@ void add_world(py::module_& module) {
           },
           py::arg("voxel_size"), py::arg("bounds"),
           "occupancy(self, voxel_size, bounds)\n--\n\n"
-          "The OccupancyMap of who knows all of the world within a box, metres.")
+          "The OccupancyMap of who knows all of the world within a box, metres. Solids that come "
+          "and go "
+          "are in it.")
       .def("render_depth", &render, py::arg("camera"), py::arg("T_world_camera"),
            py::arg("max_range") = 10.0, py::arg("range_sigma") = 0.0, py::arg("seed") = 0,
-           "render_depth(self, camera, T_world_camera, max_range=10.0, range_sigma=0.0, seed=0)"
-           "\n--\n\nWhat a depth camera sees from a pose (4, 4): (H, W) float32, metres, 0 where "
-           "nothing is near.")
+           py::arg("time") = 0.0,
+           "render_depth(self, camera, T_world_camera, max_range=10.0, range_sigma=0.0, seed=0, "
+           "time=0.0)\n--\n\nWhat a depth camera sees from a pose (4, 4): (H, W) float32, metres, "
+           "0 where nothing is near.\n`time`: seconds, for solids that come and go.")
       .def("scan_with", &scan, py::arg("lidar"), py::arg("T_world_sensor"), py::arg("seed") = 0,
-           "scan_with(self, lidar, T_world_sensor, seed=0)\n--\n\n"
+           py::arg("time") = 0.0,
+           "scan_with(self, lidar, T_world_sensor, seed=0, time=0.0)\n--\n\n"
            "What a SpinningLidar measures in one turn, from a pose (4, 4) that it has all the "
-           "while: points (N, 3),\nmetres, in its frame, without beams that meet nothing in range.")
+           "while: points (N, 3),\nmetres, in its frame, without beams that meet nothing in range. "
+           "`time`: seconds, for solids that "
+           "come and go.")
       .def("__repr__", [](const World& world) {
         return "World(name='" + world.name + "', boxes=" + std::to_string(world.boxes.size()) +
                ", meshes=" + std::to_string(world.meshes.size()) + ")";

@@ -148,6 +148,20 @@ def test_worlds_are_rendered_and_voxelised(source):
     assert world.occupancy(0.2, ((0, 0, 0), (2, 2, 2))).counts["free"] > 0
 
 
+def test_solids_that_come_and_go_are_seen_while_they_are_there(tmp_path):
+    (tmp_path / "door.yaml").write_text(
+        "planes: [{point: [4, 0, 0], normal: [-1, 0, 0]}]\n"
+        "timed: [{from: 6, until: 14, boxes: [{centre: [2, 0, 0], size: [0.2, 2, 2]}]}]\n")
+    world = ridgeway.load_world(tmp_path / "door.yaml")
+    camera = ridgeway.PinholeCamera(width=5, height=5, fx=10, fy=10, cx=2, cy=2)
+    along_x = np.array([[0, 0, 1, 0], [-1, 0, 0, 0], [0, -1, 0, 0], [0, 0, 0, 1.0]])
+    seen = [world.render_depth(camera, along_x, time=time)[2, 2] for time in (0, 6, 13.9, 14)]
+    assert np.allclose(seen, [4, 1.9, 1.9, 4])
+    lidar = ridgeway.SpinningLidar()
+    nearest = [np.linalg.norm(world.scan_with(lidar, np.eye(4), time=time), axis=1).min() for time in (0, 7)]
+    assert nearest[0] > 3.9 and nearest[1] < 2
+
+
 def test_threads_plan_while_the_map_changes():
     states = two_rooms()
     voxels, values = lattice_voxels(states)

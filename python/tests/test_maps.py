@@ -98,6 +98,13 @@ def test_unaligned_floats_are_read():
     assert OccupancyMap.from_numpy(odd, 0.1).counts["occupied"] == 1
 
 
+def test_whole_numbers_of_any_width_are_states():
+    states = random_states(4)
+    for kind in (np.uint8, np.int8, np.uint16, np.int16, np.uint32, np.int32, np.uint64, np.int64):
+        values = OccupancyMap.from_numpy(states.astype(kind), 0.1).to_numpy().values
+        assert np.array_equal(values, trimmed(states)[0]), kind
+
+
 def test_truth_values_and_probabilities():
     truth = np.zeros((3, 4, 5), bool)
     truth[1, 2, 3] = True

@@ -94,6 +94,20 @@ def test_distances_are_those_of_brute_force(rooms):
     assert esdf.block_sites.shape == blocks.shape + (3,)
 
 
+def test_what_has_no_answer_is_refused_by_name_and_what_is_endless_is_read_so(roadmap, tmp_path):
+    roadmap.save(tmp_path / "rooms.ridge")
+    with pytest.raises(ValueError, match="rooms.ridge: is a roadmap already"):
+        ridgeway.load_map(tmp_path / "rooms.ridge")
+    with pytest.raises(ValueError, match="queries: needs about"):
+        roadmap.check(10**12)
+    for deepest in (-1.0, np.nan):
+        with pytest.raises(ValueError, match="deepest: is"):
+            roadmap.esdf.distance_at([[1.0, 1.0, 1.0]], deepest=deepest)
+    empty = ridgeway.OccupancyMap.from_numpy(np.full((20, 20, 20), ridgeway.FREE), 0.1)
+    alone = ridgeway.build(empty, min_clearance=0.2, unknown="free").plan((0.5, 0.5, 0.5), (1.5, 1.5, 1.5))
+    assert "clearance=inf" in repr(alone)
+
+
 def test_routes_of_a_plan_from_above_stay_in_its_plane():
     plan = np.full((60, 40), ridgeway.FREE)
     plan[[0, -1]] = plan[:, [0, -1]] = plan[30, 10:] = ridgeway.OCCUPIED

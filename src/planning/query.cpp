@@ -109,8 +109,7 @@ bool is_verified(const EsdfMap& esdf, const FreeSpace& space, const PlanResult& 
 
 Point place_in_local(const EsdfMap& esdf, const Point& point_world, double radius) {
   constexpr double kExact = 1e-10;  // of the radius: a tenth of what free means leaves for rounding
-  Point place = to_local(esdf, point_world);
-  if (esdf.planar) place.z() = (kPlanarLayer + 0.5) * esdf.voxel_size;
+  const Point place = flight_place(esdf, point_world);
   const double rounding =
       2.0 * std::numeric_limits<double>::epsilon() * point_world.cwiseAbs().maxCoeff();
   if (esdf.origin == VoxelIndex{} || !(rounding > kExact * radius && rounding < 1e-3 * radius) ||

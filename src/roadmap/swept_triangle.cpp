@@ -5,9 +5,9 @@
 namespace ridgeway::detail {
 namespace {
 
-/// Those from one segment to another lie in the triangle of the two and what joins them, where no
-/// place is farther from all sides than the circle in it is wide: if the sides are free for so much
-/// more, so are they.
+/// The segments from `first` to `last` lie in one triangle. No place of it is farther from its
+/// sides than the radius of the inscribed circle: if the sides are free for a radius larger by
+/// that, all of these segments are free.
 bool is_free(const RememberedSpace& space, double radius, const Fan& fan, int first, int last) {
   constexpr int kFew = 8;
   constexpr double kRounding = 1.0 + 1e-8;
@@ -18,8 +18,8 @@ bool is_free(const RememberedSpace& space, double radius, const Fan& fan, int fi
   }
   const Point from = fan.place(first), to = fan.place(last);
   const Point one = from - fan.apex, other = to - fan.apex, across = to - from;
-  const double circle = one.cross(other).norm() / (one.norm() + other.norm() + across.norm());
-  const double wide = (radius + circle) * kRounding;
+  const double inradius = one.cross(other).norm() / (one.norm() + other.norm() + across.norm());
+  const double wide = (radius + inradius) * kRounding;
   if (space.is_free(fan.apex, from, wide) && space.is_free(fan.apex, to, wide) &&
       space.is_free(from, to, wide))
     return true;

@@ -285,7 +285,7 @@ Json MapAnswers::trajectory(const Question& question) {
 Json MapAnswers::place(const Question& question) {
   constexpr const char* kStates[] = {"unknown", "free", "occupied"};
   const EsdfMap& esdf = roadmap_.esdf;
-  const Point local = to_local(esdf, parse_point(get(question, "at"), "at"));
+  const Point local = flight_place(esdf, parse_point(get(question, "at"), "at"));
   if (!has_voxel(local, esdf.voxel_size))
     throw InputError("at", "is too far outside the map", "give metres, in its frame");
   const VoxelId id = esdf.layout.find(voxel_at(local, esdf.voxel_size));

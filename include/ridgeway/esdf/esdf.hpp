@@ -202,6 +202,14 @@ struct EsdfMap {
   }
 };
 
+/// A place of the world in a map's local frame, where a robot flies: in a planar map at the height
+/// of its layer, whatever its own.
+inline Point flight_place(const EsdfMap& esdf, const Point& point_world) {
+  Point place = to_local(esdf, point_world);
+  if (esdf.planar) place.z() = (kPlanarLayer + 0.5) * esdf.voxel_size;
+  return place;
+}
+
 /// The least distance at which a voxel counts as free at a radius: inclusive, with a relative slack
 /// of 1e-9 on the radius, so that r / s a whole number is no matter of rounding.
 inline SquaredHalves least_clearance(double radius, double voxel_size) {
