@@ -109,7 +109,7 @@ bool is_verified(const EsdfMap& esdf, const FreeSpace& space, const PlanResult& 
 
 Point place_in_local(const EsdfMap& esdf, const Point& point_world, double radius) {
   constexpr double kExact = 1e-10;  // of the radius: a tenth of what free means leaves for rounding
-  const Point place = flight_place(esdf, point_world);
+  Point place = flight_place(esdf, point_world);
   const double rounding =
       2.0 * std::numeric_limits<double>::epsilon() * point_world.cwiseAbs().maxCoeff();
   if (esdf.origin == VoxelIndex{} || !(rounding > kExact * radius && rounding < 1e-3 * radius) ||
@@ -118,7 +118,7 @@ Point place_in_local(const EsdfMap& esdf, const Point& point_world, double radiu
   const FreeSpace space(esdf);
   for (int direction = 0; direction < 27; ++direction) {
     const VoxelIndex o = offset_of(direction);
-    const Point beside = place + rounding * Point(o.x, o.y, o.z);
+    Point beside = place + rounding * Point(o.x, o.y, o.z);
     if (space.is_free(beside, radius)) return beside;
   }
   return place;
