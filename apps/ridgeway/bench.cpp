@@ -7,7 +7,8 @@
 namespace ridgeway::cli {
 
 void add_bench_command(Command& program) {
-  Command bench = program.add("bench", "Run an experiment: a table, and pictures with -o FOLDER");
+  Command bench =
+      program.add("bench", "Run an experiment: a table, and files and pictures with -o FOLDER");
   bench.require_command();
   add_bench_explore(bench);
   add_bench_fusion(bench);

@@ -88,7 +88,7 @@ Json row_of(const ExplorationFlight& flight) {
     seconds[std::to_string(percent)] = number_or_null(flight.seconds_to(0.01 * percent));
     lengths[std::to_string(percent)] = number_or_null(flight.length_to(0.01 * percent));
   }
-  return {{"end", name_of(flight.end)},
+  return {{"end", std::string(flight.end_name())},
           {"seconds_to", seconds},
           {"length_to", lengths},
           {"seconds", flight.seconds},

@@ -238,7 +238,8 @@ void add_bench_live(Command& bench) {
                  "Gaussian noise on every range, metres");
   command.seed(config.seed, "Of places and noise");
   command.path("-o,--output", options->output,
-               "Folder for live.json, live.csv, and live_NAME.csv with a chart (PNG, SVG) of each");
+               "Folder for live.json, live.csv, and live_NAME.csv with a chart (PNG, SVG) of each; "
+               "with --changes for live_changes.json and live_changes.csv");
   command.footer("Example:\n  ridgeway bench live --worlds house,maze,door --verify 10 -o results");
   command.runs(options, run);
 }

@@ -251,8 +251,8 @@ void add_build_command(Command& program) {
       .required();
   command.path("-o,--output", options->output, "Roadmap to write, .ridge").required();
   command.number("--voxel-size", options->voxel_size, kLengths,
-                 "Metres; required for point clouds; 0.1 for meshes and worlds unless given; "
-                 "otherwise not finer than the map's own");
+                 "Metres; required for point clouds; 0.1 for meshes and worlds unless given; of "
+                 ".3dmap the size of a cell; otherwise not finer than the map's own");
   command.number("--min-clearance", build.min_clearance, kLengths,
                  "Smallest robot radius that the roadmap is for, metres");
   command.number("--max-distance", build.max_distance, kReaches,

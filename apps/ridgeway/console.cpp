@@ -71,6 +71,13 @@ void warn(const Globals& globals, const std::string& text) {
   note(globals, std::string("warning: ").append(text));
 }
 
+bool warn_of_unwritten(const Globals& globals, const std::filesystem::path& file) {
+  std::error_code error;
+  if (file.empty() || !std::filesystem::exists(file, error)) return false;
+  warn(globals, file.string() + " is of before: nothing was written to it");
+  return true;
+}
+
 std::string text_of(double value, int decimals) {
   if (std::isinf(value)) return value > 0 ? "infinite" : "-infinite";
   constexpr double kReadable = 1e9;  // beyond it as 1.5e+12

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
@@ -25,6 +26,8 @@ void print_row(std::string_view label, const std::string& value);
 std::string printable(std::string_view text);
 void note(const Globals& globals, const std::string& text);
 void warn(const Globals& globals, const std::string& text);
+/// Warns where a file that nothing was written to is there from before; tells whether it is.
+bool warn_of_unwritten(const Globals& globals, const std::filesystem::path& file);
 
 // Numbers as a person reads them.
 std::string text_of(double value, int decimals = 3);  ///< without trailing zeros

@@ -103,16 +103,11 @@ Spread milliseconds_of(const ExplorationFlight& flight) {
   return spread_of(std::move(milliseconds));
 }
 
-/// A flight that has not come to its end was cut off.
-std::string end_of(const ExplorationFlight& flight) {
-  return flight.end == ExplorationStatus::kKeep ? "cut_off" : std::string(name_of(flight.end));
-}
-
 void print(const ExplorationFlight& flight, const std::string& output, const Globals& globals) {
   const Spread decisions = milliseconds_of(flight);
   if (globals.json) {
     print_json({{"file", output},
-                {"end", end_of(flight)},
+                {"end", std::string(flight.end_name())},
                 {"complete", flight.is_complete},
                 {"coverage", flight.coverage},
                 {"viewable_volume", flight.viewable_volume},
@@ -127,7 +122,8 @@ void print(const ExplorationFlight& flight, const std::string& output, const Glo
                 {"unseen", json_of_unseen(flight)}});
     return;
   }
-  print_row("end", flight.is_complete ? "complete: no viewpoint sees a frontier" : end_of(flight));
+  print_row("end", flight.is_complete ? "complete: no viewpoint sees a frontier"
+                                      : std::string(flight.end_name()));
   print_row("mapped", text_of(100.0 * flight.coverage, 2) + " % of " +
                           text_of(flight.viewable_volume, 1) + " cubic metres that can be seen");
   print_row("flight", text_of(flight.seconds, 1) + " s, " + text_of(flight.length, 1) + " m, " +
@@ -178,7 +174,7 @@ int run(const ExploreOptions& options, const Globals& globals) {
   std::optional<ScanWriter> scans;
   if (!options.record.empty() && config.lidar) scans.emplace(options.record);
   if (!options.record.empty() && !config.lidar)
-    images.emplace(options.record, config.sensor.camera);
+    images.emplace(options.record, config.sensor.camera, config.scan_rate);
   ProgressBar bar(globals);
   const ExplorationFlight flight = explore(
       world, config, bar.callback(),

@@ -94,7 +94,10 @@ int run_one(const PlanOptions& options, const Roadmap& roadmap, const Globals& g
   const PlanResult& result = answer.plan;
   AnswerFacts facts(roadmap, options.escape, limits_of(options.limits), options.robot_height);
   const bool write = result.ok() && !options.output.empty();
-  if (write) write_output(options, result, options.output);
+  if (write)
+    write_output(options, result, options.output);
+  else
+    warn_of_unwritten(globals, options.output);
   if (globals.json) {
     print_json(json_of(facts, answer, query));
   } else {
@@ -162,7 +165,10 @@ int run(const PlanOptions& options, const Globals& globals) {
                      "give --from X,Y,Z and --to X,Y,Z, or --queries FILE alone");
   require_one_form(options);
   require_outputs(options);
-  if (!options.output.empty()) require_writable({outputs_of(options).front()}, {options.file});
+  if (!options.output.empty())
+    require_writable({options.alternatives ? output_of_route(options, 1)
+                                           : std::filesystem::path(options.output)},
+                     {options.file});
   const Roadmap roadmap = load_roadmap(options.file);
   if (batch) return run_batch(options, roadmap, globals);
   if (options.alternatives) return run_alternatives(options, roadmap, globals);
@@ -227,7 +233,7 @@ void add_plan_command(Command& program) {
       command.path("-o,--output", options->output,
                    "Path to write, .csv or .json; or a mission of QGroundControl, .plan");
   command.point("--datum", options->datum,
-                "Latitude, longitude and altitude of the map's origin, for missions: degrees, and "
+                "Latitude, longitude and altitude of the world's 0,0,0, for missions: degrees, and "
                 "metres above the sea");
   command.number("--x-heading", options->x_heading, {-360.0, 360.0},
                  "Compass heading of the map's x axis, for missions, degrees (default: 90, so that "

@@ -21,16 +21,10 @@ Datum datum_of(const PlanOptions& options) {
 
 }  // namespace
 
-std::vector<std::filesystem::path> outputs_of(const PlanOptions& options) {
-  const std::filesystem::path output(options.output);
-  if (!options.alternatives) return {output};
-  std::vector<std::filesystem::path> files;
-  for (std::size_t i = 1; i <= *options.alternatives; ++i) {
-    files.push_back(output);
-    files.back().replace_filename(output.stem().string() + "-" + std::to_string(i) +
-                                  output.extension().string());
-  }
-  return files;
+std::filesystem::path output_of_route(const PlanOptions& options, std::size_t number) {
+  std::filesystem::path file(options.output);
+  return file.replace_filename(file.stem().string() + "-" + std::to_string(number) +
+                               file.extension().string());
 }
 
 void require_outputs(const PlanOptions& options) {

@@ -2,16 +2,16 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
-#include <vector>
 
 #include "plan_options.hpp"
 #include "ridgeway/planning/plan.hpp"
 
 namespace ridgeway::cli {
 
-/// The files that `ridgeway plan` writes: of alternatives, which --output names, one for each.
-std::vector<std::filesystem::path> outputs_of(const PlanOptions& options);
+/// The file of one of several routes, counted from 1: --output with the number in its name.
+std::filesystem::path output_of_route(const PlanOptions& options, std::size_t number);
 
 /// Throws InputError where --output names no format, or a mission has no datum, or a datum no
 /// mission.

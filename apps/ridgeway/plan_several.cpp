@@ -19,6 +19,22 @@ double radius_of(const PlanOptions& options, const Roadmap& roadmap) {
   return options.radius.value_or(roadmap.min_clearance);
 }
 
+/// Writes a file for each route, where any was asked for.
+std::vector<std::filesystem::path> write_routes(const PlanOptions& options,
+                                                const std::vector<PlanResult>& routes,
+                                                const Globals& globals) {
+  std::vector<std::filesystem::path> files;
+  if (options.output.empty()) return files;
+  for (const PlanResult& route : routes) {
+    files.push_back(output_of_route(options, files.size() + 1));
+    write_output(options, route, files.back());
+  }
+  for (std::size_t next = files.size() + 1;
+       warn_of_unwritten(globals, output_of_route(options, next));)
+    ++next;
+  return files;
+}
+
 }  // namespace
 
 int run_alternatives(const PlanOptions& options, const Roadmap& roadmap, const Globals& globals) {
@@ -30,10 +46,7 @@ int run_alternatives(const PlanOptions& options, const Roadmap& roadmap, const G
   const Query planned = found.ok() ? query
                                    : as_planned(query, plan(roadmap, query.start, query.goal,
                                                             plan_config(options, query.radius)));
-  std::vector<std::filesystem::path> files;
-  if (!options.output.empty()) files = outputs_of(options);
-  files.resize(std::min(files.size(), found.routes.size()));
-  for (std::size_t i = 0; i < files.size(); ++i) write_output(options, found.routes[i], files[i]);
+  const std::vector<std::filesystem::path> files = write_routes(options, found.routes, globals);
   if (globals.json) {
     Json json = {{"status", std::string(name_of(found.status))},
                  {"radius", query.radius},
@@ -98,7 +111,10 @@ int run_nearest(const PlanOptions& options, const Roadmap& roadmap, const Global
   const PlanResult& plan = nearest.plan;
   AnswerFacts facts(roadmap, options.escape, limits_of(options.limits), options.robot_height);
   const bool write = plan.ok() && !options.output.empty();
-  if (write) write_output(options, plan, options.output);
+  if (write)
+    write_output(options, plan, options.output);
+  else
+    warn_of_unwritten(globals, options.output);
   if (globals.json) {
     Json json = json_of(facts, {.plan = plan}, query);
     json["goal"] = nearest.goal ? Json(*nearest.goal) : Json(nullptr);

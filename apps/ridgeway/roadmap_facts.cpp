@@ -78,38 +78,43 @@ PlanResult given_path(const Roadmap& roadmap, std::vector<Point> waypoints,
   return path;
 }
 
-std::string AnswerFacts::explain_collision(const Query& query, const Point& place) const {
+std::string AnswerFacts::explain_collision(const Query& query, const Point& place,
+                                           bool is_movable) const {
   const double distance = FreeSpace(roadmap_.esdf).distance(flight_place(roadmap_.esdf, place));
+  const std::string or_snap = is_movable ? ", or let --snap do so" : "";
   if (distance <= 0.0) {
+    const std::string inside = "it lies in an obstacle: move it to where the map is free";
+    if (!is_movable) return inside;
     // Farther away it is hardly the place that was meant.
     const std::optional<double> snap =
         smallest_snap(roadmap_, query.start, query.goal, 16.0 * query.radius,
                       {.radius = query.radius, .limits = limits_, .robot_height = robot_height_});
-    const std::string inside = "it lies in an obstacle: move it to where the map is free";
     return snap ? inside + ", or let --snap " + text_of(rounded_up(*snap)) + " do so" : inside;
   }
   std::string text = "it is " + metres(distance) + " from the nearest obstacle";
   if (robot_height_ > 0.0)
-    return text + ", and " + robot_text(query) +
-           " does not fit there: move it, let --snap do so, or give a smaller --radius or "
-           "--robot-height";
+    return text + ", and " + robot_text(query) + " does not fit there: move it" + or_snap +
+           ", or give a smaller --radius or --robot-height";
   if (distance >= query.radius)
     return text + ", but no voxel beside it can be reached at a radius of " + metres(query.radius) +
-           ": move it a little, or let --snap do so";
-  text += ", less than the radius of " + metres(query.radius) + ": move it, or let --snap do so";
-  text += escapes_ ? " (there is no straight way to where the robot fits)"
-                   : ", or give --escape to begin or end there";
+           ": move it a little" + or_snap;
+  text += ", less than the radius of " + metres(query.radius) + ": move it" + or_snap;
+  if (is_movable)
+    text += escapes_ ? " (there is no straight way to where the robot fits)"
+                     : ", or give --escape to begin or end there";
   if (distance >= roadmap_.min_clearance)
     return text + ", or give a --radius of at most " + metres_at_most(distance);
   return text + ", or build the map for a smaller robot with --min-clearance";
 }
 
-std::string AnswerFacts::explain_endpoint(const Query& query, PlanStatus status) const {
+std::string AnswerFacts::explain_endpoint(const Query& query, PlanStatus status,
+                                          OnTheWay on_the_way) const {
   const bool is_start =
       status <= PlanStatus::kStartInCollision || status == PlanStatus::kStartOutsideLimits;
+  const bool is_movable = !(is_start ? on_the_way.start : on_the_way.goal);
   const Point& place = is_start ? query.start : query.goal;
-  const std::string text =
-      std::string(is_start ? "the start " : "the goal ") + point_text(place) + " ";
+  const char* name = !is_movable ? "the place on the way " : is_start ? "the start " : "the goal ";
+  const std::string text = name + point_text(place) + " ";
   switch (status) {
     case PlanStatus::kStartOutsideMap:
     case PlanStatus::kGoalOutsideMap: {
@@ -120,14 +125,13 @@ std::string AnswerFacts::explain_endpoint(const Query& query, PlanStatus status)
     }
     case PlanStatus::kStartUnknown:
     case PlanStatus::kGoalUnknown:
-      return text +
-             "is in space that the map does not know: move it to where the map is free, or let "
-             "--snap do so";
+      return text + "is in space that the map does not know: move it to where the map is free" +
+             (is_movable ? ", or let --snap do so" : "");
     case PlanStatus::kStartOutsideLimits:
     case PlanStatus::kGoalOutsideLimits:
       return text + "is outside the limits of the flight: move it, or give wider limits";
     default:
-      return text + "cannot be used: " + explain_collision(query, place);
+      return text + "cannot be used: " + explain_collision(query, place, is_movable);
   }
 }
 
@@ -164,7 +168,7 @@ std::string AnswerFacts::explain_no_route(const Query& query) {
   return limits_.any() ? text + ", if the limits leave room for it" : text;
 }
 
-std::string AnswerFacts::reason(const Query& query, PlanStatus status) {
+std::string AnswerFacts::reason(const Query& query, PlanStatus status, OnTheWay on_the_way) {
   switch (status) {
     case PlanStatus::kOk:
       return {};
@@ -182,7 +186,7 @@ std::string AnswerFacts::reason(const Query& query, PlanStatus status) {
       return "the limit came before a path was found: give a larger --time-limit, or "
              "--iteration-limit where the planner samples";
     default:
-      return explain_endpoint(query, status);
+      return explain_endpoint(query, status, on_the_way);
   }
 }
 

@@ -25,6 +25,11 @@ Query as_planned(Query query, const PlanResult& plan);
 PlanResult given_path(const Roadmap& roadmap, std::vector<Point> waypoints,
                       const std::string& where);
 
+/// Which ends of a query are places on a longer way, which stay where they are.
+struct OnTheWay {
+  bool start = false, goal = false;
+};
+
 /// What people ask about answers, beyond what a query finds out: what a path runs beside, and why
 /// there is none. What that takes of the whole map is made once, when it is first asked for.
 class AnswerFacts {
@@ -41,7 +46,7 @@ class AnswerFacts {
   // Of a query as it was planned:
 
   /// Why a plan has its status, and what to do about it; empty if it is ok.
-  std::string reason(const Query& query, PlanStatus status);
+  std::string reason(const Query& query, PlanStatus status, OnTheWay on_the_way = {});
 
   /// What blocks the way where there is no route.
   std::optional<BlockedRoute> blocked(const Query& query, PlanStatus status);
@@ -50,8 +55,8 @@ class AnswerFacts {
 
  private:
   std::string explain_no_route(const Query& query);
-  std::string explain_endpoint(const Query& query, PlanStatus status) const;
-  std::string explain_collision(const Query& query, const Point& place) const;
+  std::string explain_endpoint(const Query& query, PlanStatus status, OnTheWay on_the_way) const;
+  std::string explain_collision(const Query& query, const Point& place, bool is_movable) const;
   std::string robot_text(const Query& query) const;
 
   const Roadmap& roadmap_;

@@ -58,7 +58,7 @@ int run(const SimulateOptions& options, const Globals& globals) {
   const DepthSensor sensor = sensor_of(options);
   const World world = load_world(options.world);
   const auto poses = sample_poses(world, sampling_of(options, world));
-  SequenceWriter writer(options.output, sensor.camera);
+  SequenceWriter writer(options.output, sensor.camera, options.rate);
   ProgressBar bar(globals);
   const Stopwatch watch;
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -108,7 +108,7 @@ void add_simulate_command(Command& program) {
   command.number("--clearance", options->clearance, kLengthsFromZero,
                  "Of the camera to all surfaces, metres");
   command.number("--rate", options->rate, {1e-3, 1e6},
-                 "Images a second, for solids of the world that come and go");
+                 "Images a second: their times, by which solids of the world come and go");
   command.seed(options->seed, "Of poses and noise");
   command.footer(
       "Example:\n"

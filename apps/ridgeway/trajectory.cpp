@@ -113,8 +113,10 @@ void print_result(const PlanResult& path, const TrajectoryResult& flown, double 
 }
 
 /// Exit code 2, with the reason, for a path or a trajectory that there is not.
-int report_none(const std::string& status, const std::string& reason, Json json,
-                const Globals& globals) {
+int report_none(const TrajectoryOptions& options, const std::string& status,
+                const std::string& reason, Json json, const Globals& globals) {
+  for (const std::string& file : {options.output, options.picture})
+    warn_of_unwritten(globals, file);
   json["status"] = status;
   json["reason"] = reason;
   if (globals.json) {
@@ -141,12 +143,13 @@ PlanConfig plan_config(const TrajectoryOptions& options, double radius) {
 struct Course {
   PlanResult path;
   Query query;
+  OnTheWay on_the_way;
   std::string leg;  // which part of the course the query is
 };
 
 Course find_course(const TrajectoryOptions& options, const Roadmap& roadmap, double radius) {
   if (!options.path.empty()) {
-    Course course{given_path(roadmap, read_path(options.path), options.path), {}, {}};
+    Course course{given_path(roadmap, read_path(options.path), options.path), {}, {}, {}};
     course.query = {course.path.waypoints.front(), course.path.waypoints.back(), radius};
     return course;
   }
@@ -154,7 +157,10 @@ Course find_course(const TrajectoryOptions& options, const Roadmap& roadmap, dou
   places.insert(places.end(), options.via.begin(), options.via.end());
   places.push_back(*options.to);
   ViaPlan via = plan_via(roadmap, places, plan_config(options, radius));
-  Course course{std::move(via.plan), {places[via.leg], places[via.leg + 1], radius}, {}};
+  Course course{std::move(via.plan),
+                {places[via.leg], places[via.leg + 1], radius},
+                {via.leg > 0, via.leg + 2 < places.size()},
+                {}};
   if (!options.via.empty())
     course.leg = "on leg " + count_text(via.leg + 1) + " of " + count_text(places.size() - 1) +
                  ", from " + point_text(course.query.start) + " to " +
@@ -198,14 +204,15 @@ int run(const TrajectoryOptions& options, const Globals& globals) {
   const Course course = find_course(options, roadmap, radius);
   const PlanResult& path = course.path;
   if (!path.ok())
-    return report_none(std::string(name_of(path.status)),
-                       course.leg + AnswerFacts(roadmap, options.escape, config.flight_limits,
-                                                options.robot_height)
-                                        .reason(as_planned(course.query, path), path.status),
-                       Json::parse(plan_json(path)), globals);
+    return report_none(
+        options, std::string(name_of(path.status)),
+        course.leg +
+            AnswerFacts(roadmap, options.escape, config.flight_limits, options.robot_height)
+                .reason(as_planned(course.query, path), path.status, course.on_the_way),
+        Json::parse(plan_json(path)), globals);
   const TrajectoryResult flown = fly_plan(roadmap.esdf, path, config);
   if (!flown.ok())
-    return report_none(std::string(name_of(flown.status)),
+    return report_none(options, std::string(name_of(flown.status)),
                        explain_no_trajectory(roadmap.esdf, path.waypoints, config, flown),
                        Json::parse(trajectory_json(path, flown, options.step)), globals);
 

@@ -23,28 +23,34 @@ def floor_plan(roadmap, *paths, height=None, graph=True, axes=None):
     """Draws a roadmap from above, and paths on it, from a disc to a square; returns matplotlib's Axes.
 
     `paths`: PlanResult, or arrays (N, 3), metres, world. `height`: of the layer whose walls are
-    shown, metres; None: the median of the paths', or without any of the graph's vertices'. `graph`:
-    draw the sparse graph too. `axes`: to draw on; None: those of a new figure.
+    shown, metres; None: the median of the paths', or without any of the graph's vertices'; planar
+    maps have one layer. `graph`: draw the sparse graph too. `axes`: to draw on; None: those of a
+    new figure.
     """
     import matplotlib.pyplot as plt
 
     states = roadmap.esdf.states()
     size, low = states.voxel_size, np.array(states.origin)
     ways = [np.reshape(getattr(path, "waypoints", path), (-1, 3)) for path in paths]
-    if height is None:
-        heights = np.concatenate([way[:, 2] for way in ways] + [[]])
-        height = np.median(heights if len(heights) else _heights_of(roadmap, states))
-    layer = int(np.floor((height - low[2]) / size))
-    if not 0 <= layer < states.values.shape[2]:
-        raise ValueError(f"height: expected metres within the map, got {height}")
-    shown = states.values[:, :, layer]
+    title = roadmap.source or "roadmap"
+    if states.values.ndim == 2:
+        shown = states.values
+    else:
+        if height is None:
+            heights = np.concatenate([way[:, 2] for way in ways] + [[]])
+            height = np.median(heights if len(heights) else _heights_of(roadmap, states))
+        layer = int(np.floor((height - low[2]) / size))
+        if not 0 <= layer < states.values.shape[2]:
+            raise ValueError(f"height: expected metres within the map, got {height}")
+        shown = states.values[:, :, layer]
+        title += f" at {low[2] + size * (layer + 0.5):.2f} m"
     # Unknown pale, free white, obstacles dark.
     shades = np.full(shown.shape + (3,), 0.85)
     shades[shown == FREE] = 1.0
     shades[shown == OCCUPIED] = 0.25
-    high = low + size * np.array(states.values.shape)
+    high = low[:2] + size * np.array(shown.shape)
     if axes is None:
-        wide, deep = high[:2] - low[:2]
+        wide, deep = high - low[:2]
         _, axes = plt.subplots(figsize=(9, np.clip(9 * deep / wide + 0.8, 3, 12)), layout="constrained")
     axes.imshow(
         shades.transpose(1, 0, 2), origin="lower", extent=(low[0], high[0], low[1], high[1])
@@ -68,5 +74,5 @@ def floor_plan(roadmap, *paths, height=None, graph=True, axes=None):
     axes.set_ylim(low[1], high[1])
     axes.set_xlabel("x, metres")
     axes.set_ylabel("y, metres")
-    axes.set_title(f"{roadmap.source or 'roadmap'} at {low[2] + size * (layer + 0.5):.2f} m")
+    axes.set_title(title)
     return axes

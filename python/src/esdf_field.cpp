@@ -229,7 +229,8 @@ void add_fields(py::module_& module) {
       .def("surroundings", &surroundings, py::arg("path"), py::arg("radius"),
            "surroundings(self, path, radius)\n--\n\n"
            "What straight segments (N, 3) run beside, whatever unknown space was taken for: a dict "
-           "of the smallest\ndistances to something known and to something unknown, metres, and of "
+           "of the smallest\ndistances to what is known to be occupied and to something unknown, "
+           "metres, and of "
            "the shares of the length that are\nnearer to the unknown than the radius "
            "(unknown_share) and within it (unknown_inside).")
       .def_property_readonly(
@@ -255,7 +256,8 @@ void add_fields(py::module_& module) {
           [](const py::object& self) {
             return blocks_view<std::uint32_t>(self.cast<const EsdfFace&>().esdf->squared, self);
           },
-          "(B, 8, 8, 8) uint32: squared distances in half voxels, exact; 2^32 - 1: none is near.")
+          "(B, 8, 8, 8) uint32: squared distances in half voxels, exact; 2^32 - 1: none is near. "
+          "Read-only;\nthe map's memory where it is in one piece.")
       .def_property_readonly(
           "block_sites",
           [](const EsdfFace& self) { return blocks_copy<std::int16_t>(self.esdf->site.values()); },

@@ -135,7 +135,8 @@ const Fields<PlanConfig>& plan_fields() {
           .add("radius", &PlanConfig::radius, "of the robot, metres; None: the roadmap's")
           .add("planner", &PlanConfig::planner, "'graph', 'diagram', 'esdf' (A*) or 'theta'")
           .add("shorten", &PlanConfig::shorten, "pull the path tight")
-          .add("quick", &PlanConfig::quick, "settle for a path a percent or two longer")
+          .add("quick", &PlanConfig::quick,
+               "settle for a path that is mostly a percent or two longer, but may be a detour")
           .add("within", &PlanConfig::within,
                "go on until at most so many times the shortest; 0: as long as that pays")
           .add("time_limit", &PlanConfig::time_limit, "seconds")

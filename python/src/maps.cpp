@@ -224,7 +224,7 @@ void add_maps(py::module_& module) {
       "gives a planar map,\nof a robot that stays in that layer.\n\n"
       "  states: bool (True: occupied, False: free); whole numbers (UNKNOWN, FREE, "
       "OCCUPIED); or\n"
-      "    floats, the probability of being occupied: free below `free_below`, "
+      "    floats (32 or 64 bits), the probability of being occupied: free below `free_below`, "
       "occupied above\n    `occupied_above`, else unknown\n"
       "  voxel_size: metres\n"
       "  origin: low corner of the voxel [0, 0, 0], metres; a whole number of voxels\n\n"

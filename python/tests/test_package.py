@@ -8,6 +8,7 @@ import os
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 import ridgeway
@@ -90,6 +91,13 @@ def test_floor_plans_are_drawn(roadmap, tmp_path):
     assert 0.3 < float(ridgeway.plot.floor_plan(roadmap).get_title().split()[-2]) < 2.1
     with pytest.raises(ValueError, match="height"):
         ridgeway.plot.floor_plan(roadmap, height=99)
+
+    plane = np.full((40, 30), ridgeway.FREE, np.uint8)
+    plane[[0, -1]] = plane[:, [0, -1]] = ridgeway.OCCUPIED
+    planar = ridgeway.build(ridgeway.OccupancyMap.from_numpy(plane, 0.1), min_clearance=0.2)
+    axes = ridgeway.plot.floor_plan(planar, planar.plan((1, 1, 0), (3, 2, 0)))
+    assert axes.images[0].get_array().shape[:2] == (30, 40)
+    assert axes.get_xlim() == (0.0, 4.0) and axes.get_ylim() == (0.0, 3.0)
 
 
 @pytest.fixture(scope="module")

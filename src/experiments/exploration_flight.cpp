@@ -317,6 +317,10 @@ ExplorationFlight explore(const World& world, const ExplorationFlightConfig& con
   return ExplorationRun(world, config, bounds, on_image, on_scan).run(progress, on_moment);
 }
 
+std::string_view ExplorationFlight::end_name() const {
+  return end == ExplorationStatus::kKeep ? "cut_off" : name_of(end);
+}
+
 double ExplorationFlight::seconds_to(double share) const {
   for (const ExplorationSample& sample : samples)
     if (sample.mapped >= share) return sample.state.time;

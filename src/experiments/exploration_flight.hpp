@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ridgeway/common/error.hpp"
@@ -87,6 +88,8 @@ struct ExplorationFlight {
   std::shared_ptr<const Roadmap> roadmap;  ///< settled
   OccupancyMap map;
 
+  /// The name of `end`; "cut_off" where the flight came to none.
+  std::string_view end_name() const;
   /// Seconds until a share was known; infinite where it never was.
   double seconds_to(double share) const;
   double length_to(double share) const;

@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
+#include <cmath>
+
 #include "common/number_text.hpp"
 #include "depth_layouts.hpp"
 #include "depth_png.hpp"
 #include "files/atomic_file.hpp"
 #include "recording_folder.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/recordings/depth_sequence.hpp"
 
 namespace ridgeway {
-namespace {
 
-namespace fs = std::filesystem;
-
-constexpr double kFrameSeconds = 0.1;  // between simulated images
-
-}  // namespace
-
-SequenceWriter::SequenceWriter(const fs::path& folder, const PinholeCamera& camera)
-    : camera_(camera) {
+SequenceWriter::SequenceWriter(const std::filesystem::path& folder, const PinholeCamera& camera,
+                               double rate)
+    : camera_(camera), rate_(rate) {
   camera.validate();
+  if (!(rate > 0.0) || !std::isfinite(rate))
+    throw InputError("rate", "is no number of images a second", "give one above 0");
   temporary_ = begin_folder(folder, "depth", folder_);
 }
 
@@ -27,7 +26,7 @@ SequenceWriter::~SequenceWriter() = default;
 void SequenceWriter::add(const DepthImage& image, const Eigen::Isometry3d& T_world_camera) {
   const std::string name = numbered("depth/", count_, ".png");
   write_depth_png(image, temporary_->path() / name, kTumUnits);
-  const std::string time = number_text(count_ * kFrameSeconds);
+  const std::string time = number_text(count_ / rate_);
   images_ += time + " " + name + "\n";
   poses_ += time + " " + pose_text(T_world_camera) + "\n";
   ++count_;

@@ -276,7 +276,13 @@ TEST_F(CliLimits, TrajectoriesGoViaPlacesAndLeaveTightOnes) {
             via["waypoints"].end());
   const Outcome shut = fly({"--from", "-2,1,1", "--to", "2,1,1", "--via", "0.05,-1.9,1"});
   EXPECT_EQ(shut.code, 2);
-  EXPECT_NE(shut.json()["reason"].get<std::string>().find("0.05,-1.9,1"), std::string::npos);
+  const std::string reason = shut.json()["reason"];
+  EXPECT_NE(reason.find("the place on the way 0.05,-1.9,1"), std::string::npos) << reason;
+  EXPECT_EQ(reason.find("--snap"), std::string::npos) << reason;  // is of start and goal
+  const std::string of_goal =
+      fly({"--from", "-2,1,1", "--to", "0.05,-1.9,1", "--via", "1,-1,1.4"}).json()["reason"];
+  EXPECT_NE(of_goal.find("the goal 0.05,-1.9,1"), std::string::npos) << of_goal;
+  EXPECT_NE(of_goal.find("--snap"), std::string::npos) << of_goal;
   // A take-off from the floor.
   const Outcome down = fly({"--from", "-2,1,0.1", "--to", "2,1,1"});
   EXPECT_EQ(down.json()["status"], "start_in_collision");

@@ -217,6 +217,30 @@ TEST_F(CliPlan, AnswersAFileOfQueries) {
   expect_refused({"plan", map, "--queries", path("queries.csv")}, {"line 2"});
 }
 
+TEST_F(CliPlan, FilesOfBeforeThatNothingIsWrittenToAreTold) {
+  const std::string map = rooms();
+  for (const char* name : {"path.csv", "way-2.csv", "way-3.csv"})
+    write_whole(folder_ / name, "of before");
+  const std::vector<std::string> into_wall = {"--from", "-2,1.5,1", "--to", "0.05,1.9,1"};
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"plan", map, "-o", path("path.csv")},
+        {"plan", map, "--nearest", "-o", path("path.csv")},
+        {"trajectory", map, "-o", path("path.csv")}}) {
+    std::vector<std::string> words = command;
+    words.insert(words.end(), into_wall.begin(), into_wall.end());
+    const Outcome none = run(words);
+    EXPECT_EQ(none.code, 2);
+    EXPECT_NE(none.err.find("path.csv is of before"), std::string::npos) << none.err;
+    EXPECT_EQ(read_whole(folder_ / "path.csv"), "of before");
+  }
+  const Outcome one = run({"plan", map, "--from", "-2,1.5,1", "--to", "-1,1.5,1", "--alternatives",
+                           "9", "-o", path("way.csv")});
+  EXPECT_EQ(one.code, 0) << one.err;
+  EXPECT_EQ(one.err.find("way-1.csv"), std::string::npos) << one.err;
+  for (const char* name : {"way-2.csv is of before", "way-3.csv is of before"})
+    EXPECT_NE(one.err.find(name), std::string::npos) << one.err;
+}
+
 TEST_F(CliPlan, AlternativesAreRoutesWithTheKeysOfPlans) {
   // A pillar before the door.
   ASSERT_EQ(build_rooms("pillar.ridge", {"--exclude", "-1.6,-0.2,0,-1.2,0.2,2"}).code, 0);

@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 TEST(DepthSequence, GivesBackWhatWasWritten) {
   const TemporaryFolder folder;
   const PinholeCamera camera{40, 30, 20.0, 21.0, 19.5, 14.5};
-  SequenceWriter writer(folder / "run", camera);
+  SequenceWriter writer(folder / "run", camera, 4.0);
   std::vector<Eigen::Isometry3d> poses;
   for (int i = 0; i < 12; ++i) {
     poses.push_back(level_pose({0.1 * i, 2.0, -1.0}, 0.3 * i));
@@ -44,11 +44,14 @@ TEST(DepthSequence, GivesBackWhatWasWritten) {
   ASSERT_EQ(sequence.frames.size(), 12u);
   EXPECT_EQ(sequence.without_pose, 0u);
   for (std::size_t i = 0; i < 12; ++i) {
+    EXPECT_EQ(sequence.frames[i].time, 0.25 * static_cast<double>(i));
     EXPECT_LT((sequence.frames[i].T_world_camera.matrix() - poses[i].matrix()).norm(), 1e-12);
     EXPECT_NEAR(read_frame(sequence, sequence.frames[i]).depth[7], random_image(40, 30, i).depth[7],
                 1e-3);
   }
   EXPECT_THROW(SequenceWriter(folder / "run", camera), InputError);
+  for (const double rate : {0.0, -1.0, std::nan(""), HUGE_VAL})
+    EXPECT_THROW(SequenceWriter(folder / "other", camera, rate), InputError);
 }
 
 /// A folder with one image in the layout of TUM RGB-D.

@@ -70,7 +70,9 @@ struct ExplorerConfig {
   /// The goal is given up once less than this share is left of what was to be seen from there.
   double resolved_below = 0.3;
   std::size_t most_rays = 3000;  ///< cast in one decision; what is left over waits for the next
-  std::size_t most_stops = 20;   ///< of a tour; the nearest, the others count when these are seen
+  /// Of a tour: those that give most for the time (kNearest: the nearest); the others count when
+  /// these are seen.
+  std::size_t most_stops = 20;
   /// Metres to obstacles and the unknown that the rest of a trajectory must keep, by the newest
   /// map, or another one is looked for at once; 0: the roadmap's min_clearance. Less of it than
   /// that keeps noise on surfaces from stopping the robot.
@@ -161,8 +163,9 @@ struct UnseenFrontier {
 /// each cube of the side `spacing`; where no diagram passes through a cube its widest traversable
 /// voxel is one too, asked only for frontiers that no other sees. What is seen from each is found
 /// by rays through known-free voxels; they are kept, and cast again where the map has changed.
-/// A greedy cover of all frontiers by viewpoints with headings is ordered to a tour (nearest
-/// insertion, 2-opt and or-opt) by the time of flight along the roadmap, turning included.
+/// Of a greedy cover of all frontiers by viewpoints with headings the stops that give most for the
+/// time are ordered to a tour (nearest insertion, 2-opt and or-opt): by the mean time until what
+/// they give is seen, and a little by the time of all, flown along the roadmap, turning included.
 ///
 /// Complete means: no reachable viewpoint of these, at any heading, sees a target of a frontier of
 /// at least the least size, but for targets that were looked at in vain.

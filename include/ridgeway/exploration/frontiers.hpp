@@ -44,8 +44,7 @@ struct FrontierCluster {
 /// of an update from nothing.
 class Frontiers {
  public:
-  /// `within`: voxels of the lattice that count as unknown or free at all. `ignored`: unknown
-  /// voxels of the lattice that are not worth a look (see ignore()).
+  /// `within`: voxels of the lattice that count as unknown or free at all.
   explicit Frontiers(const VoxelRange& within = kAllVoxels) : within_(within) {}
   Frontiers(const Frontiers&) = delete;  // parts of blocks point to each other
   Frontiers& operator=(const Frontiers&) = delete;

@@ -23,8 +23,9 @@ struct LoadConfig {
   /// never finer.
   std::optional<double> voxel_size = std::nullopt;
   /// The flight volume: what is not wholly inside is unknown. Required for point clouds, which do
-  /// not record free space, and for worlds with planes; for other worlds and meshes the box around
-  /// them unless given.
+  /// not record free space, and for worlds without an end; for other worlds the box that their
+  /// planes enclose, or the one around their solids, and for meshes the one around them unless
+  /// given.
   std::optional<Box> bounds = std::nullopt;
   std::vector<Box> exclude = {};  ///< no-fly boxes, made occupied
   /// From the file's frame to the world's, where nothing may lie beyond 1e9 voxels from zero.

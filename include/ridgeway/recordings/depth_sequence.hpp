@@ -60,8 +60,10 @@ DepthImage read_frame(const DepthSequence& sequence, const DepthFrame& frame);
 /// not at all.
 class SequenceWriter {
  public:
-  /// Throws InputError where the folder is there and not empty, or cannot be made.
-  SequenceWriter(const std::filesystem::path& folder, const PinholeCamera& camera);
+  /// `rate`: images a second, which gives their times. Throws InputError where the folder is there
+  /// and not empty, or cannot be made, or the rate is not positive and finite.
+  SequenceWriter(const std::filesystem::path& folder, const PinholeCamera& camera,
+                 double rate = 10.0);
   ~SequenceWriter();
   SequenceWriter(const SequenceWriter&) = delete;
   SequenceWriter& operator=(const SequenceWriter&) = delete;
@@ -74,6 +76,7 @@ class SequenceWriter {
   std::filesystem::path folder_;
   std::unique_ptr<Temporary> temporary_;
   PinholeCamera camera_;
+  double rate_;
   std::string images_ = "# timestamp filename\n";
   std::string poses_ = "# timestamp tx ty tz qx qy qz qw\n";
   int count_ = 0;

@@ -18,7 +18,8 @@ struct GvdConfig {
   void validate() const;
 };
 
-/// Free voxels at least `radius` metres from every obstacle (inclusive). `within_limits`: only
+/// Voxels that are free (unknown ones too, where those are taken for free) and at least `radius`
+/// metres from every obstacle (inclusive). `within_limits`: only
 /// those within the map's flight limits.
 VoxelMask traversable_voxels(const EsdfMap& esdf, double radius, bool within_limits = true);
 
