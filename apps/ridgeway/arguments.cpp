@@ -193,6 +193,20 @@ void require_writable(const std::vector<std::filesystem::path>& files,
   }
 }
 
+void require_outside(const std::filesystem::path& folder,
+                     const std::vector<std::filesystem::path>& files) {
+  std::filesystem::path whole = file_of(folder);
+  if (!whole.has_filename()) whole = whole.parent_path();  // "run/"
+  for (const std::filesystem::path& file : files) {
+    const std::filesystem::path named = file_of(file);
+    const auto [in_folder, in_file] =
+        std::mismatch(whole.begin(), whole.end(), named.begin(), named.end());
+    if (in_folder == whole.end())
+      throw InputError(file.string(), "lies in a folder that is written, " + folder.string(),
+                       "give another place for one of them");
+  }
+}
+
 void require_extension(const std::filesystem::path& file, const std::string& what,
                        std::initializer_list<const char*> extensions) {
   std::string names;

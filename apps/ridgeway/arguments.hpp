@@ -74,6 +74,10 @@ std::string range_text(const Range& range);
 void require_writable(const std::vector<std::filesystem::path>& files,
                       const std::vector<std::filesystem::path>& inputs);
 
+/// Throws InputError where one of the files is a folder that is written too, or lies in it.
+void require_outside(const std::filesystem::path& folder,
+                     const std::vector<std::filesystem::path>& files);
+
 /// Throws InputError unless the name of what is written ends as it should: a map must not be
 /// written over because the wrong name slipped in. `what` as in "a roadmap".
 void require_extension(const std::filesystem::path& file, const std::string& what,

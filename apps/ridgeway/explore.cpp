@@ -163,6 +163,7 @@ int run(const ExploreOptions& options, const Globals& globals) {
   for (const std::string& file : {options.flight, options.volume, options.picture})
     if (!file.empty()) outputs.emplace_back(file);
   require_writable(outputs, {options.world});
+  if (!options.record.empty()) require_outside(options.record, outputs);
   require_extension(options.output, "a roadmap", {".ridge"});
   if (!options.picture.empty()) require_extension(options.picture, "a picture", {".png", ".svg"});
   for (const std::string& file : {options.flight, options.volume})

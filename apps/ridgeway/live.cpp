@@ -138,7 +138,7 @@ void replay_frame(Run& run, const std::filesystem::path& frame, std::size_t scan
   // As many of all as of the scans.
   run.load.allow(scans == 0 ? run.options.queries : run.options.queries * done / scans);
   scene.roadmap = run.live.snapshot();
-  scene.scans = scans;
+  if (scans > 0) scene.scans = scans;
   scene.scan = done;
   scene.seconds = replay.watch.seconds();
   run.followed.show(std::move(scene));

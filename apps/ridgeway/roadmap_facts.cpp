@@ -55,27 +55,11 @@ Query as_planned(Query query, const PlanResult& plan) {
 
 PlanResult given_path(const Roadmap& roadmap, std::vector<Point> waypoints,
                       const std::string& where) {
-  PlanResult path;
-  path.waypoints = std::move(waypoints);
-  if (path.waypoints.empty())
-    throw InputError(where, "has no waypoint", "give a path of plan, or one of your own");
-  path.status = PlanStatus::kOk;
-  path.answered_by = Planner::kGiven;
-  path.unknown = roadmap.esdf.unknown;
-  std::vector<Point> local;
-  for (Point& p : path.waypoints) {
-    local.push_back(flight_place(roadmap.esdf, p));
-    if (!has_voxel(local.back(), roadmap.esdf.voxel_size))
-      throw InputError(where, "has a waypoint far outside the map", "give metres, in its frame");
-    if (roadmap.esdf.planar) p = to_world(roadmap.esdf, local.back());
+  try {
+    return given_plan(roadmap.esdf, std::move(waypoints));
+  } catch (const InputError& error) {
+    throw InputError(where, error.problem(), error.remedy());
   }
-  path.length = length_of(path.waypoints);
-  path.clearance = FreeSpace(roadmap.esdf).clearance(local);
-  const double straight = (path.waypoints.back() - path.waypoints.front()).norm();
-  path.within = straight > 0.0      ? std::max(path.length / straight, 1.0)
-                : path.length > 0.0 ? std::numeric_limits<double>::infinity()
-                                    : 1.0;
-  return path;
 }
 
 std::string AnswerFacts::explain_collision(const Query& query, const Point& place,

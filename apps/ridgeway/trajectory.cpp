@@ -68,7 +68,7 @@ std::string explain_not_free(const EsdfMap& esdf, const std::vector<Point>& path
   const FreeSpace space(esdf, limits, config.radius, config.robot_height);
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Point &from = path[i == 0 ? 0 : i - 1], &to = path[i];
-    const Point a = to_local(esdf, from), b = to_local(esdf, to);
+    const Point a = flight_place(esdf, from), b = flight_place(esdf, to);
     if (space.is_free(a, b, config.radius)) continue;
     const std::string leg =
         "the path is not free between " + point_text(from) + " and " + point_text(to) + ": ";

@@ -154,7 +154,7 @@ class Fields {
   };
 
   void set(Config& config, py::handle key, py::handle value) const {
-    const char* keyword = PyUnicode_AsUTF8(key.ptr());
+    const std::string keyword = text_from(key, "keyword");
     for (const Field& field : fields_)
       if (std::string_view(keyword) == field.name) return field.set(config, value);
     refuse_keyword(keyword, names());

@@ -48,7 +48,11 @@ std::string describe(py::handle value) {
   const std::string type = py::str(py::type::handle_of(value).attr("__name__"));
   std::string text = py::repr(value);
   constexpr std::size_t kMost = 60;
-  if (text.size() > kMost) text = text.substr(0, kMost) + "...";
+  std::size_t end = kMost;
+  if (text.size() > kMost) {
+    while (end > 0 && (text[end] & 0xc0) == 0x80) --end;  // not within a character
+    text = text.substr(0, end) + "...";
+  }
   return type + " " + text;
 }
 

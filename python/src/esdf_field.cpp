@@ -86,7 +86,7 @@ py::array ask_each(const EsdfFace& face, const std::vector<Point>& places, Value
     parallel_for_each_index(
         places.size(),
         [&](std::size_t i) {
-          const Point local = to_local(*face.esdf, places[i]);
+          const Point local = flight_place(*face.esdf, places[i]);
           if (has_voxel(local, face.esdf->voxel_size)) answers[i] = ask(space, local);
         },
         64);
@@ -116,7 +116,7 @@ double clearance(const EsdfFace& face, py::handle path) {
   std::vector<Point> local = points_from(path, "path");
   if (local.empty()) throw InputError("path", "has no points", "give one or more");
   for (Point& p : local) {
-    p = to_local(*face.esdf, p);
+    p = flight_place(*face.esdf, p);
     if (!has_voxel(p, face.esdf->voxel_size)) return 0.0;
   }
   const py::gil_scoped_release release;
@@ -142,7 +142,7 @@ bool path_is_free(const EsdfFace& face, py::handle path, py::handle radius) {
   if (local.empty()) throw InputError("path", "has no points", "give one or more");
   const double r = radius_from(radius);
   for (Point& p : local) {
-    p = to_local(*face.esdf, p);
+    p = flight_place(*face.esdf, p);
     if (!has_voxel(p, face.esdf->voxel_size)) return false;
   }
   const py::gil_scoped_release release;

@@ -45,9 +45,7 @@ FlightFace fly(const RoadmapFace& face, py::handle path, py::handle radius,
       throw InputError("path", "is no path: " + std::string(name_of(flight.path.status)),
                        "give a plan that is ok");
   } else {
-    flight.path.waypoints = points_from(path, "path");
-    flight.path.length = length_of(flight.path.waypoints);
-    flight.path.status = PlanStatus::kOk;
+    flight.path = given_plan(face.roadmap->esdf, points_from(path, "path"));
   }
   const py::gil_scoped_release release;
   const EsdfMap& esdf = face.roadmap->esdf;

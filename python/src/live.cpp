@@ -38,7 +38,7 @@ std::vector<VoxelChange> changes_from(py::handle voxels, py::handle states) {
     PyErr_Clear();
     throw py::type_error("states: expected one state, or (N,) of them, got " + describe(states));
   }
-  if (kind == 'f' || kind == 'b')
+  if (kind != 'i' && kind != 'u')
     throw py::type_error("states: expected whole numbers (0 unknown, 1 free, 2 occupied), got " +
                          describe(states));
   const bool is_one = array.ndim() == 0;

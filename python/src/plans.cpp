@@ -57,7 +57,7 @@ std::string reason_of(const PlanFace& plan) {
     return reason_of(plan.status);
   const auto& [roadmap, start, goal, config] = *plan.question;
   const EsdfMap& esdf = roadmap->esdf;
-  if (FreeSpace(esdf).distance(to_local(esdf, is_start ? start : goal)) > 0.0)
+  if (FreeSpace(esdf).distance(flight_place(esdf, is_start ? start : goal)) > 0.0)
     return reason_of(plan.status);
   const double radius = config.radius.value_or(roadmap->min_clearance);
   std::string text = std::string(is_start ? "the start" : "the goal") + " lies in an obstacle";

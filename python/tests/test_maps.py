@@ -288,3 +288,13 @@ def test_half_a_surrogate_pair_is_no_text():
     bare = OccupancyMap.from_numpy(np.full((20, 20, 20), FREE, np.uint8), 0.1)
     with pytest.raises(ridgeway.InputError, match="unknown.*surrogate"):
         ridgeway.build(bare, min_clearance=0.2, unknown="\ud800")
+    for call in (ridgeway.build, ridgeway.load_map):
+        with pytest.raises(ridgeway.InputError, match="surrogate"):
+            call(bare, **{"\ud800": 1})
+
+
+def test_texts_of_errors_are_cut_between_characters():
+    bare = OccupancyMap.from_numpy(np.full((20, 20, 20), FREE, np.uint8), 0.1)
+    for text in ("\u00e9" * 100, "a" + "\u00e9" * 100, "\u20ac" * 100):
+        with pytest.raises(TypeError, match="min_clearance: expected a number"):
+            ridgeway.build(bare, min_clearance=text)

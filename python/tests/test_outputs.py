@@ -82,6 +82,8 @@ def test_surroundings_tell_the_known_from_the_unknown():
     assert beside["known"] == pytest.approx(0.9) and beside["unknown"] == pytest.approx(0.5)
     assert beside["unknown_share"] == pytest.approx(1.0) and beside["unknown_inside"] == 0.0
     assert roadmap.esdf.surroundings([(1.0, 1.0, 1.5)], 0.3)["unknown_share"] == 0.0
+    with pytest.raises(ridgeway.InputError, match="no place of the map"):
+        roadmap.esdf.surroundings([(1.0, 1.0, 1.5), (1e300, 1.0, 1.5)], 0.3)
 
 
 def test_places_are_described(roadmap, rooms):

@@ -324,6 +324,15 @@ def test_trajectories_hold_their_limits(roadmap, tmp_path):
     assert not refused and refused.status == "path_not_free"
 
 
+def test_a_path_that_is_given_is_flown_as_one(roadmap, tmp_path):
+    path = roadmap.plan(START, GOAL)
+    roadmap.trajectory(path.waypoints).save(tmp_path / "given.json")
+    given = json.loads((tmp_path / "given.json").read_text())
+    assert given["answered_by"] == "given"
+    assert given["path_clearance"] == pytest.approx(path.clearance)
+    assert given["within"] == pytest.approx(path.within)
+
+
 def test_what_things_say_of_themselves(roadmap):
     things = [roadmap, roadmap.esdf, roadmap.graph, roadmap.diagram, roadmap.plan(START, GOAL),
               roadmap.alternatives(START, GOAL), roadmap.trajectory(roadmap.plan(START, GOAL)),

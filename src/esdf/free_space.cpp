@@ -23,11 +23,13 @@ double squared_limit(double radius, double voxel_size) {
   return 0.25 * least_clearance(radius, voxel_size).value;
 }
 
-/// Whether a point lies in, or on the border of, a known-free voxel.
+/// Whether a point lies in, or on the border of, a known-free voxel: but for rounding, also of the
+/// world's coordinates, where waypoints of paths were rounded.
 bool touches_free(const EsdfMap& esdf, const Vector& p) {
-  constexpr double kSlack = 1e-9;
-  const VoxelIndex low = voxel_holding(p - Vector::Constant(kSlack));
-  const VoxelIndex high = voxel_holding(p + Vector::Constant(kSlack));
+  constexpr double kSlack = 1e-9, kMetres = 1e-8;
+  const double slack = std::max(kSlack, kMetres / esdf.voxel_size);
+  const VoxelIndex low = voxel_holding(p - Vector::Constant(slack));
+  const VoxelIndex high = voxel_holding(p + Vector::Constant(slack));
   for (int z = low.z; z <= high.z; ++z)
     for (int y = low.y; y <= high.y; ++y)
       for (int x = low.x; x <= high.x; ++x) {

@@ -7,6 +7,7 @@
 
 #include "common/rounding.hpp"
 #include "obstacle_scan.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "voxel/mask_sets.hpp"
 
@@ -47,8 +48,10 @@ void for_each_piece(std::span<const Point> path, double voxel_size, const Body& 
   for (std::size_t i = path.size() == 1 ? 0 : 1; i < path.size(); ++i) {
     const Vector a = path[i == 0 ? 0 : i - 1] / voxel_size, along = path[i] / voxel_size - a;
     const double pieces = std::max(1.0, std::ceil(along.norm() / kPiece));
-    for (double k = 0.0; k < pieces; ++k)
+    for (double k = 0.0; k < pieces; ++k) {
+      detail::stop_if_cancelled();
       body(Vector(a + along * (k / pieces)), Vector(a + along * ((k + 1.0) / pieces)));
+    }
   }
 }
 
@@ -177,7 +180,11 @@ Surroundings::Kind Surroundings::voxels_of(VoxelState state) const {
 
 PathSurroundings Surroundings::along(std::span<const Point> path_world, double radius) const {
   std::vector<Point> path;
-  for (const Point& p : path_world) path.push_back(to_local(esdf_, p));
+  for (const Point& p : path_world) {
+    path.push_back(flight_place(esdf_, p));
+    if (!has_voxel(path.back(), esdf_.voxel_size))
+      throw InputError("path", "has a point that is no place of the map", "give finite metres");
+  }
   PathSurroundings result;
   const double s = esdf_.voxel_size;
   result.known = s * Nearest(*this, known_).along(path);

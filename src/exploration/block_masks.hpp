@@ -17,6 +17,13 @@ inline BlockMask difference(const BlockMask& a, const BlockMask& b) {
   return mask;
 }
 
+/// Whether all members of a set are in another.
+inline bool is_within(const BlockMask& set, const BlockMask& other) {
+  for (std::size_t z = 0; z < set.size(); ++z)
+    if ((set[z] & ~other[z]) != 0) return false;
+  return true;
+}
+
 /// The voxels of a block that have a state; all of them are unknown where there is no block.
 BlockMask mask_of(const EsdfMap& esdf, const BlockIndex& block, VoxelState state);
 

@@ -187,6 +187,15 @@ void Explorer::State::go_on(const FlightState& state, bool arrived, ExplorationS
     step.status = ExplorationStatus::kStuck;
 }
 
+/// The map counts from another voxel, as it was built again: what is kept in its frame moves.
+void Explorer::State::follow_origin(const VoxelIndex& by) {
+  std::map<VoxelIndex, int> moved;
+  for (const auto& [voxel, count] : looks) moved.emplace(voxel + by, count);
+  looks = std::move(moved);
+  last_look.reset();
+  goal.reset();
+}
+
 ExplorationStep Explorer::State::decide(std::shared_ptr<const Roadmap> now,
                                         const FlightState& given) {
   const bool arrived = given.time >= flying_since + flying.duration() - 1e-9;
@@ -194,6 +203,9 @@ ExplorationStep Explorer::State::decide(std::shared_ptr<const Roadmap> now,
   if (arrived) state.velocity = state.acceleration = Point::Zero();  // but for rounding
   const double began = detail::thread_seconds_now();
   ExplorationStep step;
+  asked_last = given.time;
+  if (roadmap && roadmap->esdf.origin != now->esdf.origin)
+    follow_origin(roadmap->esdf.origin - now->esdf.origin);
   roadmap = std::move(now);
   frontiers.update(roadmap);
   views.note_changes(*roadmap, frontiers);
@@ -241,8 +253,8 @@ ExplorationStep Explorer::decide(std::shared_ptr<const Roadmap> now, const Fligh
     throw InputError("roadmap", "does not take unknown space for an obstacle",
                      "build it with that policy");
   require_state(state);
-  if (state.time < state_->flying_since)
-    throw InputError("time", "is before that of the last trajectory", "give seconds of one clock");
+  if (state.time < state_->asked_last)
+    throw InputError("time", "is before that of the last decision", "give seconds of one clock");
   return state_->decide(std::move(now), state);
 }
 

@@ -55,6 +55,7 @@ void ExplorerConfig::validate() const {
                   "give seconds from 0");
   detail::require(resolved_below >= 0.0 && resolved_below < 1.0, "resolved_below", resolved_below,
                   "give a share from 0 up to 1");
+  detail::require(most_rays >= 1, "most_rays", most_rays, "give 1 or more");
   detail::require(most_stops >= 1 && most_stops <= 200, "most_stops", most_stops, "give 1 to 200");
   detail::require(kept_clearance >= 0.0 && std::isfinite(kept_clearance), "kept_clearance",
                   kept_clearance, "give metres above 0, or 0 for the roadmap's smallest radius");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "common/clock.hpp"
@@ -44,14 +45,32 @@ bool Explorer::State::is_in_doubt(const FlightState& state) const {
   return !find_doubts(roadmap->esdf, rest, radius).empty();
 }
 
-/// To a stop, straight on.
+/// Where what is flown leads to in so many metres, from a time of the state's clock on.
+Point Explorer::State::ahead(double seconds, double length) const {
+  constexpr double kStep = 0.02;  // seconds
+  double time = seconds - flying_since;
+  Point place = flying.at(time).position;
+  while (length > 0.0 && time < flying.duration()) {
+    time += kStep;
+    const Point next = flying.at(std::min(time, flying.duration())).position;
+    length -= (next - place).norm();
+    place = next;
+  }
+  return place;
+}
+
+/// To a stop: straight on, or along what was flown; in as little room as there is.
 bool Explorer::State::brake(const FlightState& state, ExplorationStep& step) const {
-  constexpr double kSlack = 1.5;  // jerk is bounded, too
+  constexpr std::array kSlack = {1.5, 1.25, 1.1};  // jerk is bounded, too
   const double speed = state.velocity.norm();
   if (speed < 1e-9) return false;
-  const double length = kSlack * speed * speed / (2.0 * config.limits.max_acceleration);
-  const Point end = state.position + length * state.velocity / speed;
-  return fly_to(to_local(roadmap->esdf, end), state.yaw, state, step);
+  for (const double slack : kSlack) {
+    const double length = slack * speed * speed / (2.0 * config.limits.max_acceleration);
+    for (const Point& end :
+         {Point(state.position + length * state.velocity / speed), ahead(state.time, length)})
+      if (fly_to(to_local(roadmap->esdf, end), state.yaw, state, step)) return true;
+  }
+  return false;
 }
 
 void Explorer::State::go_home(const FlightState& state, bool arrived, ExplorationStep& step) {
@@ -66,6 +85,8 @@ void Explorer::State::go_home(const FlightState& state, bool arrived, Exploratio
     // What is flown now, and from its end home, is in time.
     if (is_late && !arrived && !step.was_in_doubt) {
       step.trajectory = {};
+      if (step.status == ExplorationStatus::kFly) goal.reset();  // that trajectory is not flown
+      step.status = ExplorationStatus::kKeep;
       return;
     }
     is_returning = true;

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "explorer_state.hpp"
 #include "glances.hpp"
@@ -24,8 +25,9 @@ bool Explorer::State::look_around(const Point& here, bool thorough) {
   }
   constexpr int kThorough = 3;  // times twice as many rays, at first
   thorough_looks = thorough ? thorough_looks + 1 : 0;
-  const std::size_t rays = config.most_rays
-                           << (thorough ? std::min(kThorough + thorough_looks, 30) : 0);
+  const int doublings = thorough ? std::min(kThorough + thorough_looks, 30) : 0;
+  const std::size_t most = std::numeric_limits<std::size_t>::max() >> doublings;
+  const std::size_t rays = std::min(config.most_rays, most) << doublings;
   return views.update(*roadmap, frontiers, config.least_frontier, places, here, rays, thorough);
 }
 

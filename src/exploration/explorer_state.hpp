@@ -52,8 +52,10 @@ struct Explorer::State {
   std::set<std::pair<std::uint64_t, int>>
       passed;         ///< places and headings that were passed in flight
   Trajectory flying;  ///< world
-  double flying_since = 0.0;
-  double last_tour = -1e9;  ///< seconds, of the state's clock
+  // Seconds of the state's clock.
+  double flying_since = -std::numeric_limits<double>::infinity();
+  double asked_last = -std::numeric_limits<double>::infinity();
+  double last_tour = -std::numeric_limits<double>::infinity();
   /// At rest, and not done yet with what was begun: it goes on with the next scan.
   bool is_searching = false;
   int thorough_looks = 0;  ///< in a row, so far: at all there is, from everywhere
@@ -62,6 +64,7 @@ struct Explorer::State {
   bool has_seen_all = false;  ///< no viewpoint sees anything, by the thorough look
 
  private:
+  void follow_origin(const VoxelIndex& by);
   bool look_around(const Point& here, bool thorough);
   void count_looks(const Point& from, int heading, double share, int weight,
                    const detail::Place* standing);
@@ -82,6 +85,7 @@ struct Explorer::State {
   bool leaves_time_for_home(const FlightState& state, const Trajectory& trajectory) const;
   bool is_in_doubt(const FlightState& state) const;
   bool brake(const FlightState& state, ExplorationStep& step) const;
+  Point ahead(double seconds, double length) const;
   void go_on(const FlightState& state, bool arrived, ExplorationStep& step);
   bool choose(const FlightState& state, bool thorough, ExplorationStep& step);
   bool fly_tour(const std::vector<TourStop>& stops, const std::vector<std::size_t>& tour,

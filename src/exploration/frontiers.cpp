@@ -57,7 +57,11 @@ std::vector<BlockIndex> Frontiers::find_changed(const Roadmap& now) {
       if (layout.find_block(block) == BlockLayout::kNoBlock) changed_.push_back(block);
   std::sort(changed_.begin(), changed_.end());
   std::vector<BlockIndex> affected = changed_;
+  closed_.clear();
   for (const BlockIndex& block : changed_) {
+    if (roadmap_ && !detail::is_within(detail::mask_of(roadmap_->esdf, block, VoxelState::kFree),
+                                       detail::mask_of(now.esdf, block, VoxelState::kFree)))
+      closed_.push_back(block);
     detail::BlockMask before;
     before.fill(~std::uint64_t{0});
     if (roadmap_) before = detail::mask_of(roadmap_->esdf, block, VoxelState::kUnknown);
@@ -71,6 +75,7 @@ std::vector<BlockIndex> Frontiers::find_changed(const Roadmap& now) {
 
 void Frontiers::update(std::shared_ptr<const Roadmap> roadmap) {
   if (roadmap_ && roadmap && roadmap_->esdf.origin != roadmap->esdf.origin) {  // all has moved
+    move_ignored(roadmap_->esdf.origin - roadmap->esdf.origin);
     roadmap_.reset();
     entries_.clear();
   }
@@ -92,15 +97,25 @@ void Frontiers::update(std::shared_ptr<const Roadmap> roadmap) {
 }
 
 void Frontiers::ignore(std::span<const VoxelIndex> voxels) {
-  for (const VoxelIndex& voxel : voxels) {
-    const BlockIndex block = block_of(voxel);
-    const auto local = static_cast<std::size_t>(local_of(voxel));
-    std::uint64_t& layer = ignored_[block][local / 64];
-    if ((layer >> local % 64 & 1) != 0) continue;
-    layer |= std::uint64_t{1} << local % 64;
-    ++ignored_count_;
-    stale_.push_back(block);
-  }
+  for (const VoxelIndex& voxel : voxels) ignore(voxel);
+}
+
+void Frontiers::ignore(const VoxelIndex& voxel) {
+  const BlockIndex block = block_of(voxel);
+  const auto local = static_cast<std::size_t>(local_of(voxel));
+  std::uint64_t& layer = ignored_[block][local / 64];
+  if ((layer >> local % 64 & 1) != 0) return;
+  layer |= std::uint64_t{1} << local % 64;
+  ++ignored_count_;
+  stale_.push_back(block);
+}
+
+void Frontiers::move_ignored(const VoxelIndex& by) {
+  ignored_count_ = 0;
+  for (const auto& [block, layers] : std::exchange(ignored_, {}))
+    for (std::size_t z = 0; z < layers.size(); ++z)
+      for (std::uint64_t bits = layers[z]; bits != 0; bits &= bits - 1)
+        ignore(voxel_of(block, static_cast<int>(64 * z) + std::countr_zero(bits)) + by);
 }
 
 /// Those that are worth a look.

@@ -92,6 +92,8 @@ void Views::note_changes(const Roadmap& roadmap, const Frontiers& frontiers) {
     changed_.add(b.low);
     changed_.add(b.high);
   }
+  for (const BlockIndex& block : frontiers.closed_blocks())
+    closed_.push_back(bounds_of(block, roadmap.esdf.voxel_size));
 }
 
 void Views::follow_places(std::span<const Place> places) {
@@ -114,8 +116,10 @@ void Views::follow_places(std::span<const Place> places) {
   places_ = places;
 }
 
-/// What was seen across a place that has changed is to be looked at again.
+/// What was seen across a place that has changed is to be looked at again; where all of a part was
+/// seen, only across one in which something is no longer free.
 void Views::mark_changed(const Roadmap& roadmap, const Bounds& changed) {
+  const std::vector<Bounds> closed = std::exchange(closed_, {});
   std::vector<std::pair<BlockIndex, PartViews*>> parts;
   parts.reserve(of_part_.size());
   for (auto& [first, views] : of_part_) parts.emplace_back(block_of(first), &views);
@@ -130,10 +134,13 @@ void Views::mark_changed(const Roadmap& roadmap, const Bounds& changed) {
     for (const Candidate& candidate : views.candidates) {
       if (candidate.cached < 0) continue;
       Cached& cached = views.cached[static_cast<std::size_t>(candidate.cached)];
-      if (cached.all_seen || cached.is_stale) continue;
+      if (cached.is_stale || (cached.all_seen && closed.empty())) continue;
       Bounds way = part;
       way.add(places_[candidate.place].position);
-      cached.is_stale = way.meets(changed);
+      cached.is_stale =
+          way.meets(changed) &&
+          (!cached.all_seen || std::any_of(closed.begin(), closed.end(),
+                                           [&](const Bounds& block) { return way.meets(block); }));
     }
   });
 }

@@ -164,8 +164,9 @@ class Views {
   std::vector<std::uint32_t> new_places_;  ///< that were not there in the last update
   bool places_changed_ = false;
   std::uint64_t updates_ = 0;
-  Bounds changed_;           ///< around all that has changed since the last update
-  std::uint64_t noted_ = 0;  ///< the version of the frontiers whose changes are in it
+  Bounds changed_;              ///< around all that has changed since the last update
+  std::vector<Bounds> closed_;  ///< blocks in which something is no longer free since then
+  std::uint64_t noted_ = 0;     ///< the version of the frontiers whose changes are in it
 };
 
 }  // namespace ridgeway::detail

@@ -124,6 +124,7 @@ bool Temporary::make(Kind kind) {
   }
   if (descriptor_ < 0) {
     error_ = errno;
+    if (kind == Kind::kFolder) ::rmdir(path_.c_str());
     return true;
   }
   // File systems without locks leave stale files where they are.

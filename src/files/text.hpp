@@ -3,8 +3,11 @@
 #pragma once
 
 #include <charconv>
-#include <cstdlib>
+#include <cmath>
+#include <limits>
+#include <locale>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -25,6 +28,17 @@ inline std::string_view take_word(std::string_view& line) {
   return word;
 }
 
+/// What a number means that no double can hold: infinite, or zero. C's function would tell, but
+/// takes from the locale what stands for the point.
+inline double beyond_all(std::string_view number) {
+  std::istringstream stream{std::string(number)};
+  stream.imbue(std::locale::classic());
+  double value = 0.0;
+  stream >> value;  // the largest double where it is too large
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return std::abs(value) >= 1.0 ? std::copysign(kInfinity, value) : value;
+}
+
 /// Reads a number off the front of a text and cuts it off; false where there is none. Knows a
 /// leading "+", nan and inf; whatever the locale.
 inline bool take_number(std::string_view& text, double& value) {
@@ -33,9 +47,7 @@ inline bool take_number(std::string_view& text, double& value) {
   if (begin != end && *begin == '+') ++begin;
   const auto [stop, error] = std::from_chars(begin, end, value);
   if (error == std::errc::invalid_argument) return false;
-  // Out of range: C's function tells too large (infinite) from too small (zero).
-  if (error == std::errc::result_out_of_range)
-    value = std::strtod(std::string(begin, stop).c_str(), nullptr);
+  if (error == std::errc::result_out_of_range) value = beyond_all({begin, stop});
   text.remove_prefix(static_cast<std::size_t>(stop - text.data()));
   return true;
 }

@@ -4,7 +4,9 @@
 
 #include <png.h>
 
+#include <algorithm>
 #include <optional>
+#include <string>
 
 #include "files/byte_reader.hpp"
 #include "files/text.hpp"
@@ -93,10 +95,31 @@ struct PngImage {
   }
 };
 
-GreyImage read_png(std::string_view bytes, const std::string& name) {
+/// The file without what says how bright its numbers are meant to look: in a map they are states,
+/// and stay as they are.
+std::string without_colour_spaces(std::string_view bytes) {
+  constexpr std::size_t kSignature = 8, kFrame = 12;  // length, type and checksum of a chunk
+  const auto is_kept = [](std::string_view type) {
+    return type != "gAMA" && type != "cHRM" && type != "sRGB" && type != "iCCP";
+  };
+  std::string kept(bytes.substr(0, kSignature));
+  bytes.remove_prefix(std::min(kSignature, bytes.size()));
+  while (bytes.size() >= kFrame) {
+    std::size_t length = 0;
+    for (const char c : bytes.substr(0, 4)) length = length << 8 | static_cast<unsigned char>(c);
+    if (length > bytes.size() - kFrame) break;
+    if (is_kept(bytes.substr(4, 4))) kept.append(bytes.substr(0, length + kFrame));
+    bytes.remove_prefix(length + kFrame);
+  }
+  return kept.append(bytes);
+}
+
+GreyImage read_png(std::string_view file, const std::string& name) {
+  const std::string bytes = without_colour_spaces(file);
   PngImage png;
   if (png_image_begin_read_from_memory(&png.image, bytes.data(), bytes.size()) == 0) png.fail(name);
   require_size(png.image.width, png.image.height, name);
+  png.image.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;  // else 16 bits would be taken for linear light
   png.image.format = PNG_FORMAT_RGBA;
   const std::size_t count = std::size_t{png.image.width} * png.image.height;
   std::vector<std::uint8_t> colours(4 * count);

@@ -60,7 +60,11 @@ OccupancyMap load_planar_map(const std::filesystem::path& file, std::string_view
                      Eigen::AngleAxisd(facts.yaw, Eigen::Vector3d::UnitZ());
   const double voxel_size = config.voxel_size.value_or(facts.resolution);
   // So many that the lowest layer of larger voxels lies within what is known.
+  constexpr double kMostLayers = 1e6;
   const double layers = std::ceil(voxel_size / facts.resolution) + 1.0;
+  if (!(layers <= kMostLayers))
+    throw InputError("voxel size", "is more than a million pixels of " + name,
+                     "give a smaller one, in metres");
   const VoxelSource source = {facts.resolution, [&](const VoxelPlacement& placement) {
                                 return columns_of(image, facts, static_cast<int>(layers), placement,
                                                   name);

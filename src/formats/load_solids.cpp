@@ -104,6 +104,27 @@ void tell_of_voxels(const LoadConfig& config, LoadNotes* notes) {
                        " if that is metres: give units if it is not; else " + error.remedy());
 }
 
+/// Coordinates far from zero are known to some part of a voxel alone.
+void account_for_rounding(TriangleSoup& mesh, double voxel_size, const std::string& name,
+                          LoadNotes* notes) {
+  constexpr double kNothing = 1e-3, kTooMuch = 0.5;  // voxels
+  if (mesh.off <= kNothing * voxel_size) {
+    mesh.off = 0.0;
+    return;
+  }
+  const std::string off = number_text(std::ceil(1e4 * mesh.off) / 1e4) + " m";
+  const char* const remedy = "write it near zero, and say with transform where that is";
+  if (!(mesh.off <= kTooMuch * voxel_size))
+    throw InputError(name,
+                     "lies so far from zero that its coordinates, in single precision, are "
+                     "off by " +
+                         off,
+                     remedy);
+  tell(notes, "its coordinates, in single precision so far from zero, may be off by " + off +
+                  ": surfaces are so much thicker (" + remedy + ")");
+  mesh.off *= std::sqrt(3.0);  // whatever way it is turned
+}
+
 }  // namespace
 
 OccupancyMap load_mesh_map(const std::filesystem::path& file, std::string_view bytes,
@@ -112,6 +133,7 @@ OccupancyMap load_mesh_map(const std::filesystem::path& file, std::string_view b
   TriangleSoup mesh = read_mesh(file, bytes, format, {config.units, config.up});
   const MeshFrame own = mesh_frame(format, bytes);
   tell_of_frame(own, config, notes);
+  account_for_rounding(mesh, config.voxel_size.value_or(kUsualVoxelSize), name, notes);
   for (Point& v : mesh.vertices) v = config.transform * v;
   tell_of_voxels(config, notes);
   MeshMapReport report;

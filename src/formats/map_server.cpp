@@ -99,6 +99,7 @@ MapServerFile read_keys(const Keys& keys) {
 
 bool is_map_server(std::string_view text) {
   std::string_view head = text.substr(0, 16384);
+  if (head.starts_with("\xef\xbb\xbf")) head.remove_prefix(3);  // a byte order mark
   while (!head.empty()) {
     const std::size_t end = std::min(head.find('\n'), head.size());
     const std::string_view line = head.substr(0, end);

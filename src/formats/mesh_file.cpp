@@ -8,6 +8,7 @@
 #include <array>
 #include <cctype>
 #include <cstdlib>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -135,6 +136,16 @@ MeshReply read_triangles(const fs::path& file, std::string_view bytes, const std
   return *std::move(reply);
 }
 
+/// By how much coordinates of single precision may be off, also those that a file's own transforms
+/// were applied to.
+double rounding_of(const std::vector<Point>& vertices, const std::string& format) {
+  double largest = 0.0;
+  for (const Point& v : vertices)
+    if (v.allFinite()) largest = std::max(largest, v.cwiseAbs().maxCoeff());
+  const bool is_placed = format == "dae" || format == "glb" || format == "gltf";
+  return (is_placed ? 4.0 : 0.5) * std::numeric_limits<float>::epsilon() * largest;
+}
+
 }  // namespace
 
 std::string mesh_format(std::string_view bytes, const fs::path& file) {
@@ -175,9 +186,10 @@ TriangleSoup read_mesh(const fs::path& file, std::string_view bytes, const std::
   if (own.unit) scale /= *own.unit > 0.0 ? *own.unit : 1.0;
   Eigen::Matrix3d turn = z_up_from(given.up.value_or(own.up.value_or(UpAxis::kZ)));
   if (own.up) turn = turn * z_up_from(*own.up).transpose();
+  const double off = scale * rounding_of(reply.vertices, format);
   if (scale != 1.0 || !turn.isIdentity(0.0))
     for (Point& v : reply.vertices) v = scale * (turn * v);
-  return {std::move(reply.vertices), std::move(reply.triangles)};
+  return {std::move(reply.vertices), std::move(reply.triangles), off};
 }
 
 std::shared_ptr<const SolidMesh> load_mesh(const fs::path& file, const Progress& progress) {

@@ -28,7 +28,8 @@ struct MeshFrame {
 MeshFrame mesh_frame(const std::string& format, std::string_view bytes);
 
 /// The triangles of a mesh file in metres, z up: its own frame, unless another is given; what
-/// neither says is metres and z up. Throws InputError as load_mesh does.
+/// neither says is metres and z up. With what single precision leaves of its coordinates. Throws
+/// InputError as load_mesh does.
 TriangleSoup read_mesh(const std::filesystem::path& file, std::string_view bytes,
                        const std::string& format, const MeshFrame& given,
                        const Progress& progress = {});

@@ -12,6 +12,7 @@
 
 #include "files/byte_reader.hpp"
 #include "files/text.hpp"
+#include "mapping/memory_limit.hpp"
 #include "scalar_type.hpp"
 
 namespace ridgeway {
@@ -220,6 +221,9 @@ PointCloud read_compressed(ByteReader& reader, const PcdHeader& header) {
     reader.fail("unpacks to " + std::to_string(unpacked) + " bytes, not to its points",
                 kCheckPcdHeader);
   if (unpacked / most_gain > packed) reader.fail("is too short for its points", kCheckPcdHeader);
+  require_memory(static_cast<double>(unpacked) +
+                     static_cast<double>(sizeof(Point)) * static_cast<double>(header.points),
+                 reader.name(), "take fewer points");
   std::string values(unpacked, '\0');
   if (lzf_decompress(reader.rest().data(), static_cast<unsigned>(packed), values.data(),
                      static_cast<unsigned>(unpacked)) != unpacked)

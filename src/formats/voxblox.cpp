@@ -12,6 +12,7 @@
 #include "common/number_text.hpp"
 #include "files/byte_reader.hpp"
 #include "files/text.hpp"
+#include "mapping/memory_limit.hpp"
 #include "protobuf.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
 
@@ -152,19 +153,31 @@ VoxbloxLayer read_layer(ByteReader& file, Place& place) {
   VoxbloxLayer layer = read_layer_message(place, begin, end);
   for (place.block = 1; place.block < messages; ++place.block) {
     const auto [first, last] = next();
+    if (layer.blocks.size() == layer.blocks.capacity())  // they may be of a few bytes each
+      require_memory(3.0 * sizeof(VoxbloxBlock) * static_cast<double>(layer.blocks.size() + 1),
+                     place.text(), "cut the map into parts");
     layer.blocks.push_back(read_block(place, first, last, layer));
   }
   return layer;
 }
 
+/// In single precision, as voxblox has it, unless another block would have the same: then in
+/// double.
+double block_origin(int index, const VoxbloxLayer& layer) {
+  const auto size = static_cast<float>(layer.voxel_size) * static_cast<float>(layer.side);
+  const auto single = static_cast<double>(static_cast<float>(index) * size);
+  const double own = index * (layer.voxel_size * layer.side);
+  constexpr double kSurely = 0.25;  // of a block
+  return std::abs(single - own) < kSurely * layer.voxel_size * layer.side ? single : own;
+}
+
 std::string block_bytes(const VoxbloxLayer& layer, const VoxbloxBlock& block) {
   ProtobufWriter writer;
-  const auto size = static_cast<float>(layer.voxel_size) * static_cast<float>(layer.side);
   writer.whole(1, static_cast<std::uint64_t>(layer.side));
   writer.real(2, static_cast<double>(static_cast<float>(layer.voxel_size)));
-  writer.real(3, static_cast<double>(static_cast<float>(block.index.x) * size));
-  writer.real(4, static_cast<double>(static_cast<float>(block.index.y) * size));
-  writer.real(5, static_cast<double>(static_cast<float>(block.index.z) * size));
+  writer.real(3, block_origin(block.index.x, layer));
+  writer.real(4, block_origin(block.index.y, layer));
+  writer.real(5, block_origin(block.index.z, layer));
   writer.whole(6, block.has_data ? 1 : 0);
   for (const std::uint32_t word : block.words) writer.whole(7, word);
   return writer.bytes();

@@ -57,19 +57,25 @@ void Correction::in_background(Work work) {
 }
 
 bool Correction::is_ready(const FrameIndex& now) {
-  if (!work_.valid()) return true;
+  if (failure_ || !work_.valid()) return true;
   if (work_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
   const std::size_t later = now.poses.size() - scans_.frames.poses.size();
   if (later <= kFewFrames || rounds_ == kMostRounds) return true;
-  std::vector<std::uint32_t> frames = note_later_frames(now);
-  in_background([this, before = std::move(work_), frames = std::move(frames)]() mutable {
-    before.get();
-    fuse_all(frames);
-  });
+  try {
+    std::vector<std::uint32_t> frames = note_later_frames(now);
+    in_background([this, before = std::move(work_), frames = std::move(frames)]() mutable {
+      before.get();
+      fuse_all(frames);
+    });
+  } catch (...) {  // some of it may be noted, and what was done before is lost
+    failure_ = std::current_exception();
+    return true;
+  }
   return false;
 }
 
 CorrectedScans& Correction::finished(const FrameIndex& now) {
+  if (failure_) std::rethrow_exception(failure_);
   if (work_.valid()) work_.get();
   fuse_all(note_later_frames(now));
   return scans_;

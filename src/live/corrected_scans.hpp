@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <atomic>
 #include <cstdint>
+#include <exception>
 #include <future>
 #include <span>
 #include <unordered_map>
@@ -68,6 +69,7 @@ class Correction {
   int rounds_ = 0;
   std::atomic<bool> is_given_up_ = false;
   std::future<void> work_;
+  std::exception_ptr failure_;  ///< of is_ready(), which finished() tells
 };
 
 }  // namespace ridgeway::detail

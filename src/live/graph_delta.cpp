@@ -50,19 +50,41 @@ void compare(const Clearances<Name>& before, const Clearances<Name>& now, std::v
     if (!now.contains(name)) gone.push_back(name);
 }
 
-/// The free voxels of a block that are not free in the other map.
-void find_closed(const EsdfMap& before, std::uint32_t slot, const EsdfMap& now,
-                 std::vector<VoxelIndex>& closed) {
-  const BlockIndex& block = before.layout.block(slot);
-  const std::uint32_t other = slot < now.layout.block_count() && now.layout.block(slot) == block
-                                  ? slot
-                                  : now.layout.find_block(block);
-  const VoxelState* old = before.state.block(slot);
-  const VoxelState* states = other == BlockLayout::kNoBlock ? nullptr : now.state.block(other);
-  if (states != nullptr && std::memcmp(old, states, kBlockVoxels * sizeof(VoxelState)) == 0) return;
-  for (int v = 0; v < kBlockVoxels; ++v)
-    if (is_open(old[v], before.unknown) && (states == nullptr || !is_open(states[v], now.unknown)))
-      closed.push_back(before.origin + voxel_of(block, v));
+/// The voxels of a block where a robot may not be any more, or that it has to keep away from now.
+/// Null states: all unknown.
+void find_closed(const VoxelIndex& first, const VoxelState* old, const VoxelState* states,
+                 UnknownPolicy policy, std::vector<VoxelIndex>& closed) {
+  if (old != nullptr && states != nullptr &&
+      std::memcmp(old, states, kBlockVoxels * sizeof(VoxelState)) == 0)
+    return;
+  for (int v = 0; v < kBlockVoxels; ++v) {
+    const VoxelState was = old == nullptr ? VoxelState::kUnknown : old[v];
+    const VoxelState is = states == nullptr ? VoxelState::kUnknown : states[v];
+    if ((is_open(was, policy) && !is_open(is, policy)) ||
+        (!is_obstacle(was, policy) && is_obstacle(is, policy)))
+      closed.push_back(first + voxel_of({}, v));
+  }
+}
+
+/// The same, of all blocks of two maps, in (z, y, x) order.
+std::vector<VoxelIndex> closed_between(const EsdfMap& before, const EsdfMap& now) {
+  std::vector<VoxelIndex> closed;
+  const auto first_of = [&](const BlockIndex& block) { return now.origin + voxel_of(block, 0); };
+  for (std::uint32_t slot = 0; slot < before.layout.block_count(); ++slot) {
+    const BlockIndex& block = before.layout.block(slot);
+    const std::uint32_t other = slot < now.layout.block_count() && now.layout.block(slot) == block
+                                    ? slot
+                                    : now.layout.find_block(block);
+    find_closed(first_of(block), before.state.block(slot),
+                other == BlockLayout::kNoBlock ? nullptr : now.state.block(other), now.unknown,
+                closed);
+  }
+  for (std::uint32_t slot = 0; slot < now.layout.block_count(); ++slot)
+    if (const BlockIndex& block = now.layout.block(slot);
+        before.layout.find_block(block) == BlockLayout::kNoBlock)
+      find_closed(first_of(block), nullptr, now.state.block(slot), now.unknown, closed);
+  std::sort(closed.begin(), closed.end());
+  return closed;
 }
 
 /// Squared distance from a point to a segment, metres^2.
@@ -95,9 +117,7 @@ GraphDelta delta_between(const Roadmap& before, const Roadmap& now) {
   compare(vertices_of(before), vertices_of(now), delta.came_vertices, delta.gone_vertices,
           delta.changed_vertices);
   compare(edges_of(before), edges_of(now), delta.came_edges, delta.gone_edges, delta.changed_edges);
-  for (std::uint32_t slot = 0; slot < a.layout.block_count(); ++slot)
-    find_closed(a, slot, b, delta.closed);
-  std::sort(delta.closed.begin(), delta.closed.end());
+  delta.closed = closed_between(a, b);
   return delta;
 }
 
@@ -118,7 +138,7 @@ bool still_safe(std::span<const Point> path, double radius, const Roadmap& now) 
   require_path(path, radius, now.esdf.voxel_size);
   const FreeSpace space(now.esdf);
   std::vector<Point> local;
-  for (const Point& p : path) local.push_back(to_local(now.esdf, p));
+  for (const Point& p : path) local.push_back(flight_place(now.esdf, p));
   if (!space.is_free(local.front(), radius)) return false;
   for (std::size_t i = 0; i + 1 < local.size(); ++i)
     if (!space.is_free(local[i], local[i + 1], radius)) return false;

@@ -72,7 +72,7 @@ UpdateReport LiveRoadmap::set_voxels(std::span<const VoxelChange> changes) {
   validate_changes(changes,
                    s.now ? s.now->field.esdf.origin : s.config.origin.value_or(VoxelIndex{}));
   UpdateReport report;
-  s.update(s.window.take_with(changes), {}, report);
+  s.update(s.window.take_with(changes), std::nullopt, report);
   s.window.keep();
   report.waiting_voxels = s.window.size();
   return report;
@@ -80,7 +80,7 @@ UpdateReport LiveRoadmap::set_voxels(std::span<const VoxelChange> changes) {
 
 UpdateReport LiveRoadmap::catch_up() {
   UpdateReport report;
-  state_->update(state_->window.take_all(), {}, report);
+  state_->update(state_->window.take_all(), std::nullopt, report);
   state_->window.keep();
   report.waiting_voxels = 0;
   return report;

@@ -45,8 +45,8 @@ UpdateReport LiveRoadmap::State::integrate_frame(const Eigen::Isometry3d& T_worl
   }
   fusion.accept_changes();
   window.keep();
-  if (log && !correction) log->forget_oldest_if_full();
   ++frames;
+  if (log && !correction) log->forget_oldest_if_full();
   report.waiting_voxels = window.size();
   return report;
 }
@@ -93,11 +93,12 @@ void LiveRoadmap::State::begin_correcting(std::span<const PoseCorrection> correc
   const auto same = [](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
     return a.matrix() == b.matrix();
   };
-  correction.reset();
-  under_way = std::move(all);
+  std::unique_ptr<detail::Correction> next;
   if (!std::equal(poses.begin(), poses.end(), frames_of_blocks.poses.begin(), same))
-    correction = std::make_unique<detail::Correction>(config.fusion, *log, frames_of_blocks,
-                                                      std::move(poses));
+    next = std::make_unique<detail::Correction>(config.fusion, *log, frames_of_blocks,
+                                                std::move(poses));
+  correction = std::move(next);
+  under_way = std::move(all);
 }
 
 bool LiveRoadmap::State::is_correction_ready() const {
@@ -111,7 +112,7 @@ UpdateReport LiveRoadmap::State::finish_correcting() {
   const std::unique_ptr<detail::Correction> ended = std::move(correction);
   if (!ended) {
     report.version = version;
-    report.has_roadmap = snapshot != nullptr;
+    report.has_roadmap = has_snapshot();
     report.waiting_voxels = window.size();
     return report;
   }
@@ -123,15 +124,15 @@ UpdateReport LiveRoadmap::State::finish_correcting() {
     fusion.take_over(scans.part, places);
     const std::vector<VoxelChange> changes = window.take_near(fusion.find_changes(), places.back());
     report.fusion_seconds = lap.seconds();
-    update(changes, {}, report);
+    update(changes, std::nullopt, report);
   } catch (...) {
     fusion.undo();
     throw;
   }
   fusion.accept_changes();
   window.keep();
-  log->forget_oldest_if_full();
   frames_of_blocks = std::move(scans.frames);
+  log->forget_oldest_if_full();
   report.waiting_voxels = window.size();
   report.fused_again = scans.redone.size();
   return report;

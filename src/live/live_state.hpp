@@ -77,8 +77,11 @@ struct LiveRoadmap::State {
   UpdateReport finish_correcting();
 
   // live_update.cpp
-  /// Brings all up to date; `first`: the map's origin if it has none.
-  void update(std::span<const VoxelChange> changes, const VoxelIndex& first, UpdateReport& report);
+  /// Brings all up to date; `first`: the map's origin if it has none, nothing where only changes
+  /// give it one.
+  void update(std::span<const VoxelChange> changes, const std::optional<VoxelIndex>& first,
+              UpdateReport& report);
+  bool has_snapshot() const;
   /// The last snapshot with what is learnt. For any thread.
   std::shared_ptr<const Roadmap> settled();
 

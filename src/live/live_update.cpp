@@ -39,15 +39,22 @@ void count_all_parts(const std::vector<VoxelId>& peaks, const detail::BuildMemor
 
 }  // namespace
 
-void LiveRoadmap::State::update(std::span<const VoxelChange> changes, const VoxelIndex& first,
-                                UpdateReport& report) {
+bool LiveRoadmap::State::has_snapshot() const {
+  const std::lock_guard lock(mutex);
+  return snapshot != nullptr;
+}
+
+void LiveRoadmap::State::update(std::span<const VoxelChange> changes,
+                                const std::optional<VoxelIndex>& first, UpdateReport& report) {
   detail::Lap all;
+  report.waiting_voxels = window.size();
+  if (!now && !first && changes.empty()) return;  // nothing says yet where the map begins
   if (now && is_stale) {
     now = remade();
     is_stale = false;
   }
   const bool is_first = !now;
-  if (is_first) now = nothing(config.origin.value_or(first), true);
+  if (is_first) now = nothing(config.origin.value_or(first.value_or(VoxelIndex{})), true);
   try {
     bring_up_to_date(changes, report);
   } catch (...) {
@@ -60,7 +67,7 @@ void LiveRoadmap::State::update(std::span<const VoxelChange> changes, const Voxe
     throw;
   }
   report.version = version;
-  report.has_roadmap = snapshot != nullptr;
+  report.has_roadmap = has_snapshot();
   report.waiting_voxels = window.size();
   report.seconds = report.fusion_seconds + all.seconds();
 }
@@ -229,7 +236,7 @@ std::shared_ptr<const Roadmap> LiveRoadmap::State::published(BuildResult result,
   BuildSeconds& s = result.report.seconds;
   s.total = s.esdf + s.gvd + s.edges + s.thin + s.kernel + s.graph + s.attach;
   report = result.report;
-  result.roadmap.is_settled = config.build.tangent_pairs == 0;
+  result.roadmap.is_settled = false;
   result.roadmap.source = config.source;
   result.roadmap.config = config.record;
   return std::make_shared<const Roadmap>(std::move(result.roadmap));

@@ -2,9 +2,29 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "live_window.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
 namespace ridgeway::detail {
+namespace {
+
+struct HashOfVoxel {
+  std::size_t operator()(const VoxelIndex& v) const { return hash_of(BlockIndex{v.x, v.y, v.z}); }
+};
+
+/// What the changes come to: of each voxel the last one.
+std::vector<VoxelChange> last_of_each(std::span<const VoxelChange> changes) {
+  std::unordered_set<VoxelIndex, HashOfVoxel> seen;
+  std::vector<VoxelChange> last;
+  last.reserve(changes.size());
+  for (auto change = changes.rbegin(); change != changes.rend(); ++change)
+    if (seen.insert(change->voxel).second) last.push_back(*change);
+  std::reverse(last.begin(), last.end());
+  return last;
+}
+
+}  // namespace
 
 bool LiveWindow::is_near(const BlockIndex& block, const Point& sensor) const {
   const double side = kBlockSide * voxel_size_;
@@ -45,7 +65,7 @@ std::vector<VoxelChange> LiveWindow::take_with(std::span<const VoxelChange> chan
       next_.erase(waiting);
     }
   all.insert(all.end(), changes.begin(), changes.end());
-  return all;
+  return last_of_each(all);
 }
 
 std::vector<VoxelChange> LiveWindow::take_all() {
@@ -53,7 +73,7 @@ std::vector<VoxelChange> LiveWindow::take_all() {
   for (const auto& [block, waiting] : waiting_)
     all.insert(all.end(), waiting.begin(), waiting.end());
   next_ = {};
-  return all;
+  return last_of_each(all);
 }
 
 void LiveWindow::keep() noexcept {

@@ -4,6 +4,7 @@
 
 #include <cstring>
 #include <fstream>
+#include <new>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -35,9 +36,21 @@ ScanLog::ScanLog(fs::path folder, std::uint64_t most_bytes)
 }
 
 ScanLog::~ScanLog() {
+  for (std::size_t scan = first_; scan <= size(); ++scan)
+    remove(scan);  // one may be left of a drop
   std::error_code error;
-  for (std::size_t scan = first_; scan < size(); ++scan) fs::remove(file_of(scan), error);
   if (made_folder_) fs::remove(folder_, error);
+}
+
+/// False where there was no memory to do so.
+bool ScanLog::remove(std::size_t scan) const noexcept {
+  try {
+    std::error_code error;
+    fs::remove(file_of(scan), error);
+    return true;
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
 }
 
 fs::path ScanLog::file_of(std::size_t scan) const {
@@ -76,18 +89,14 @@ void ScanLog::write(std::size_t scan, const std::string& bytes) {
 }
 
 void ScanLog::drop_last() noexcept {
-  std::error_code error;
-  fs::remove(folder_ / ("scan-" + std::to_string(size()) + ".bin"), error);
+  remove(size() - 1);  // else the next one writes over it
   total_ -= bytes_.back();
   bytes_.pop_back();
 }
 
-void ScanLog::forget_oldest_if_full() {
-  std::error_code error;
-  for (; total_ > most_bytes_ && first_ < size(); ++first_) {
-    fs::remove(file_of(first_), error);
+void ScanLog::forget_oldest_if_full() noexcept {
+  for (; total_ > most_bytes_ && first_ < size() && remove(first_); ++first_)
     total_ -= bytes_[first_];
-  }
 }
 
 LoggedScan ScanLog::read(std::size_t scan) const {

@@ -34,7 +34,7 @@ class ScanLog {
   void add(std::span<const Point> points);
   /// Takes the last one back.
   void drop_last() noexcept;
-  void forget_oldest_if_full();
+  void forget_oldest_if_full() noexcept;
 
   std::size_t size() const { return bytes_.size(); }  ///< of all that were added
   std::size_t first() const { return first_; }        ///< those before are gone
@@ -43,6 +43,7 @@ class ScanLog {
  private:
   std::filesystem::path file_of(std::size_t scan) const;
   void write(std::size_t scan, const std::string& bytes);
+  bool remove(std::size_t scan) const noexcept;
 
   const std::filesystem::path folder_;
   const std::uint64_t most_bytes_;

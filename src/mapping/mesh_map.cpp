@@ -38,7 +38,7 @@ VoxelTriangles in_voxels(const TriangleSoup& mesh, const VoxelIndex& origin, dou
     local.vertices[i] = far <= 4e9 ? Point(v - corner) : Point(Point::Zero());
     if (far <= 4e9) farthest = std::max(farthest, far);
   }
-  local.slack = 4.0 * std::numeric_limits<double>::epsilon() * farthest;
+  local.slack = 4.0 * std::numeric_limits<double>::epsilon() * farthest + mesh.off / voxel_size;
   return local;
 }
 

@@ -16,6 +16,7 @@ namespace ridgeway {
 struct TriangleSoup {
   std::vector<Point> vertices;
   std::vector<Triangle> triangles;
+  double off = 0.0;  ///< metres by which coordinates may be off, as they were rounded
 };
 
 struct MeshMapConfig {

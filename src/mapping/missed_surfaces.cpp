@@ -93,8 +93,7 @@ class Search {
         voxel_size_(static_cast<float>(config.voxel_size)),
         voxels_(T_map_camera, config.voxel_size),
         jumps_(image_, 0.5f * voxel_size_) {
-    const Eigen::Vector3f pixel = look.ray_of({1, 1}) - look.ray_of({0, 0});
-    reach_ = std::sqrt(3.0f) * 0.5f * voxel_size_ / pixel.head<2>().minCoeff();
+    reach_ = std::sqrt(3.0f) * 0.5f * voxel_size_ / side_of_a_pixel();
   }
 
   /// Some voxels maybe several times.
@@ -113,6 +112,14 @@ class Search {
   }
 
  private:
+  /// At a depth of 1; the shorter side.
+  float side_of_a_pixel() const {
+    const bool is_wide = image_.width > 1, is_high = image_.height > 1;
+    const Eigen::Vector3f pixel =
+        look_.ray_of({is_wide ? 1 : 0, is_high ? 1 : 0}) - look_.ray_of({0, 0});
+    if (is_wide && is_high) return pixel.head<2>().minCoeff();
+    return is_wide ? pixel.x() : is_high ? pixel.y() : 1.0f;
+  }
   /// How far a voxel reaches, and no farther than an image.
   int pixels_at(float depth) const { return static_cast<int>(std::min(reach_ / depth, 1e4f)) + 1; }
 

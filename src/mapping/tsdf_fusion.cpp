@@ -173,9 +173,14 @@ struct TsdfFusion::State {
     T_map_sensor.translation() = place;
     is_undoable = took_over = false;
     blocks.drop_kept();
-    measure(T_map_sensor);
     for (const BlockIndex& block : around)
       if (blocks.takes(block)) blocks.find_or_add(block);
+    try {
+      measure(T_map_sensor);
+    } catch (...) {
+      blocks.restore();
+      throw;
+    }
     places.push_back(place);
     origin = first;
     is_undoable = config.can_undo;

@@ -212,7 +212,7 @@ class Tightening {
 }  // namespace
 
 std::vector<Point> skip_waypoints(const FreeSpace& space, std::vector<Point> path, double radius,
-                                  const MayReplace& may_replace) {
+                                  const Deadline& deadline, const MayReplace& may_replace) {
   if (path.size() < 3) return path;
   const auto can_skip = [&](std::size_t from, std::size_t to) {
     if (!space.is_free(path[from], path[to], radius)) return false;
@@ -221,6 +221,10 @@ std::vector<Point> skip_waypoints(const FreeSpace& space, std::vector<Point> pat
   };
   std::vector<Point> result{path.front()};
   for (std::size_t at = 0; at + 1 < path.size();) {
+    if (deadline.has_passed()) {
+      result.insert(result.end(), path.begin() + static_cast<std::ptrdiff_t>(at + 1), path.end());
+      break;
+    }
     std::size_t seen = at + 1, blind = path.size();
     for (std::size_t stride = 2; at + stride < path.size(); stride *= 2) {
       if (!can_skip(at, at + stride)) {
@@ -252,7 +256,7 @@ std::vector<Point> draw_corners_in(const FreeSpace& space, const std::vector<Poi
 
 std::vector<Point> shorten(const FreeSpace& space, std::vector<Point> path, double radius,
                            const Deadline& deadline, const MayReplace& may_replace) {
-  path = skip_waypoints(space, std::move(path), radius, may_replace);
+  path = skip_waypoints(space, std::move(path), radius, deadline, may_replace);
   return draw_corners_in(space, path, radius, deadline, may_replace);
 }
 

@@ -22,9 +22,10 @@ std::vector<Point> shorten(const FreeSpace& space, std::vector<Point> path, doub
                            const Deadline& deadline, const MayReplace& may_replace = {});
 
 /// Its first half: from each waypoint goes on to about the farthest that can be seen, found by
-/// doubling the stride and then halving it, until an eighth of it is left in doubt.
+/// doubling the stride and then halving it, until an eighth of it is left in doubt. What is left
+/// once time is up stays as it is.
 std::vector<Point> skip_waypoints(const FreeSpace& space, std::vector<Point> path, double radius,
-                                  const MayReplace& may_replace = {});
+                                  const Deadline& deadline, const MayReplace& may_replace = {});
 
 /// How closely corners are drawn in.
 struct DrawingIn {

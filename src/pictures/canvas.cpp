@@ -101,14 +101,14 @@ void Canvas::set_font(double size, bool bold) {
 
 double Canvas::text_width(const std::string& text) {
   cairo_text_extents_t extents;
-  cairo_text_extents(cairo(), text.c_str(), &extents);
+  cairo_text_extents(cairo(), printable(text).c_str(), &extents);
   return extents.x_advance;
 }
 
 void Canvas::draw_text(double x, double y, const std::string& text, Align align) {
   const double width = align == Align::kLeft ? 0.0 : text_width(text);
   cairo_move_to(cairo(), x - (align == Align::kRight ? width : 0.5 * width), y);
-  cairo_show_text(cairo(), text.c_str());
+  cairo_show_text(cairo(), printable(text).c_str());
   cairo_new_path(cairo());
 }
 

@@ -152,6 +152,12 @@ Alternatives alternatives_locally(const Roadmap& roadmap, const Point& start, co
     const Moved moved_start = shortest.moved_start, moved_goal = shortest.moved_goal;
     const Point from = shortest.waypoints.front(), to = shortest.waypoints.back();
     const detail::QueryEnds ends = detail::find_ends(space, from, to, radius);
+    if (ends.status != PlanStatus::kOk) {  // straight on, where no voxel's centre is free
+      result.complete = true;
+      result.routes.push_back(std::move(shortest));
+      result.seconds = detail::seconds_now() - began;
+      return result;
+    }
     DistinctRoutes routes(space, radius);
     routes.add(std::move(shortest));
     detail::RouteEnumeration others(roadmap, space, {ends.from, ends.to, from, to, radius},

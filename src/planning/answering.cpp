@@ -22,13 +22,6 @@
 namespace ridgeway::detail {
 namespace {
 
-/// Ends that are the centres of their voxels come twice. Two points are left at least.
-void drop_repeated(std::vector<Point>& path) {
-  const Point goal = path.back();
-  path.erase(std::unique(path.begin(), path.end()), path.end());
-  if (path.size() == 1) path.push_back(goal);
-}
-
 /// A query that is being answered.
 class Answering {
  public:
@@ -83,12 +76,9 @@ class Answering {
     return search(std::move(tangents.waypoints));
   }
 
-  /// Robots fit in places where no voxel's centre is free, and may see their goal from there.
   PlanStatus straight_or(PlanStatus refused) {
-    const bool is_too_close =
-        refused == PlanStatus::kStartInCollision || refused == PlanStatus::kGoalInCollision;
     const auto& [from, to, start, goal, radius, prefer_clearance] = query_;
-    if (!is_too_close || !space_.is_free(start, goal, radius) || !accept({start, goal}, {}))
+    if (!is_straight_though(refused, space_, start, goal, radius) || !accept({start, goal}, {}))
       return refused;
     result_.answered_by = config_.planner;
     return PlanStatus::kOk;
@@ -165,12 +155,16 @@ class Answering {
     lap(result_.seconds.search);
     result_.answered_by = found.answered_by;
     if (found.status == SearchStatus::kTimeout && known.empty()) return PlanStatus::kTimeout;
-    if (found.status == SearchStatus::kNoRoute)
-      // The lattice knows no way, but a straight look may slip through what it cannot resolve.
+    if (found.status == SearchStatus::kNoRoute) {
+      // The lattice knows no way, but corners or a straight look may slip through what it cannot
+      // resolve.
+      result_.answered_by = config_.planner;
+      if (wants_short() && !known.empty() && accept(known, {})) return PlanStatus::kOk;
       return space_.is_free(query_.start, query_.goal, query_.radius) &&
                      accept({query_.start, query_.goal}, {})
                  ? PlanStatus::kOk
                  : PlanStatus::kNoRoute;
+    }
     if (wants_short() && accept(tightened(found.route, known), {})) {
       lap(result_.seconds.shorten);
       return PlanStatus::kOk;

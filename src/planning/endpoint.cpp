@@ -36,12 +36,28 @@ std::vector<VoxelIndex> offsets_by_distance(const Point& point, const VoxelIndex
   return offsets;
 }
 
+/// The voxel that holds a place; of those that share it, as it lies on a face, one that is open.
+VoxelIndex voxel_around(const EsdfMap& esdf, const Point& point) {
+  constexpr double kSlack = 1e-9;  // voxels
+  const VoxelIndex voxel = voxel_at(point, esdf.voxel_size);
+  if (esdf.unknown == UnknownPolicy::kObstacle || esdf.is_open(esdf.layout.find(voxel)))
+    return voxel;
+  const Point off = Point::Constant(kSlack * esdf.voxel_size);
+  const VoxelIndex low = voxel_at(point - off, esdf.voxel_size),
+                   high = voxel_at(point + off, esdf.voxel_size);
+  for (int z = low.z; z <= high.z; ++z)
+    for (int y = low.y; y <= high.y; ++y)
+      for (int x = low.x; x <= high.x; ++x)
+        if (esdf.is_open(esdf.layout.find({x, y, z}))) return {x, y, z};
+  return voxel;
+}
+
 }  // namespace
 
 Endpoint find_endpoint(const FreeSpace& space, const Point& point, double radius) {
   const EsdfMap& esdf = space.map();
   if (!has_voxel(point, esdf.voxel_size)) return {};
-  const VoxelIndex voxel = voxel_at(point, esdf.voxel_size);
+  const VoxelIndex voxel = voxel_around(esdf, point);
   const VoxelId home = esdf.layout.find(voxel);
   if (home == kNoVoxel)
     return {LayoutBox(esdf.layout).meets(voxel, voxel) ? EndpointStatus::kUnknown

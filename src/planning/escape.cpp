@@ -14,6 +14,7 @@ namespace {
 constexpr double kFarthest = 2.0;           // radii
 constexpr double kEscapeStep = 1.0 / 32.0;  // voxels between looks at the distance
 constexpr double kEnd = 1e-3;               // voxels before the end, for a last look
+constexpr double kLeastDistance = 1e-6;     // metres: what is less may be none but for rounding
 constexpr double kEscapeSlack = 1e-9;       // metres; rounding
 constexpr int kBetweenLooksAtTheClock = 256;
 
@@ -43,7 +44,7 @@ bool rises(const FreeSpace& space, const Point& a, const Point& b, double voxel_
 EscapeResult find_escape(const FreeSpace& space, const Point& point, double radius,
                          const Deadline& deadline) {
   const EsdfMap& esdf = space.map();
-  if (!(space.distance(point) > 0.0)) return {};
+  if (!(space.distance(point) >= kLeastDistance)) return {};
   PlacesAround places(esdf, point, space.inner_radius(radius), kFarthest * radius);
   for (std::optional<Point> place; !deadline.has_passed() && (place = places.next(deadline));)
     if (space.is_known_free(point, *place) && space.is_within_limits(point, *place) &&

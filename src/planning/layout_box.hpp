@@ -8,11 +8,12 @@
 
 namespace ridgeway::detail {
 
-/// The first and the last voxel of the box around all blocks of a layout that has some.
+/// The first and the last voxel of the box around all blocks of a layout; without any it is empty.
 struct LayoutBox {
-  VoxelIndex low, high;
+  VoxelIndex low{kMaxVoxelIndex, kMaxVoxelIndex, kMaxVoxelIndex}, high = VoxelIndex{} - low;
 
   explicit LayoutBox(const BlockLayout& layout) {
+    if (layout.block_count() == 0) return;
     BlockIndex first = layout.block(0), last = first;
     for (const BlockIndex& b : layout.blocks()) {
       first = {std::min(first.x, b.x), std::min(first.y, b.y), std::min(first.z, b.z)};

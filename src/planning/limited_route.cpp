@@ -57,7 +57,8 @@ class LimitedSearch {
 
   /// The shortest way over the graph from one of some legs to one of others; empty where there is
   /// none.
-  Route run(const std::vector<Leg>& first, const std::vector<Leg>& last) const {
+  Route run(const std::vector<Leg>& first, const std::vector<Leg>& last,
+            const Deadline& deadline) const {
     BestFirstSearch<VertexId, double, Bound> search(graph_.vertices.size(),
                                                     std::numeric_limits<double>::infinity());
     const auto reach = [&](VertexId v, double cost, VertexId from) {
@@ -67,7 +68,10 @@ class LimitedSearch {
     for (const Leg& leg : first) reach(leg.vertex, leg.length, leg.vertex);
     const Leg* arrival = nullptr;
     double shortest = std::numeric_limits<double>::infinity();
+    constexpr int kBetweenLooks = 64;  // at the clock
+    int taken = 0;
     search.run([&](VertexId v) {
+      if (++taken % kBetweenLooks == 0 && deadline.has_passed()) return false;
       const double cost = search.cost(v);
       if (cost + (place_of(v) - query_.goal).norm() >= shortest) return false;
       for (const Leg& leg : last)
@@ -138,15 +142,15 @@ class LimitedSearch {
 }  // namespace
 
 RouteResult find_limited_route(const Roadmap& roadmap, const FreeSpace& space,
-                               const RouteQuery& query, const AttachWay& from,
-                               const AttachWay& to) {
+                               const RouteQuery& query, const AttachWay& from, const AttachWay& to,
+                               const Deadline& deadline) {
   RouteResult result;
   const LimitedSearch search(roadmap, space, query);
   const std::vector<Leg> first = search.legs_from(query.start, from);
   if (first.empty()) return result;
   const std::vector<Leg> last = search.legs_from(query.goal, to);
   if (last.empty()) return result;
-  result.route = search.run(first, last);
+  result.route = search.run(first, last, deadline);
   if (!result.route.empty()) result.status = SearchStatus::kFound;
   return result;
 }

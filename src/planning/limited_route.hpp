@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include "paths/deadline.hpp"
 #include "roadmap/attach_way.hpp"
 #include "route.hpp"
 
@@ -14,6 +15,7 @@ namespace ridgeway::detail {
 /// them. `from`, `to`: the ways of the query's voxels to the graph. No route says nothing about
 /// space: then the voxels must be searched.
 RouteResult find_limited_route(const Roadmap& roadmap, const FreeSpace& space,
-                               const RouteQuery& query, const AttachWay& from, const AttachWay& to);
+                               const RouteQuery& query, const AttachWay& from, const AttachWay& to,
+                               const Deadline& deadline);
 
 }  // namespace ridgeway::detail

@@ -95,7 +95,9 @@ NearestGoal plan_to_nearest(const Roadmap& roadmap, const Point& start,
   nearest.statuses.resize(goals.size());
   std::optional<PlanResult> refusal;  // of the first goal
   for (const std::size_t i : order) {
-    if (nearest.goal && (goals[i] - start).norm() > nearest.plan.length) continue;
+    const double straight =
+        (flight_place(roadmap.esdf, goals[i]) - flight_place(roadmap.esdf, start)).norm();
+    if (nearest.goal && straight - 2.0 * config.snap > nearest.plan.length) continue;
     PlanResult result = plan(roadmap, start, goals[i], config);
     nearest.statuses[i] = result.status;
     if (i == 0 && !result.ok()) refusal = result;

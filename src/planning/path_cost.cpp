@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "path_cost.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "paths/planning_constants.hpp"
@@ -20,7 +21,9 @@ double PathCost::of(std::span<const Point> path) const {
       cost += length;
       continue;
     }
-    const int pieces = 1 + static_cast<int>(length / (kPlanning.look_step * radius_));
+    constexpr double kMostPieces = 4096;  // robots may be small
+    const int pieces =
+        1 + static_cast<int>(std::min(length / (kPlanning.look_step * radius_), kMostPieces));
     double factors = 0.0;
     for (int k = 0; k < pieces; ++k)
       factors += factor(space_.distance(path[i - 1] + along * ((k + 0.5) / pieces)));

@@ -98,6 +98,7 @@ PlanResult plan_with_escapes(const Roadmap& roadmap, const FreeSpace& space, con
       path.push_back(goal);
       result.escape_goal = {(*to - goal).norm(), space.clearance(goal, *to)};
     }
+    detail::drop_repeated(path);
     const double clearance = result.clearance;
     detail::describe(space, {}, result);
     result.clearance = clearance;
@@ -138,6 +139,30 @@ PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
   PlanResult result = detail::plan_locally(roadmap, from, to, config);
   detail::move_to_world(esdf, start, goal, result);
   return result;
+}
+
+PlanResult given_plan(const EsdfMap& esdf, std::vector<Point> waypoints) {
+  PlanResult path;
+  path.waypoints = std::move(waypoints);
+  if (path.waypoints.empty())
+    throw InputError("path", "has no waypoint", "give a path of plan, or one of your own");
+  path.status = PlanStatus::kOk;
+  path.answered_by = Planner::kGiven;
+  path.unknown = esdf.unknown;
+  std::vector<Point> local;
+  for (Point& p : path.waypoints) {
+    local.push_back(flight_place(esdf, p));
+    if (!has_voxel(local.back(), esdf.voxel_size))
+      throw InputError("path", "has a waypoint far outside the map", "give metres, in its frame");
+    if (esdf.planar) p = to_world(esdf, local.back());
+  }
+  path.length = length_of(path.waypoints);
+  path.clearance = FreeSpace(esdf).clearance(local);
+  const double straight = (path.waypoints.back() - path.waypoints.front()).norm();
+  path.within = straight > 0.0      ? std::max(path.length / straight, 1.0)
+                : path.length > 0.0 ? std::numeric_limits<double>::infinity()
+                                    : 1.0;
+  return path;
 }
 
 }  // namespace ridgeway

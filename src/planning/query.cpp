@@ -75,6 +75,18 @@ QueryEnds find_ends(const FreeSpace& space, const Point& start, const Point& goa
   return {status_of(to.status, false), from.voxel, to.voxel};
 }
 
+bool is_straight_though(PlanStatus refused, const FreeSpace& space, const Point& start,
+                        const Point& goal, double radius) {
+  return (refused == PlanStatus::kStartInCollision || refused == PlanStatus::kGoalInCollision) &&
+         space.is_free(start, goal, radius);
+}
+
+void drop_repeated(std::vector<Point>& path) {
+  const Point goal = path.back();
+  path.erase(std::unique(path.begin(), path.end()), path.end());
+  if (path.size() == 1) path.push_back(goal);
+}
+
 FlightLimits limits_of(const EsdfMap& esdf, const FlightLimits& limits_world) {
   if (!limits_world.any()) return esdf.limits;
   FlightLimits limits = both_of(esdf.limits, limits_in_local(esdf, limits_world));

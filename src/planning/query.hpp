@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/planning/plan.hpp"
@@ -23,6 +24,14 @@ struct QueryEnds {
   VoxelId from = kNoVoxel, to = kNoVoxel;
 };
 QueryEnds find_ends(const FreeSpace& space, const Point& start, const Point& goal, double radius);
+
+/// Robots fit in places where no voxel's centre is free: whether one whose ends were refused for
+/// that sees its goal all the same.
+bool is_straight_though(PlanStatus refused, const FreeSpace& space, const Point& start,
+                        const Point& goal, double radius);
+
+/// Drops waypoints that come twice in a row, but for the goal of a path of one place.
+void drop_repeated(std::vector<Point>& path);
 
 /// The limits of a query (world frame) and those of the map, in its local frame. Throws InputError
 /// where they are bad, or hold no voxel.

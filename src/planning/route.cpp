@@ -135,7 +135,8 @@ RouteResult find_route(const Roadmap& roadmap, const FreeSpace& space, const Rou
   const auto& [from, to, reach] = attachment;
   if (reach == Reach::kApart) return result;
   if (space.is_narrowed()) {
-    if (planner == Planner::kGraph) result = find_limited_route(roadmap, space, query, from, to);
+    if (planner == Planner::kGraph)
+      result = result = find_limited_route(roadmap, space, query, from, to, deadline);
     if (result.status == SearchStatus::kNoRoute)
       search_voxels(roadmap, space, query, Planner::kEsdf, deadline, result);
     return result;

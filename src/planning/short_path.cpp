@@ -29,7 +29,7 @@ CellRoute path_over_cells(const Roadmap& roadmap, const FreeSpace& space, const 
 
 Route shorten_below(const FreeSpace& space, Route route, double radius, double longest,
                     const Deadline& deadline) {
-  route = skip_waypoints(space, std::move(route), radius);
+  route = skip_waypoints(space, std::move(route), radius, deadline);
   if (length_of(route) > kPlanning.as_found * longest) return {};
   return draw_corners_in(space, route, radius, deadline);
 }

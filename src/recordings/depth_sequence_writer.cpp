@@ -24,6 +24,12 @@ SequenceWriter::SequenceWriter(const std::filesystem::path& folder, const Pinhol
 SequenceWriter::~SequenceWriter() = default;
 
 void SequenceWriter::add(const DepthImage& image, const Eigen::Isometry3d& T_world_camera) {
+  if (image.width != camera_.width || image.height != camera_.height ||
+      image.depth.size() !=
+          static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
+    throw InputError("depth image", "is not of the camera's size",
+                     "give " + std::to_string(camera_.width) + " x " +
+                         std::to_string(camera_.height) + " depths");
   const std::string name = numbered("depth/", count_, ".png");
   write_depth_png(image, temporary_->path() / name, kTumUnits);
   const std::string time = number_text(count_ / rate_);
@@ -33,6 +39,7 @@ void SequenceWriter::add(const DepthImage& image, const Eigen::Isometry3d& T_wor
 }
 
 void SequenceWriter::finish() {
+  if (count_ == 0) throw InputError(folder_.string(), "has no image yet", "add one first");
   const auto row = [](double a, double b, double c) {
     return number_text(a) + " " + number_text(b) + " " + number_text(c) + "\n";
   };

@@ -12,6 +12,7 @@
 #include "ridge_header.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/skeleton/gvd.hpp"
 
 namespace ridgeway {
 namespace {
@@ -240,6 +241,36 @@ Defect find_tangent_defect(const Roadmap& roadmap) {
     if (number(v) >= tangents.graph.vertices.size())
       return RoadmapDefect{"seen", "has a corner that does not exist"};
   return {};
+}
+
+Defect find_planar_defect(const Roadmap& roadmap) {
+  const EsdfMap& esdf = roadmap.esdf;
+  if (!esdf.planar) return {};
+  constexpr VoxelId kInLayer = kBlockSide * kBlockSide;
+  for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id) {
+    const VoxelId lowest = id - id % kBlockVoxels + id % kInLayer;
+    const SiteOffset site = esdf.site[id];
+    if (esdf.layout.block(id / kBlockVoxels).z != 0 || esdf.state[id] != esdf.state[lowest] ||
+        site != esdf.site[lowest] || site.z != 0)
+      return RoadmapDefect{"state", "is no map of one layer, which the header says"};
+  }
+  return {};
+}
+
+Defect find_unattached_defect(const Roadmap& roadmap) {
+  const VoxelMask traversable = traversable_voxels(roadmap.esdf, roadmap.min_clearance);
+  std::atomic<bool> good = true;
+  parallel_for_each_index(
+      roadmap.esdf.layout.block_count(),
+      [&](std::size_t slot) {
+        const auto first = static_cast<VoxelId>(slot * kBlockVoxels);
+        for (VoxelId id = first; id < first + kBlockVoxels; ++id)
+          if ((roadmap.attach.next[id] != AttachField::kNotTraversable) != traversable.test(id))
+            good.store(false, std::memory_order_relaxed);
+      },
+      64);
+  if (good) return {};
+  return RoadmapDefect{"attach", "is not of the space that robots of the smallest radius fit in"};
 }
 
 Defect find_attach_defect(const Roadmap& roadmap) {

@@ -25,6 +25,12 @@ std::optional<RoadmapDefect> find_graph_defect(const Roadmap& roadmap);
 /// The same of the tangent graph.
 std::optional<RoadmapDefect> find_tangent_defect(const Roadmap& roadmap);
 std::optional<RoadmapDefect> find_attach_defect(const Roadmap& roadmap);
+/// Looks for traversable voxels without a way of the attach field, and for others with one. States
+/// and distances must be right.
+std::optional<RoadmapDefect> find_unattached_defect(const Roadmap& roadmap);
+
+/// Looks for layers of a planar map that are not alike. Sizes must be right.
+std::optional<RoadmapDefect> find_planar_defect(const Roadmap& roadmap);
 
 /// Looks for sites that are no obstacles, and for voxels that are nearer to the site of one of
 /// their six neighbours than to their own. Linear in voxels, in parallel. Sizes and states must be

@@ -25,6 +25,7 @@ void save_roadmap(const Roadmap& roadmap, const std::filesystem::path& path) {
   if (!defect) defect = find_graph_defect(roadmap);
   if (!defect) defect = find_tangent_defect(roadmap);
   if (!defect) defect = find_attach_defect(roadmap);
+  if (!defect) defect = find_planar_defect(roadmap);
   if (defect) {
     throw InputError("roadmap", "part '" + defect->part + "' " + defect->what,
                      "save what build_roadmap returned");
@@ -62,6 +63,8 @@ Roadmap load_roadmap(const std::filesystem::path& path) {
   if (!defect) defect = find_graph_defect(roadmap);
   if (!defect) defect = find_tangent_defect(roadmap);
   if (!defect) defect = find_attach_defect(roadmap);
+  if (!defect) defect = find_planar_defect(roadmap);
+  if (!defect) defect = find_unattached_defect(roadmap);
   if (defect) reader.damaged(defect->part, defect->what);
   index_links(roadmap.graph);
   roadmap.landmarks = place_landmarks(roadmap.graph);

@@ -107,11 +107,14 @@ RidgeHeader header_from(const Json& json) {
     header.corners = get_count(counts, "corners");
     header.tangent_edges = get_count(counts, "taut_edges");
   }
-  if (!(header.voxel_size > 0.0)) throw std::out_of_range("'voxel_size' is not positive");
+  if (!(header.voxel_size >= 1e-6 && header.voxel_size <= 1e6))
+    throw std::out_of_range("'voxel_size' is no length from 1e-6 to 1e6 metres");
   if (!(header.max_distance >= 0.0) || !(header.min_clearance >= 0.0) ||
       !(header.graph_min_clearance >= 0.0)) {
     throw std::out_of_range("a distance is negative");
   }
+  if (header.blocks > 0 && header.min_clearance == 0.0)
+    throw std::out_of_range("'min_clearance' is 0, which is no robot's");
   check_counts(header);
   return header;
 }

@@ -155,10 +155,12 @@ SamplingResult sample_locally(const EsdfMap& esdf, const Point& start, const Poi
   const FreeSpace space(esdf, limits, config.radius, config.robot_height);
   const PlanStatus ends = detail::find_ends(space, start, goal, config.radius).status;
   plan.seconds.attach = seconds_now() - began;
-  if (ends != PlanStatus::kOk) return finish(ends);
+  const bool is_refused = ends != PlanStatus::kOk;
+  if (is_refused && !detail::is_straight_though(ends, space, start, goal, config.radius))
+    return finish(ends);
 
-  const bool is_straight = (config.shorten || start == goal) &&
-                           space.is_free(start, goal, config.radius);  // nothing is shorter
+  const bool is_straight = is_refused || ((config.shorten || start == goal) &&
+                                          space.is_free(start, goal, config.radius));
   const std::vector<Point> found = is_straight
                                        ? std::vector<Point>{start, goal}
                                        : sample(space, start, goal, config, progress, result);

@@ -13,6 +13,7 @@
 #include "common/require.hpp"
 #include "common/rounding.hpp"
 #include "initial_spline.hpp"
+#include "planning/query.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "smooth_path.hpp"
@@ -124,6 +125,7 @@ namespace {
 TrajectoryResult fly_locally(const EsdfMap& esdf, std::span<const Point> path,
                              const TrajectoryConfig& config) {
   config.validate();
+  detail::require_height_counts(esdf, config.robot_height);
   if (config.radius > largest_radius(esdf))
     throw InputError("radius " + number_text(config.radius),
                      "is beyond the distances that the map holds",
@@ -173,9 +175,9 @@ double rounding_of(std::span<const Point> path_world) {
 
 TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> path,
                                  const TrajectoryConfig& config) {
-  if (esdf.origin == VoxelIndex{}) return fly_locally(esdf, path, config);
+  if (esdf.origin == VoxelIndex{} && !esdf.planar) return fly_locally(esdf, path, config);
   std::vector<Point> path_local;
-  for (const Point& p : path) path_local.push_back(to_local(esdf, p));
+  for (const Point& p : path) path_local.push_back(flight_place(esdf, p));
   TrajectoryConfig as_rounded = config;
   const double share = rounding_of(path) / config.radius;
   if (share > kExact && share < 0.5) as_rounded.radius *= 1.0 - share;

@@ -14,6 +14,7 @@ namespace {
 
 /// From rest to rest, a piece's peak rate is 2.46 (degree 9) or 2.19 (degree 7) of its mean rate.
 constexpr double kPeakOverMean = 2.5;
+constexpr double kLeastTime = 1e-3;  // seconds: a shorter piece is none
 constexpr double kSmallTurn = 0.05;  // radians: still straight on
 constexpr double kStanding = 1e-3;   // of a metre or metre a second: no direction of travel
 
@@ -85,7 +86,8 @@ std::vector<double> joint_yaws(std::vector<TrajectorySegment>& segments, double 
     const double target = next ? nearest_turn(*next, yaw[i]) : yaw[i];
     const double time = std::abs(target - yaw[i]) * kPeakOverMean / max_rate;
     const bool straight = here && std::abs(nearest_turn(*here, target) - target) < kSmallTurn;
-    if (straight && std::abs(target - yaw[i]) > kSmallTurn && time < 0.5 * segments[i].duration)
+    if (straight && std::abs(target - yaw[i]) > kSmallTurn && time > kLeastTime &&
+        time < 0.5 * segments[i].duration)
       cut(segments, i, time);
     const double most = max_rate * segments[i].duration / kPeakOverMean;
     yaw.push_back(std::clamp(target, yaw[i] - most, yaw[i] + most));

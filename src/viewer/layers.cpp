@@ -56,7 +56,8 @@ LayerGrid grid_of_layer(const EsdfMap& esdf, int layer, int most_cells) {
   const std::int64_t stride =
       std::max<std::int64_t>(1, (std::max(width, depth) + most_cells - 1) / most_cells);
   return {low.x * kBlockSide, low.y * kBlockSide, static_cast<int>(stride),
-          static_cast<int>(width / stride), static_cast<int>(depth / stride)};
+          static_cast<int>((width + stride - 1) / stride),
+          static_cast<int>((depth + stride - 1) / stride)};
 }
 
 /// The grid's corner at a height in voxels, the side of its cells, and how many there are.
@@ -113,18 +114,24 @@ std::string section_layer(const EsdfMap& esdf, double height, int most_cells) {
   const int below = floor_to_int(up - kBeside), above = floor_to_int(up + kBeside);
   const LayerGrid grid = grid_of_layer(esdf, below, most_cells);
   VoxelFinder finder(esdf.layout);
-  const auto state = [&](int x, int y, int z) {
-    const VoxelId id = finder.find({x, y, z});
-    return id == kNoVoxel ? VoxelState::kUnknown : esdf.state[id];
-  };
   std::vector<bool> is_cut(static_cast<std::size_t>(grid.columns) *
                            static_cast<std::size_t>(grid.rows));
-  for (int y = 0; y < grid.rows * grid.stride; ++y)
-    for (int x = 0; x < grid.columns * grid.stride; ++x)
-      if (state(grid.x + x, grid.y + y, below) == VoxelState::kOccupied &&
-          state(grid.x + x, grid.y + y, above) != VoxelState::kFree)
-        is_cut[static_cast<std::size_t>(y / grid.stride) * static_cast<std::size_t>(grid.columns) +
-               static_cast<std::size_t>(x / grid.stride)] = true;
+  const auto look = [&](VoxelId id) {
+    if (esdf.state[id] != VoxelState::kOccupied) return;
+    const VoxelIndex v = esdf.layout.index_of(id);
+    const VoxelId over = finder.find({v.x, v.y, above});
+    if (over != kNoVoxel && esdf.state[over] == VoxelState::kFree) return;
+    const int column = (v.x - grid.x) / grid.stride, row = (v.y - grid.y) / grid.stride;
+    is_cut[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
+           static_cast<std::size_t>(column)] = true;
+  };
+  constexpr int kInLayer = kBlockSide * kBlockSide;
+  for (std::uint32_t slot = 0; slot < esdf.layout.block_count(); ++slot) {
+    if (esdf.layout.block(slot).z != below >> kBlockBits) continue;
+    const VoxelId first =
+        VoxelId{slot} * kBlockVoxels + static_cast<VoxelId>(kInLayer * (below & (kBlockSide - 1)));
+    for (VoxelId id = first; id < first + kInLayer; ++id) look(id);
+  }
   std::string bytes;
   append_grid(bytes, esdf, grid, up);
   for (std::size_t first = 0; first < is_cut.size(); first += 8) {

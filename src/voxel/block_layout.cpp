@@ -41,17 +41,20 @@ BlockLayout::BlockLayout(std::vector<BlockIndex> blocks) : blocks_(std::move(blo
 }
 
 void BlockLayout::add(std::span<const BlockIndex> blocks) {
+  if (std::all_of(blocks.begin(), blocks.end(),
+                  [&](const BlockIndex& block) { return find_block(block) != kNoBlock; }))
+    return;
+  BlockLayout grown = *this;  // where memory runs out, this one is as it was
+  grown.append(blocks);
+  *this = std::move(grown);
+}
+
+void BlockLayout::append(std::span<const BlockIndex> blocks) {
   const std::uint32_t before = block_count();
-  try {
-    for (const BlockIndex& block : blocks)
-      if (find_block(block) == kNoBlock) blocks_.push_back(block);
-    drop_doubles(before);
-    require_legal(before);
-  } catch (...) {
-    blocks_.resize(before);
-    throw;
-  }
-  if (block_count() == before) return;
+  for (const BlockIndex& block : blocks)
+    if (find_block(block) == kNoBlock) blocks_.push_back(block);
+  drop_doubles(before);
+  require_legal(before);
   index_blocks_from(before);
   neighbours_.grow(block_count());
   for (std::uint32_t slot = before; slot < blocks_.size(); ++slot) {

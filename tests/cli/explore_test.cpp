@@ -92,5 +92,16 @@ TEST_F(CliExplore, RefusesBeforeTheFlight) {
                  {"inside an obstacle"});
 }
 
+/// A folder that is written whole in the end has no room for other files.
+TEST_F(CliExplore, OutputsLieOutsideOfTheRecording) {
+  std::filesystem::create_directory(folder_ / "run");
+  std::vector<std::string> inside = words("1.3,1.3,1.2");
+  inside.insert(inside.end(), {"--record", path("run"), "--flight", path("run/flight.csv")});
+  expect_refused(inside, {"run/flight.csv", "lies in"});
+  std::vector<std::string> same = words("1.3,1.3,1.2");
+  same.insert(same.end(), {"--record", path("room.ridge")});
+  expect_refused(same, {"room.ridge", "lies in"});
+}
+
 }  // namespace
 }  // namespace ridgeway

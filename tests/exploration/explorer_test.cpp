@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/live/live_roadmap.hpp"
 
 namespace ridgeway {
@@ -89,6 +92,97 @@ TEST(Explorer, OnItsWayHomeItIsNotStuckWhileItFlies) {
   live.set_voxels(layer(wall - 15, 18, VoxelState::kOccupied));  // with a way around it
   const ExplorationStep around = explorer.decide(live.snapshot(), state_at(home.trajectory, 2.1));
   EXPECT_EQ(around.status, ExplorationStatus::kReturn) << name_of(around.status);
+}
+
+/// A wall turns up where a stop takes nearly all the room that is left.
+TEST(Explorer, BrakesInWhatRoomThereIs) {
+  int stopped = 0;
+  for (const int room : {8, 9, 10, 11, 12, 13}) {  // voxels
+    LiveRoadmap live = live_for_explorers();
+    live.set_voxels(closed_room());
+    ExplorerConfig config;
+    config.home = Point(1.1, 3.1, 1.5);
+    config.limits.max_jerk = 8.0;
+    Explorer explorer(config);
+    const ExplorationStep home = explorer.decide(live.snapshot(), {.position = {10.1, 3.1, 1.5}});
+    ASSERT_EQ(home.status, ExplorationStatus::kReturn) << name_of(home.status);
+    const FlightState fast = state_at(home.trajectory, 2.0);
+    ASSERT_GT(fast.velocity.norm(), 1.5);
+    live.set_voxels(
+        layer(voxel_at(fast.position, kExplorerVoxel).x - room, 30, VoxelState::kOccupied));
+    const ExplorationStep step = explorer.decide(live.snapshot(), fast);
+    EXPECT_TRUE(step.was_in_doubt);
+    EXPECT_EQ(step.is_braking, !step.trajectory.segments.empty());
+    stopped += step.is_braking ? 1 : 0;
+    if (step.is_braking) {
+      EXPECT_LT(step.trajectory.at(step.trajectory.duration()).velocity.norm(), 1e-9);
+    }
+  }
+  EXPECT_EQ(stopped, 3);
+}
+
+/// Free space with a room beyond a door, which has an end that nothing is known of.
+std::vector<VoxelChange> two_rooms() {
+  std::vector<VoxelChange> changes = closed_room();
+  for (VoxelChange& change : changes)
+    if (change.voxel.x == 30 && (change.voxel.y < 8 || change.voxel.y > 21))
+      change.state = VoxelState::kOccupied;
+    else if (change.voxel.x == 60)
+      change.state = VoxelState::kUnknown;
+  return changes;
+}
+
+TEST(Explorer, EndsWhereADoorClosesOnAllThatIsLeftToSee) {
+  LiveRoadmap live = live_for_explorers();
+  live.set_voxels(two_rooms());
+  Explorer explorer({});
+  FlightState state{.position = {1.1, 2.1, 1.5}};
+  ExplorationStep step = explorer.decide(live.snapshot(), state);
+  ASSERT_EQ(step.status, ExplorationStatus::kFly) << name_of(step.status);
+  for (int y = 8; y < 22; ++y) {
+    std::vector<VoxelChange> door;
+    for (int z = 0; z < 15; ++z) door.push_back({{30, y, z}, VoxelState::kOccupied});
+    live.set_voxels(door);
+  }
+  Trajectory flying = step.trajectory;
+  double since = 0.0;
+  for (int i = 1; i < 100 && step.status != ExplorationStatus::kComplete; ++i) {
+    const double time = 0.25 * i;
+    state = state_at(flying, std::min(time - since, flying.duration()));
+    state.time = time;
+    step = explorer.decide(live.snapshot(), state);
+    if (step.trajectory.segments.empty()) continue;
+    flying = step.trajectory;
+    since = time;
+  }
+  EXPECT_EQ(step.status, ExplorationStatus::kComplete) << name_of(step.status);
+}
+
+TEST(Explorer, ClocksBeginWhenTheyLikeAndRunForwards) {
+  LiveRoadmap live = live_for_explorers();
+  live.set_voxels(room_behind_a_wall());
+  Explorer explorer({});
+  FlightState state{.time = -3.0, .position = {3.1, 3.1, 1.5}};
+  const ExplorationStep step = explorer.decide(live.snapshot(), state);
+  EXPECT_EQ(step.status, ExplorationStatus::kFly) << name_of(step.status);
+  state = state_at(step.trajectory, 0.5);
+  state.time = -2.5;
+  explorer.decide(live.snapshot(), state);
+  state = state_at(step.trajectory, 0.4);
+  state.time = -2.6;
+  EXPECT_THROW(explorer.decide(live.snapshot(), state), InputError);
+}
+
+TEST(Explorer, AnyNumberOfRaysIsTaken) {
+  ExplorerConfig config;
+  config.most_rays = 0;
+  EXPECT_THROW(Explorer{config}, InputError);
+  LiveRoadmap live = live_for_explorers();
+  live.set_voxels(closed_room());
+  config.most_rays = std::size_t{1} << 62;
+  Explorer explorer(config);
+  EXPECT_EQ(explorer.decide(live.snapshot(), {.position = {3.1, 3.1, 1.5}}).status,
+            ExplorationStatus::kComplete);
 }
 
 }  // namespace

@@ -160,5 +160,37 @@ TEST(Frontiers, ASquareHoleHasOneClusterThatLooksOut) {
   EXPECT_EQ(frontiers.ignored(), 16u);
 }
 
+/// Maps that are built again from more voxels count from another one.
+TEST(Frontiers, WhatIsIgnoredStaysWhereItIsWhenTheOriginMoves) {
+  const auto room_from = [](const VoxelIndex& origin) {
+    LiveRoadmap live({.fusion = {.voxel_size = 0.1},
+                      .build = {.min_clearance = 0.2, .max_distance = 2.0},
+                      .origin = origin});
+    std::vector<VoxelChange> changes;
+    for (int z = 0; z < 10; ++z)
+      for (int y = 0; y < 10; ++y)
+        for (int x = 0; x < 10; ++x) changes.push_back({{x, y, z}, VoxelState::kFree});
+    live.set_voxels(changes);
+    return live.snapshot();
+  };
+  const auto targets_of = [](const Frontiers& frontiers, const VoxelIndex& origin) {
+    std::set<VoxelIndex> targets;
+    for (const FrontierPart& part : frontiers.parts())
+      for (const VoxelIndex& target : part.targets) targets.insert(target + origin);
+    return targets;
+  };
+  const VoxelIndex moved{-5, 3, 11};
+  Frontiers frontiers;
+  frontiers.update(room_from({}));
+  const std::vector<VoxelIndex> ignored = {{-1, 4, 4}, {10, 9, 0}};
+  frontiers.ignore(ignored);
+  frontiers.update(room_from({}));
+  const std::set<VoxelIndex> before = targets_of(frontiers, {});
+  frontiers.update(room_from(moved));
+  EXPECT_EQ(frontiers.ignored(), 2u);
+  EXPECT_EQ(targets_of(frontiers, moved), before);
+  EXPECT_EQ(before.count(ignored[0]) + before.count(ignored[1]), 0u);
+}
+
 }  // namespace
 }  // namespace ridgeway

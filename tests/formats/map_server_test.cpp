@@ -6,6 +6,7 @@
 #include <png.h>
 
 #include "ridgeway/formats/load_map.hpp"
+#include "support/png_bytes.hpp"
 #include "support/refusal.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -94,6 +95,41 @@ TEST(MapServer, ColouredPicturesAreAveragedAndWhatOneSeesThroughIsUnknown) {
   EXPECT_EQ(at(map, 0.75, 0.75), VoxelState::kOccupied);
   EXPECT_EQ(at(map, 0.25, 0.25), VoxelState::kUnknown);
   EXPECT_EQ(at(map, 0.75, 0.25), VoxelState::kOccupied);
+}
+
+/// Numbers of pixels are states, however bright a file says they are meant to look.
+TEST(MapServer, PixelsCountAsTheyAre) {
+  const TemporaryFolder folder;
+  const std::uint8_t states[4] = {205, 254, 0, 80};  // unknown, free, occupied, occupied
+  const auto known_as = [&](int bits, const std::string& chunks) {
+    std::string start(13, '\0'), rows;
+    start[3] = start[7] = 2;
+    start[8] = static_cast<char>(bits);
+    for (int i = 0; i < 4; ++i) {
+      if (i % 2 == 0) rows += '\0';  // no filter
+      rows.append(static_cast<std::size_t>(bits / 8), static_cast<char>(states[i]));
+    }
+    uLongf size = ::compressBound(rows.size());
+    std::string packed(size, '\0');
+    ::compress(reinterpret_cast<Bytef*>(packed.data()), &size,
+               reinterpret_cast<const Bytef*>(rows.data()), rows.size());
+    packed.resize(size);
+    write_whole(folder / "a.png", "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", start) + chunks +
+                                      png_chunk("IDAT", packed) + png_chunk("IEND", ""));
+    write_whole(folder / "a.yaml", "\xef\xbb\xbf" + yaml("a.png", "[0, 0, 0]"));
+    const OccupancyMap map = load_map(folder / "a.yaml");
+    return std::vector{at(map, 0.25, 0.75), at(map, 0.75, 0.75), at(map, 0.25, 0.25),
+                       at(map, 0.75, 0.25)};
+  };
+  const std::vector expected = {VoxelState::kUnknown, VoxelState::kFree, VoxelState::kOccupied,
+                                VoxelState::kOccupied};
+  const std::string linear("\x00\x01\x86\xa0", 4), dark("\x00\x00\xb1\x8f", 4);
+  for (const int bits : {8, 16}) {
+    EXPECT_EQ(known_as(bits, ""), expected) << bits;
+    EXPECT_EQ(known_as(bits, png_chunk("gAMA", linear)), expected) << bits;
+    EXPECT_EQ(known_as(bits, png_chunk("gAMA", dark)), expected) << bits;
+    EXPECT_EQ(known_as(bits, png_chunk("sRGB", std::string(1, '\0'))), expected) << bits;
+  }
 }
 
 TEST(MapServer, DamagedFilesAreRefusedByName) {

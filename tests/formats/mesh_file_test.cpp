@@ -11,6 +11,7 @@
 #include "common/number_text.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/graph_export.hpp"
+#include "ridgeway/formats/load_map.hpp"
 #include "sensing/test_meshes.hpp"
 #include "support/png_bytes.hpp"
 #include "support/sanitized.hpp"
@@ -299,6 +300,38 @@ TEST(MeshFile, AFileThatPlacesItsPartsWithoutEndIsRefusedWithinItsLimits) {
     std::exit(1);
   };
   EXPECT_EXIT(read_and_leave(), ::testing::ExitedWithCode(0), "");
+}
+
+/// Single precision leaves a part of a voxel of coordinates far from zero.
+TEST(MeshFile, MapsAccountForWhatSinglePrecisionLoses) {
+  const TemporaryFolder folder;
+  const auto load_at = [&](double far, std::string& notes) {
+    TriangleList moved = box();
+    for (Point& v : moved.vertices) v.y() += far;
+    std::string text = ply(moved);
+    for (std::size_t at = 0; (at = text.find("float", at)) != std::string::npos;)
+      text.replace(at, 5, "double");
+    write_whole(folder / "box.ply", text);
+    LoadNotes told;
+    const OccupancyMap map = load_map(folder / "box.ply", {.voxel_size = 0.1}, &told);
+    for (const std::string& note : told.notes) notes += note + "\n";
+    return map;
+  };
+  std::string near, far;
+  load_at(0.03, near);
+  EXPECT_EQ(near.find("single precision"), std::string::npos) << near;
+  // At 400 km they are off by 16 mm: the box is that much thicker on all sides, and never thinner.
+  for (const double rest : {0.0, 0.011, 0.049, 0.087}) {
+    far.clear();
+    const double y = 400'000.0 + rest;
+    const OccupancyMap map = load_at(y, far);
+    EXPECT_NE(far.find("single precision"), std::string::npos) << far;
+    for (const double side : {y, y + 2.0}) {
+      const VoxelIndex touched = voxel_at({0.55, side, 2.05}, 0.1);
+      EXPECT_EQ(map.at(touched - map.origin), VoxelState::kOccupied) << rest;
+    }
+  }
+  EXPECT_THROW(load_at(5'400'000.0, far), InputError);
 }
 
 TEST(MeshFile, StopsWhenItsCallerDoesNotWantToGoOn) {

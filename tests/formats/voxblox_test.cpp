@@ -175,5 +175,23 @@ TEST(Voxblox, FaultsOfAGraphAreCounted) {
   EXPECT_EQ(faults.components, 2u);
 }
 
+/// In single precision blocks of small voxels far from zero would be one.
+TEST(Voxblox, BlocksFarFromZeroStayApart) {
+  const TemporaryFolder folder;
+  OccupancyMap map = testing::random_map(3, 0.02);
+  map.origin = {22'500'000, 270'000'000, 0};
+  const Roadmap roadmap = build_roadmap(map, {.min_clearance = 0.02}).roadmap;
+  write_voxblox(roadmap, folder / "far.vxblx");
+  const OccupancyMap again = load_map(folder / "far.vxblx");
+  const VoxelCounts before = count_voxels(map), after = count_voxels(again);
+  EXPECT_EQ(after.free, before.free);
+  EXPECT_EQ(after.occupied, before.occupied);
+  for (VoxelId id = 0; id < map.layout.voxel_count(); ++id) {
+    if (map.state[id] == VoxelState::kUnknown) continue;
+    const VoxelIndex there = map.origin + map.layout.index_of(id) - again.origin;
+    ASSERT_EQ(again.at(there), map.state[id]);
+  }
+}
+
 }  // namespace
 }  // namespace ridgeway

@@ -99,6 +99,30 @@ TEST(GraphDelta, ADoorThatClosesAndOpensIsToldAtOnce) {
   EXPECT_TRUE(plan(*again, start, goal).ok());
 }
 
+/// Where unknown space is no obstacle, one may turn up in it.
+TEST(GraphDelta, ObstaclesInWhatWasUnknownAreTold) {
+  for (const UnknownPolicy policy : {UnknownPolicy::kIgnore, UnknownPolicy::kFree}) {
+    LiveRoadmap live({.fusion = {.voxel_size = 0.1},
+                      .build = {.min_clearance = 0.3, .unknown = policy, .max_distance = 4.0}});
+    std::vector<VoxelChange> changes;
+    for (int y = 0; y < 16; ++y)
+      for (int x = 0; x < 40; ++x) {
+        for (int z = 0; z < 8; ++z) changes.push_back({{x, y, z}, VoxelState::kFree});
+        changes.push_back({{x, y, -8}, VoxelState::kOccupied});
+      }
+    live.set_voxels(changes);
+    const auto before = live.snapshot();
+    const std::vector<Point> path = {{0.5, 0.75, 0.45}, {3.5, 0.75, 0.45}};
+    ASSERT_TRUE(still_safe(path, 0.4, *before));
+    live.set_voxels(std::vector<VoxelChange>{{{20, 7, 8}, VoxelState::kOccupied}});
+    const auto now = live.snapshot();
+    EXPECT_FALSE(still_safe(path, 0.4, *now));
+    const GraphDelta delta = delta_between(*before, *now);
+    EXPECT_EQ(delta.closed, std::vector<VoxelIndex>({{20, 7, 8}}));
+    EXPECT_TRUE(may_be_invalid(path, 0.4, delta));
+  }
+}
+
 TEST(GraphDelta, APathThatIsLeftAloneStaysFree) {
   int kept = 0, lost = 0;
   std::mt19937 random(5);

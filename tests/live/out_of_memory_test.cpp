@@ -6,13 +6,17 @@
 #include <atomic>
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
 #include <new>
 
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/live/live_roadmap.hpp"
+#include "ridgeway/mapping/tsdf_fusion.hpp"
+#include "ridgeway/voxel/block_layout.hpp"
 #include "sensing/poses.hpp"
 #include "sensing/world_generators.hpp"
 #include "support/random_changes.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace {
 
@@ -128,6 +132,82 @@ TEST(OutOfMemory, LeavesMapAndSnapshotAndWhatComesAfterAsTheyWere) {
     ASSERT_EQ(a->attach.next[at], b->attach.next[same]);
     ASSERT_EQ(a->diagram.voxels.test(at), b->diagram.voxels.test(same));
   }
+}
+
+TEST(OutOfMemory, LayoutsStayAsTheyWere) {
+  const std::vector<BlockIndex> first = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {3, 2, 1}};
+  // Within the box, beyond it, so far that it is looked up by hash.
+  const std::vector<BlockIndex> more = {{2, 2, 1}, {-4, 5, 0}, {90'000, -7, 80'000}, {2, 2, 1}};
+  int failed = 0;
+  for (std::size_t count = 1; count <= more.size(); ++count)
+    for (long allocations = 0;; ++allocations) {
+      BlockLayout layout(first);
+      const Ending ending =
+          ending_of(allocations, [&] { layout.add(std::span(more).first(count)); });
+      if (ending == Ending::kInTime) break;
+      ++failed;
+      ASSERT_EQ(layout.block_count(), first.size());
+      for (const BlockIndex& block : first)
+        ASSERT_EQ(layout.block(layout.find_block(block)), block) << allocations;
+      for (const BlockIndex& block : more)
+        ASSERT_EQ(layout.find_block(block), BlockLayout::kNoBlock) << allocations;
+    }
+  EXPECT_GT(failed, 10);
+}
+
+TEST(OutOfMemory, FusionIsAsItWasOnceUndone) {
+  const std::vector<Scan> scans = scans_of_house();
+  const PinholeCamera camera = small_sensor().camera;
+  TsdfFusion fusion({.voxel_size = 0.4, .clear_radius = 0.6, .can_undo = true});
+  fusion.integrate(scans[0].image, camera, scans[0].T_world_camera);
+  fusion.accept_changes();
+  const std::vector<VoxelChange> before = testing::changes_to(occupancy_of(fusion.map()));
+  int failed = 0;
+  with_threads(1, [&] {
+    for (long allocations = 0;; ++allocations) {
+      const Ending ending = ending_of(
+          allocations, [&] { fusion.integrate(scans[1].image, camera, scans[1].T_world_camera); });
+      fusion.undo();
+      ASSERT_TRUE(testing::changes_to(occupancy_of(fusion.map())) == before) << allocations;
+      if (ending == Ending::kInTime) break;
+      ++failed;
+    }
+  });
+  EXPECT_GT(failed, 100);
+}
+
+/// The last allocations of an update, where all but the log is done.
+TEST(OutOfMemory, ScansThatAreKeptEndWithTheUpdate) {
+  const std::vector<Scan> scans = scans_of_house();
+  const PinholeCamera camera = small_sensor().camera;
+  const TemporaryFolder folder;
+  constexpr long kMany = 1'000'000, kLast = 40;
+  long used = 0;
+  with_threads(1, [&] {
+    for (long run = -1; run < kLast; ++run) {
+      LiveRoadmap live({.fusion = {.voxel_size = 0.4},
+                        .build = {.min_clearance = 0.3, .max_distance = 2.0, .tangent_pairs = 0},
+                        .log_folder = folder / "log",
+                        .log_bytes = 20'000});  // of one scan and a half
+      const auto integrate = [&](const Scan& scan) {
+        live.integrate(scan.image, camera, scan.T_world_camera);
+      };
+      for (std::size_t i = 0; i < 2; ++i) integrate(scans[i]);
+      const auto snapshot = live.snapshot();
+      if (run < 0) {
+        allocations_left = kMany;
+        integrate(scans[2]);
+        used = kMany - allocations_left.exchange(-1);
+        continue;
+      }
+      const Ending ending = ending_of(used - 1 - run, [&] { integrate(scans[2]); });
+      ASSERT_EQ(ending == Ending::kFailed, live.snapshot() == snapshot) << run;
+      if (ending == Ending::kFailed) integrate(scans[2]);
+      integrate(scans[1]);  // what is counted of frames and blocks still fits
+    }
+  });
+  EXPECT_GT(used, kLast);
+  EXPECT_FALSE(std::filesystem::exists(folder / "log"));  // nothing is left behind
 }
 
 }  // namespace

@@ -64,6 +64,41 @@ TEST(Snapshots, ShareTheMemoryOfBlocksThatAreTheSame) {
   EXPECT_EQ(live.settled(), settled);
 }
 
+/// Without a tangent graph there is still the cell graph to be made.
+TEST(Snapshots, SettleWithoutATangentGraphToo) {
+  LiveRoadmap live({.fusion = {.voxel_size = 0.2},
+                    .build = {.min_clearance = 0.3, .max_distance = 4.0, .tangent_pairs = 0}});
+  std::vector<VoxelChange> changes;
+  for (int z = 0; z < 10; ++z)
+    for (int y = 0; y < 20; ++y)
+      for (int x = 0; x < 30; ++x) changes.push_back({{x, y, z}, VoxelState::kFree});
+  live.set_voxels(changes);
+  EXPECT_FALSE(live.snapshot()->is_settled);
+  const auto settled = live.settled();
+  EXPECT_TRUE(settled->is_settled);
+  EXPECT_EQ(
+      settled->cells.cells.size(),
+      build_roadmap(live.map(), {.min_clearance = 0.3, .max_distance = 4.0, .tangent_pairs = 0})
+          .roadmap.cells.cells.size());
+  EXPECT_FALSE(settled->cells.cells.empty());
+}
+
+TEST(Snapshots, ChangesAreCountedByVoxelAndNothingFixesNoOrigin) {
+  LiveRoadmap live({.fusion = {.voxel_size = 0.2}, .build = {.min_clearance = 0.3}});
+  live.catch_up();
+  live.set_voxels({});
+  const VoxelIndex far{250'000'000, 0, 0};
+  live.integrate(std::vector<Point>{{1.0, 0.0, 0.0}},
+                 Eigen::Isometry3d(Eigen::Translation3d(0.2 * (far.x + 0.5), 0.1, 0.1)));
+  EXPECT_EQ(live.map().origin, far);
+  const VoxelChange there{far + VoxelIndex{30, 0, 0}, VoxelState::kFree};
+  const VoxelChange away{there.voxel, VoxelState::kUnknown};
+  EXPECT_EQ(live.set_voxels(std::vector{there, there}).changed_voxels, 1u);
+  const UpdateReport nothing = live.set_voxels(std::vector{away, there});
+  EXPECT_EQ(nothing.changed_voxels, 0u);
+  EXPECT_EQ(live.set_voxels(std::vector{away}).version, nothing.version + 1);
+}
+
 TEST(Snapshots, ALiveRoadmapTakesNoMoreThanTwoOfABatchBuild) {
   const auto taken = [] { return mallinfo2().uordblks + mallinfo2().hblkhd; };
   const World world = make_house();

@@ -222,5 +222,26 @@ TEST(TsdfFusion, VoxelsAndPosesThatNoMapHoldsAreRefused) {
   }
 }
 
+TEST(TsdfFusion, ImagesOfOneRowOrColumnAreFused) {
+  for (const auto& [width, height] : {std::pair(320, 1), std::pair(1, 240)}) {
+    const PinholeCamera camera{width, height, 160.0, 160.0, 0.5 * (width - 1), 0.5 * (height - 1)};
+    DepthImage image{width, height,
+                     std::vector<float>(static_cast<std::size_t>(width * height), 2.0f)};
+    TsdfFusion fusion{{}};
+    fusion.integrate(image, camera, Eigen::Isometry3d::Identity());
+    EXPECT_GT(count_voxels(occupancy_of(fusion.map())).known(), 0u) << width << " x " << height;
+  }
+}
+
+/// What is nearer than any sensor measures must not leave what is no number.
+TEST(TsdfFusion, RangesOfNothingAreNone) {
+  TsdfFusion fusion({.min_range = 0.0});
+  const std::vector<Point> points = {{1e-25, 0.0, 0.0}, {0.0, 1e-12, 0.0}, {2.0, 0.0, 0.0}};
+  for (int look = 0; look < 3; ++look) fusion.integrate(points, Eigen::Isometry3d::Identity());
+  const TsdfMap map = fusion.map();
+  for (VoxelId id = 0; id < map.layout.voxel_count(); ++id)
+    ASSERT_LE(std::abs(map.distance[id]), static_cast<float>(map.truncation));
+}
+
 }  // namespace
 }  // namespace ridgeway

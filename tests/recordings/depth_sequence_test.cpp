@@ -36,6 +36,10 @@ TEST(DepthSequence, GivesBackWhatWasWritten) {
     writer.add(random_image(40, 30, static_cast<std::uint64_t>(i)), poses.back());
   }
   EXPECT_THROW(open_sequence(folder / "run"), InputError);  // not finished
+  EXPECT_THROW(writer.add(random_image(41, 30, 1), poses[0]), InputError);
+  DepthImage longer = random_image(40, 30, 1);
+  longer.depth.push_back(1.0f);
+  EXPECT_THROW(writer.add(longer, poses[0]), InputError);
   writer.finish();
   const DepthSequence sequence = open_sequence(folder / "run");
   EXPECT_EQ(sequence.layout, "tum");
@@ -50,6 +54,7 @@ TEST(DepthSequence, GivesBackWhatWasWritten) {
                 1e-3);
   }
   EXPECT_THROW(SequenceWriter(folder / "run", camera), InputError);
+  EXPECT_THROW(SequenceWriter(folder / "empty", camera).finish(), InputError);
   for (const double rate : {0.0, -1.0, std::nan(""), HUGE_VAL})
     EXPECT_THROW(SequenceWriter(folder / "other", camera, rate), InputError);
 }

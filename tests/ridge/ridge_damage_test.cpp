@@ -180,6 +180,8 @@ TEST_F(HostileRidge, WrongHeadersAreRefused) {
            {"{", std::string(100000, '[')},
            {"\"voxel_size\": 0.1", "\"voxel_size\": -0.1"},
            {"\"voxel_size\": 0.1", "\"voxel_size\": null"},
+           {"\"voxel_size\": 0.1", "\"voxel_size\": 1e300"},
+           {"\"min_clearance\": ", "\"min_clearance\": 0.0, \"once\": "},
            {"\"voxel_size\": 0.1", "\"voxel_size\": \"big\""},
            {"\"obstacle\"", "\"maybe\""},
            {"\"vertices\": 40", "\"vertices\": 41"},

@@ -196,5 +196,25 @@ TEST(RidgeFile, PartsThatDoNotFitAreNotSaved) {
   });
 }
 
+/// What a header says has to be so of the voxels, or queries are answered as for another map.
+TEST(RidgeFile, RoadmapsThatAreNotWhatTheySayAreRefused) {
+  const TemporaryFolder folder;
+  const OccupancyMap map = testing::make_map(0.1, {0, 0, 0}, {39, 29, 19}, [](const VoxelIndex& v) {
+    const bool is_shell = v.x == 0 || v.y == 0 || v.z == 0 || v.x == 39 || v.y == 29 || v.z == 19;
+    return is_shell ? VoxelState::kOccupied : VoxelState::kFree;
+  });
+  const Roadmap good = build_roadmap(map, {.min_clearance = 0.3}).roadmap;
+  EXPECT_NO_THROW(save_roadmap(good, folder / "good.ridge"));
+  Roadmap for_smaller = good;
+  for_smaller.min_clearance = 0.11;
+  for_smaller.graph.min_clearance = 0.11;
+  save_roadmap(for_smaller, folder / "smaller.ridge");
+  EXPECT_THROW(load_roadmap(folder / "smaller.ridge"), InputError);
+  Roadmap flat = good;
+  flat.esdf.planar = true;
+  EXPECT_THROW(save_roadmap(flat, folder / "bad.ridge"), InputError);
+  EXPECT_FALSE(std::filesystem::exists(folder / "bad.ridge"));
+}
+
 }  // namespace
 }  // namespace ridgeway

@@ -227,5 +227,29 @@ TEST(Sampling, SolvesTheTrivialQueries) {
   }
 }
 
+/// As plan() does: where no voxel's centre is free but the goal is in sight.
+TEST(PlanBySampling, GoesStraightThroughASlotWithoutACentre) {
+  const OccupancyMap map = testing::make_map(0.1, {0, 0, 0}, {39, 39, 19}, [](const VoxelIndex& v) {
+    const bool is_shell = v.x == 0 || v.z == 0 || v.x == 39 || v.z == 19;
+    return is_shell || (v.y != 30 && v.y != 31) ? VoxelState::kOccupied : VoxelState::kFree;
+  });
+  const SamplingConfig config{.planner = Planner::kRrtConnect, .radius = 0.09};
+  const SamplingResult straight =
+      plan_by_sampling(compute_esdf(map), {0.5, 3.1, 1.0}, {3.0, 3.1, 1.0}, config);
+  ASSERT_TRUE(straight.plan.ok()) << name_of(straight.plan.status);
+  EXPECT_NEAR(straight.plan.length, 2.5, 1e-12);
+  const SamplingResult off =
+      plan_by_sampling(compute_esdf(map), {0.5, 3.12, 1.0}, {3.0, 3.1, 1.0}, config);
+  EXPECT_EQ(off.plan.status, PlanStatus::kStartInCollision);
+}
+
+TEST(PlanBySampling, AMapOfNothingHasNoPlace) {
+  const SamplingConfig config{.planner = Planner::kRrtConnect, .radius = 0.09};
+  OccupancyMap nothing;
+  nothing.voxel_size = 0.1;
+  EXPECT_EQ(plan_by_sampling(compute_esdf(nothing), {0, 0, 0}, {1, 0, 0}, config).plan.status,
+            PlanStatus::kStartOutsideMap);
+}
+
 }  // namespace
 }  // namespace ridgeway

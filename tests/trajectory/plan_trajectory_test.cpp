@@ -469,5 +469,36 @@ TEST(VerifyTrajectory, DoubtsWhatCollidesBetweenSamplesAndNothingThatIsFree) {
     }
 }
 
+TEST(PlanTrajectory, YawWithoutALimitBeginsWhereItIs) {
+  const std::vector<Point> path = {{3, 3, 1}, {7, 5, 1}, {7, 9, 1}};
+  for (const double rate : {1e3, 1e9, 1e40, HUGE_VAL}) {
+    TrajectoryConfig config;
+    config.limits.max_yaw_rate = rate;
+    config.start_yaw = 2.5;
+    const TrajectoryResult flown = plan_trajectory(esdf(), path, config);
+    ASSERT_TRUE(flown.ok()) << rate;
+    EXPECT_NEAR(flown.trajectory.at(0.0).yaw, 2.5, 1e-9) << rate;
+    EXPECT_TRUE(std::isfinite(flown.peaks.yaw_rate)) << rate;
+    for (const TrajectoryState& at : flown.trajectory.sample(0.01))
+      ASSERT_TRUE(std::isfinite(at.yaw) && std::isfinite(at.yaw_rate)) << rate;
+  }
+}
+
+TEST(PlanTrajectory, InAPlaneHeightsPlayNoPartAndRobotsHaveNone) {
+  OccupancyMap plane = testing::make_map(0.1, {0, 0, 0}, {59, 39, 7}, [](const VoxelIndex& v) {
+    const bool is_wall = v.x == 0 || v.y == 0 || v.x == 59 || v.y == 39;
+    return is_wall ? VoxelState::kOccupied : VoxelState::kFree;
+  });
+  plane.planar = true;
+  const EsdfMap map = compute_esdf(plane);
+  TrajectoryConfig config;
+  const std::vector<Point> path = {{1, 1, -5}, {4, 3, 7}};
+  const TrajectoryResult flown = plan_trajectory(map, path, config);
+  ASSERT_TRUE(flown.ok()) << name_of(flown.status);
+  EXPECT_EQ(flown.trajectory.at(1.0).position.z(), flown.trajectory.at(0.0).position.z());
+  config.robot_height = 0.4;
+  EXPECT_THROW(plan_trajectory(map, path, config), InputError);
+}
+
 }  // namespace
 }  // namespace ridgeway

@@ -176,5 +176,30 @@ TEST(Layers, CloudIsThinnedToWhatIsAskedFor) {
   EXPECT_EQ(some.size(), 32 + 16 * std::size_t{number_at<std::uint32_t>(some, 24)});
 }
 
+/// Two rooms with 10 km of nothing between them: what is looked at are blocks, not the box around.
+TEST(Layers, SectionsOfWideMapsLookAtTheirBlocksAlone) {
+  constexpr int kFar = 100'000;
+  std::vector<BlockIndex> blocks;
+  for (const int block : {0, kFar / kBlockSide})
+    for (int k = 0; k < 8; ++k) blocks.push_back({block + (k & 1), block + (k >> 1 & 1), k >> 2});
+  OccupancyMap map;
+  map.voxel_size = 0.1;
+  map.layout = BlockLayout(blocks);
+  map.state = VoxelField<VoxelState>(map.layout);
+  for (VoxelId id = 0; id < map.layout.voxel_count(); ++id) {
+    const VoxelIndex v = map.layout.index_of(id);
+    const auto is_wall = [](int k) { return k % kFar == 0 || k % kFar == 15; };
+    map.state[id] = is_wall(v.x) || is_wall(v.y) || v.z == 0 || v.z == 15 ? VoxelState::kOccupied
+                                                                          : VoxelState::kFree;
+  }
+  const EsdfMap esdf = compute_esdf(map);
+  const std::string section = section_layer(esdf, 0.85, 4096);
+  const auto columns = number_at<std::uint32_t>(section, 32);
+  EXPECT_GT(columns, 3000u);
+  EXPECT_TRUE(is_cut(section, 0, 0));
+  EXPECT_TRUE(is_cut(section, columns - 1, number_at<std::uint32_t>(section, 36) - 1));
+  EXPECT_FALSE(is_cut(section, columns / 2, 0));
+}
+
 }  // namespace
 }  // namespace ridgeway

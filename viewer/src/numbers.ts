@@ -2,6 +2,11 @@
 // Copyright (c) 2026 The Ridgeway authors
 import type { Vector } from "./layers";
 
+/** A word as a shell takes it. */
+export function shell_word(word: string): string {
+  return /^[\w./+-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
+}
+
 /** Metres as the command line prints them: three decimals at most, no zeros behind. */
 export function metres(value: number, decimals = 3): string {
   return String(Number(value.toFixed(decimals)));

@@ -6,7 +6,7 @@ import { element, input } from "./dom";
 import type { FlightPanel } from "./flight";
 import type { PlanAnswer, Route, Vector } from "./layers";
 import type { Legend } from "./legend";
-import { metres, place_of, place_text } from "./numbers";
+import { metres, place_of, place_text, shell_word } from "./numbers";
 import type { Page } from "./page";
 import { ask_json } from "./source";
 
@@ -138,7 +138,7 @@ export class QueryPanel {
   /** The same question on the command line. */
   private command(): string {
     const parameters = this.parameters();
-    const words = ["ridgeway plan", this.page.info.name, `--from=${parameters.from}`, `--to=${parameters.to}`, `--radius ${parameters.radius}`];
+    const words = ["ridgeway plan", shell_word(this.page.info.name), `--from=${parameters.from}`, `--to=${parameters.to}`, `--radius ${parameters.radius}`];
     if (parameters.planner !== "graph") words.push(`--planner ${parameters.planner}`);
     if (Number(parameters.prefer_clearance) > 0) words.push(`--prefer-clearance ${parameters.prefer_clearance}`);
     if (Number(parameters.snap) > 0) words.push(`--snap ${parameters.snap}`);

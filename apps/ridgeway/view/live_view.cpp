@@ -44,8 +44,12 @@ Reply LiveView::answer(const Question& question) {
   const std::shared_ptr<Snapshot> snapshot = newest();
   if (question.path == "/api/info") {
     using nlohmann::ordered_json;
-    ordered_json info = snapshot ? ordered_json::parse(*snapshot->answers.answer(question).body)
-                                 : ordered_json{{"name", name_}, {"bounds", nullptr}};
+    ordered_json info = {{"name", name_}, {"bounds", nullptr}};
+    if (snapshot) {
+      const Reply reply = snapshot->answers.answer(question);
+      if (reply.status != 200) return reply;
+      info = ordered_json::parse(*reply.body);
+    }
     info["live"] = true;
     return json_reply(200, info);
   }

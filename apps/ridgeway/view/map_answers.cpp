@@ -199,7 +199,7 @@ std::string MapAnswers::info() {
   const VoxelCounts counts = count_voxels(occupancy);
   json["voxels"] = {{"free", counts.free}, {"occupied", counts.occupied}};
   if (const auto bounds = known_bounds(occupancy)) json["bounds"] = cli::json_of(*bounds);
-  return json.dump();
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);  // names may be any bytes
 }
 
 std::string MapAnswers::narrow_places() {

@@ -60,7 +60,10 @@ class BoundedServer : public httplib::Server {
 bool is_from_here(const httplib::Request& request, int port) {
   const std::string at = ":" + std::to_string(port);
   const auto is_here = [&](const std::string& text) {
-    return text == kAddress + at || text == "localhost" + at;
+    constexpr int kUsualPort = 80;  // which clients leave out
+    const std::string with_port =
+        port == kUsualPort && text.find(':') == std::string::npos ? text + at : text;
+    return with_port == kAddress + at || with_port == "localhost" + at;
   };
   if (request.get_header_value_count("Host") != 1 || !is_here(request.get_header_value("Host")))
     return false;

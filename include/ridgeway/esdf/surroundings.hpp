@@ -32,6 +32,7 @@ class Surroundings {
   explicit Surroundings(const EsdfMap& esdf);  ///< Looks through all states of the map.
 
   /// `path`: points joined by straight segments, metres, world frame. `radius`: metres, above 0.
+  /// Throws InputError for points beyond all maps.
   PathSurroundings along(std::span<const Point> path, double radius) const;
 
  private:

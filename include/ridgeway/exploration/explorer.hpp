@@ -126,9 +126,12 @@ struct ExplorationStep {
   Trajectory trajectory;
   /// Where the next look is taken; none on the way home and at the end
   std::optional<Viewpoint> goal;
-  std::vector<Viewpoint> tour;      ///< the stops that follow now, the goal first
-  double tour_seconds = 0.0;        ///< estimate
-  bool was_in_doubt = false;        ///< what was flown before is not free for certain any more
+  std::vector<Viewpoint> tour;  ///< the stops that follow now, the goal first
+  double tour_seconds = 0.0;    ///< estimate
+  /// What was flown before is not free for certain any more. Where no trajectory is given then (and
+  /// the robot flies), no verified one leads anywhere, nor to a stop: what is left is to brake by
+  /// the robot's own means.
+  bool was_in_doubt = false;
   bool is_braking = false;          ///< the trajectory does no more than stop the robot
   std::size_t frontiers = 0;        ///< clusters of the least size or more
   std::size_t frontier_voxels = 0;  ///< in them

@@ -67,6 +67,8 @@ class Frontiers {
   std::size_t voxels() const;
   /// The blocks that had another state than before, in the last update.
   std::span<const BlockIndex> changed_blocks() const { return changed_; }
+  /// Those of them in which a voxel was free and is no longer.
+  std::span<const BlockIndex> closed_blocks() const { return closed_; }
   /// How many updates there have been.
   std::uint64_t version() const { return version_; }
   /// How many unknown voxels are ignored.
@@ -89,6 +91,8 @@ class Frontiers {
   };
 
   std::vector<BlockIndex> find_changed(const Roadmap& now);
+  void move_ignored(const VoxelIndex& by);
+  void ignore(const VoxelIndex& voxel);
   VoxelMask::Block unknown_in(const BlockIndex& block) const;
   Entry entry_of(const BlockIndex& block) const;
   void replace(const BlockIndex& block, Entry entry);
@@ -102,7 +106,7 @@ class Frontiers {
   std::map<BlockIndex, Entry> entries_;
   std::map<BlockIndex, VoxelMask::Block> ignored_;  ///< by block of the map's own
   std::vector<BlockIndex> stale_;                   ///< blocks with newly ignored voxels
-  std::vector<BlockIndex> changed_;
+  std::vector<BlockIndex> changed_, closed_;
   std::vector<FrontierPart> parts_;
   std::vector<FrontierCluster> clusters_;
   std::size_t ignored_count_ = 0;

@@ -28,8 +28,9 @@ struct GraphDelta {
   std::vector<EdgeName> came_edges;          ///< were not there before
   std::vector<EdgeName> gone_edges;          ///< are not there any more
   std::vector<EdgeName> changed_edges;       ///< have another clearance
-  std::vector<VoxelIndex> closed;            ///< voxels of the lattice that are free no longer
-  double voxel_size = 0.0;                   ///< metres
+  /// Voxels of the lattice that are free no longer, or obstacles now that were none.
+  std::vector<VoxelIndex> closed;
+  double voxel_size = 0.0;  ///< metres
 
   /// Whether nothing is different.
   bool is_empty() const {

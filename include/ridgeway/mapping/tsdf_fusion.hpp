@@ -72,8 +72,11 @@ struct FusionConfig {
   std::optional<VoxelIndex> origin = {};
   bool can_undo = false;  ///< keeps what the last measurements overwrote, see TsdfFusion::undo
 
-  /// Whether a measurement at a range, metres along the ray, is taken; none is that is no number.
-  bool takes(double range) const { return range > 0.0 && range >= min_range && range <= max_range; }
+  /// Whether a measurement at a range, metres along the ray, is taken; none is that is no number,
+  /// or less than a micrometre, whose weight would be none.
+  bool takes(double range) const {
+    return range >= 1e-6 && range >= min_range && range <= max_range;
+  }
 
   /// Throws InputError naming the bad field.
   void validate() const;

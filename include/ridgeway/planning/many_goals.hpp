@@ -51,8 +51,9 @@ ViaPlan plan_via(const Roadmap& roadmap, std::span<const Point> places,
                  const PlanConfig& config = {});
 
 /// The goal whose plan() is shortest, and that plan; of equally near ones the first. Goals are
-/// tried by their distance along the graph, and not at all where the straight line is longer than
-/// the best path. Throws InputError as plan() does, and where there are no goals.
+/// tried by their distance along the graph, and not at all where the straight line, less what
+/// both ends may be moved by (PlanConfig::snap), is longer than the best path. Throws InputError as
+/// plan() does, and where there are no goals.
 NearestGoal plan_to_nearest(const Roadmap& roadmap, const Point& start,
                             std::span<const Point> goals, const PlanConfig& config = {});
 

@@ -167,4 +167,9 @@ double largest_radius(const EsdfMap& esdf);
 PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
                 const PlanConfig& config = {});
 
+/// A path of one's own (world, metres) as a result, to be flown as it is: ok, with its length and
+/// clearance, answered by Planner::kGiven; in a planar map at the height of its layer. Whether it
+/// is free is not asked. Throws InputError for one without waypoints, or far outside the map.
+PlanResult given_plan(const EsdfMap& esdf, std::vector<Point> waypoints);
+
 }  // namespace ridgeway

@@ -68,9 +68,11 @@ class SequenceWriter {
   SequenceWriter(const SequenceWriter&) = delete;
   SequenceWriter& operator=(const SequenceWriter&) = delete;
   /// Appends an image and its pose (camera to world, metres). Throws InputError where it cannot be
-  /// written.
+  /// written, or is not of the camera's size.
   void add(const DepthImage& image, const Eigen::Isometry3d& T_world_camera);
-  void finish();  ///< Puts the folder in its place. Throws InputError where that cannot be done.
+  /// Puts the folder in its place. Throws InputError where that cannot be done, or nothing was
+  /// added.
+  void finish();
 
  private:
   std::filesystem::path folder_;

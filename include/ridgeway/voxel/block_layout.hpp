@@ -243,6 +243,7 @@ class BlockLayout {
     return static_cast<std::uint32_t>(to) - static_cast<std::uint32_t>(from);
   }
   void require_legal(std::uint32_t first) const;
+  void append(std::span<const BlockIndex> blocks);
   void drop_doubles(std::uint32_t first);
   void index_blocks();
   void index_blocks_from(std::uint32_t first);
