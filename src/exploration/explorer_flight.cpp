@@ -7,6 +7,7 @@
 #include "common/clock.hpp"
 #include "explorer_state.hpp"
 #include "legs.hpp"
+#include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/trajectory/plan_trajectory.hpp"
 #include "shaped_trajectory.hpp"
@@ -64,11 +65,17 @@ bool Explorer::State::brake(const FlightState& state, ExplorationStep& step) con
   constexpr std::array kSlack = {1.5, 1.25, 1.1};  // jerk is bounded, too
   const double speed = state.velocity.norm();
   if (speed < 1e-9) return false;
+  const FreeSpace space(roadmap->esdf);
+  const Point here = to_local(roadmap->esdf, state.position);
   for (const double slack : kSlack) {
     const double length = slack * speed * speed / (2.0 * config.limits.max_acceleration);
-    for (const Point& end :
-         {Point(state.position + length * state.velocity / speed), ahead(state.time, length)})
-      if (fly_to(to_local(roadmap->esdf, end), state.yaw, state, step)) return true;
+    const Point straight_on = state.position + length * state.velocity / speed;
+    for (const Point& end : {straight_on, ahead(state.time, length)}) {
+      const Point there = to_local(roadmap->esdf, end);
+      if (space.is_free(here, there, roadmap->min_clearance) &&
+          fly_to(there, state.yaw, state, step))
+        return true;
+    }
   }
   return false;
 }

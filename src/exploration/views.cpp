@@ -137,10 +137,13 @@ void Views::mark_changed(const Roadmap& roadmap, const Bounds& changed) {
       if (cached.is_stale || (cached.all_seen && closed.empty())) continue;
       Bounds way = part;
       way.add(places_[candidate.place].position);
-      cached.is_stale =
-          way.meets(changed) &&
-          (!cached.all_seen || std::any_of(closed.begin(), closed.end(),
-                                           [&](const Bounds& block) { return way.meets(block); }));
+      // Rays to targets of the part run no farther from the line to its middle than these lie.
+      const auto is_crossed = [&](const Bounds& block) {
+        return block.widened(0.5 * (part.high.x() - part.low.x()) + roadmap.esdf.voxel_size)
+            .meets(places_[candidate.place].position, 0.5 * (part.low + part.high));
+      };
+      cached.is_stale = way.meets(changed) &&
+                        (!cached.all_seen || std::any_of(closed.begin(), closed.end(), is_crossed));
     }
   });
 }

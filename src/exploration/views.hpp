@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <map>
@@ -28,6 +29,21 @@ struct Bounds {
   Bounds widened(double by) const { return {low.array() - by, high.array() + by}; }
   bool meets(const Bounds& other) const {
     return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
+  }
+  /// Whether it shares a point with the segment from a to b.
+  bool meets(const Point& a, const Point& b) const {
+    double first = 0.0, last = 1.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double along = b[axis] - a[axis];
+      if (along == 0.0) {
+        if (a[axis] < low[axis] || a[axis] > high[axis]) return false;
+        continue;
+      }
+      const double in = (low[axis] - a[axis]) / along, out = (high[axis] - a[axis]) / along;
+      first = std::max(first, std::min(in, out));
+      last = std::min(last, std::max(in, out));
+    }
+    return first <= last;
   }
 };
 
