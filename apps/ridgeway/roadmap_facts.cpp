@@ -67,7 +67,7 @@ std::string AnswerFacts::explain_collision(const Query& query, const Point& plac
   const double distance = FreeSpace(roadmap_.esdf).distance(flight_place(roadmap_.esdf, place));
   const std::string or_snap = is_movable ? ", or let --snap do so" : "";
   if (distance <= 0.0) {
-    const std::string inside = "it lies in an obstacle: move it to where the map is free";
+    std::string inside = "it lies in an obstacle: move it to where the map is free";
     if (!is_movable) return inside;
     // Farther away it is hardly the place that was meant.
     const std::optional<double> snap =

@@ -46,7 +46,7 @@ Reply LiveView::answer(const Question& question) {
     using nlohmann::ordered_json;
     ordered_json info = {{"name", name_}, {"bounds", nullptr}};
     if (snapshot) {
-      const Reply reply = snapshot->answers.answer(question);
+      Reply reply = snapshot->answers.answer(question);
       if (reply.status != 200) return reply;
       info = ordered_json::parse(*reply.body);
     }
