@@ -74,7 +74,7 @@ void warn(const Globals& globals, const std::string& text) {
 bool warn_of_unwritten(const Globals& globals, const std::filesystem::path& file) {
   std::error_code error;
   if (file.empty() || !std::filesystem::exists(file, error)) return false;
-  warn(globals, file.string() + " is of before: nothing was written to it");
+  warn(globals, file.string() + " is from before: nothing was written to it");
   return true;
 }
 

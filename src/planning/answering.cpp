@@ -78,7 +78,7 @@ class Answering {
 
   PlanStatus straight_or(PlanStatus refused) {
     const auto& [from, to, start, goal, radius, prefer_clearance] = query_;
-    if (!is_straight_though(refused, space_, start, goal, radius) || !accept({start, goal}, {}))
+    if (!may_go_straight(refused, space_, start, goal, radius) || !accept({start, goal}, {}))
       return refused;
     result_.answered_by = config_.planner;
     return PlanStatus::kOk;

@@ -75,8 +75,8 @@ QueryEnds find_ends(const FreeSpace& space, const Point& start, const Point& goa
   return {status_of(to.status, false), from.voxel, to.voxel};
 }
 
-bool is_straight_though(PlanStatus refused, const FreeSpace& space, const Point& start,
-                        const Point& goal, double radius) {
+bool may_go_straight(PlanStatus refused, const FreeSpace& space, const Point& start,
+                     const Point& goal, double radius) {
   return (refused == PlanStatus::kStartInCollision || refused == PlanStatus::kGoalInCollision) &&
          space.is_free(start, goal, radius);
 }

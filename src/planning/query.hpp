@@ -27,8 +27,8 @@ QueryEnds find_ends(const FreeSpace& space, const Point& start, const Point& goa
 
 /// Robots fit in places where no voxel's centre is free: whether one whose ends were refused for
 /// that sees its goal all the same.
-bool is_straight_though(PlanStatus refused, const FreeSpace& space, const Point& start,
-                        const Point& goal, double radius);
+bool may_go_straight(PlanStatus refused, const FreeSpace& space, const Point& start,
+                     const Point& goal, double radius);
 
 /// Drops waypoints that come twice in a row, but for the goal of a path of one place.
 void drop_repeated(std::vector<Point>& path);

@@ -136,7 +136,7 @@ RouteResult find_route(const Roadmap& roadmap, const FreeSpace& space, const Rou
   if (reach == Reach::kApart) return result;
   if (space.is_narrowed()) {
     if (planner == Planner::kGraph)
-      result = result = find_limited_route(roadmap, space, query, from, to, deadline);
+      result = find_limited_route(roadmap, space, query, from, to, deadline);
     if (result.status == SearchStatus::kNoRoute)
       search_voxels(roadmap, space, query, Planner::kEsdf, deadline, result);
     return result;

@@ -156,7 +156,7 @@ SamplingResult sample_locally(const EsdfMap& esdf, const Point& start, const Poi
   const PlanStatus ends = detail::find_ends(space, start, goal, config.radius).status;
   plan.seconds.attach = seconds_now() - began;
   const bool is_refused = ends != PlanStatus::kOk;
-  if (is_refused && !detail::is_straight_though(ends, space, start, goal, config.radius))
+  if (is_refused && !detail::may_go_straight(ends, space, start, goal, config.radius))
     return finish(ends);
 
   const bool is_straight = is_refused || ((config.shorten || start == goal) &&

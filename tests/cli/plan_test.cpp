@@ -230,14 +230,14 @@ TEST_F(CliPlan, FilesOfBeforeThatNothingIsWrittenToAreTold) {
     words.insert(words.end(), into_wall.begin(), into_wall.end());
     const Outcome none = run(words);
     EXPECT_EQ(none.code, 2);
-    EXPECT_NE(none.err.find("path.csv is of before"), std::string::npos) << none.err;
+    EXPECT_NE(none.err.find("path.csv is from before"), std::string::npos) << none.err;
     EXPECT_EQ(read_whole(folder_ / "path.csv"), "of before");
   }
   const Outcome one = run({"plan", map, "--from", "-2,1.5,1", "--to", "-1,1.5,1", "--alternatives",
                            "9", "-o", path("way.csv")});
   EXPECT_EQ(one.code, 0) << one.err;
   EXPECT_EQ(one.err.find("way-1.csv"), std::string::npos) << one.err;
-  for (const char* name : {"way-2.csv is of before", "way-3.csv is of before"})
+  for (const char* name : {"way-2.csv is from before", "way-3.csv is from before"})
     EXPECT_NE(one.err.find(name), std::string::npos) << one.err;
 }
 
