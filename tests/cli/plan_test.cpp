@@ -272,7 +272,7 @@ TEST_F(CliPlan, KeepsFromWallsWhenAskedTo) {
     return all;
   };
   const auto planned = [&](std::vector<std::string> all) {
-    all.push_back("--json");
+    all.emplace_back("--json");
     return run(all).json();
   };
   const Json wide = planned(with("10")), tight = planned(query);
@@ -290,11 +290,11 @@ TEST_F(CliPlan, EscapesFromPlacesTooCloseToAWall) {
   const std::vector<std::string> query = {"plan", map, "--from", "-2,1.9,1", "--to", "2,1.5,1"};
   EXPECT_EQ(run(query).code, 2);
   std::vector<std::string> more = query;
-  more.push_back("--escape");
+  more.emplace_back("--escape");
   const Outcome person = run(more);
   EXPECT_EQ(person.code, 0) << person.err;
   EXPECT_NE(person.out.find("at the start, clearance 0.1 m"), std::string::npos) << person.out;
-  more.push_back("--json");
+  more.emplace_back("--json");
   const Json json = run(more).json();
   EXPECT_EQ(json["waypoints"].front(), Json({-2.0, 1.9, 1.0}));
   EXPECT_NEAR(json["escape_start"]["clearance"].get<double>(), 0.1, 1e-9);
