@@ -33,7 +33,7 @@ export interface Surface {
   cell: number; // side, metres
   cell_voxels: number;
   count: number;
-  cells: Uint16Array; // x, y, z, side of each quad
+  cells: Uint16Array | Uint32Array; // x, y, z, side of each quad
   sizes: Uint8Array; // width, height, 0, 0
 }
 

@@ -31,17 +31,22 @@ export class LiveSurface {
   /** All of it, as one surface. */
   whole(): Surface {
     const low: Vector = [Infinity, Infinity, Infinity];
+    const high: Vector = [-Infinity, -Infinity, -Infinity];
     let count = 0;
     for (const { block, quads } of this.blocks.values()) {
-      for (let k = 0; k < 3; ++k) low[k] = Math.min(low[k]!, block[k]!);
+      for (let k = 0; k < 3; ++k) {
+        low[k] = Math.min(low[k]!, block[k]!);
+        high[k] = Math.max(high[k]!, block[k]!);
+      }
       count += quads.length;
     }
+    const is_wide = high.some((end, k) => kBlock * (end + 1 - low[k]!) > 0xffff);
     const surface: Surface = {
       origin: this.origin.map((x, k) => (count > 0 ? x + kBlock * low[k]! * this.voxel_size : x)) as Vector,
       cell: this.voxel_size,
       cell_voxels: 1,
       count,
-      cells: new Uint16Array(4 * count),
+      cells: is_wide ? new Uint32Array(4 * count) : new Uint16Array(4 * count),
       sizes: new Uint8Array(4 * count),
     };
     let at = 0;

@@ -90,8 +90,9 @@ class Drawable {
 }
 
 /** Four corners a rectangle: x, y, z in cells, and the side, plus 8 and 16 at the far ends of its width and height. (Software draws instances one by one.) */
-function expanded({ cells, sizes, count }: Surface, order: Uint32Array): { corners: Uint16Array; index: Uint32Array } {
-  const corners = new Uint16Array(16 * count);
+function expanded({ cells, sizes, count }: Surface, order: Uint32Array): { corners: Uint16Array | Float32Array; index: Uint32Array } {
+  // Attributes of 32 bits would be whole numbers in the shader; floats hold all voxels of a live map.
+  const corners = cells instanceof Uint16Array ? new Uint16Array(16 * count) : new Float32Array(16 * count);
   const index = new Uint32Array(6 * count);
   for (let place = 0; place < count; ++place) {
     const i = order[place]!;
