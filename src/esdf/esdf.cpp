@@ -12,6 +12,7 @@
 #include "mapping/memory_limit.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
 #include "voxel/mask_sets.hpp"
 #include "work_domain.hpp"
 
@@ -135,6 +136,7 @@ void EsdfConfig::validate() const {
 
 EsdfMap compute_esdf(OccupancyMap map, const EsdfConfig& config) {
   config.validate();
+  validate_voxel_size(map.voxel_size, "voxel_size");
   EsdfMap esdf;
   esdf.voxel_size = map.voxel_size;
   esdf.origin = map.origin;

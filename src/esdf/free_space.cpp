@@ -23,6 +23,11 @@ double squared_limit(double radius, double voxel_size) {
   return 0.25 * least_clearance(radius, voxel_size).value;
 }
 
+/// Whether there are voxels at both ends, and a radius that something may keep.
+bool can_ask(const EsdfMap& esdf, const Point& a, const Point& b, double radius) {
+  return has_voxel(a, esdf.voxel_size) && has_voxel(b, esdf.voxel_size) && radius >= 0.0;
+}
+
 /// Whether a point lies in, or on the border of, a known-free voxel: but for rounding, also of the
 /// world's coordinates, where waypoints of paths were rounded.
 bool touches_free(const EsdfMap& esdf, const Vector& p) {
@@ -50,6 +55,8 @@ double FreeSpace::clearance(const Point& a, const Point& b) const {
 
 double FreeSpace::clearance(std::span<const Point> path, double at_most) const {
   const double s = esdf_.voxel_size;
+  if (!std::all_of(path.begin(), path.end(), [&](const Point& p) { return has_voxel(p, s); }))
+    return 0.0;
   const auto for_each_segment = [&](const auto& body) {
     for (std::size_t i = path.size() == 1 ? 0 : 1; i < path.size(); ++i)
       body(SegmentMarch(esdf_, path[i == 0 ? 0 : i - 1] / s, path[i] / s));
@@ -71,7 +78,7 @@ bool FreeSpace::is_free(const Point& p, double radius) const { return is_free(p,
 
 bool FreeSpace::is_free(const Point& a, const Point& b, double radius) const {
   const double s = esdf_.voxel_size;
-  if (!a.allFinite() || !b.allFinite() || !is_within_limits(a, b)) return false;
+  if (!can_ask(esdf_, a, b, radius) || !is_within_limits(a, b)) return false;
   if (esdf_.unknown != UnknownPolicy::kObstacle && !is_known_free(a, b)) return false;
   const auto fits = [&](double ball) {
     return std::isinf(
@@ -86,7 +93,7 @@ bool FreeSpace::is_free(const Point& a, const Point& b, double radius) const {
 bool FreeSpace::is_clearly_free(const Point& a, const Point& b, double radius) const {
   if (!is_for_sphere()) return is_free(a, b, radius);
   const double s = esdf_.voxel_size;
-  if (!is_within_limits(a, b)) return false;
+  if (!can_ask(esdf_, a, b, radius) || !is_within_limits(a, b)) return false;
   if (esdf_.unknown != UnknownPolicy::kObstacle && !is_known_free(a, b)) return false;
   return std::isinf(
       SegmentMarch(esdf_, a / s, b / s).doubt<Wanted::kWhetherClearly>(squared_limit(radius, s)));
@@ -94,6 +101,7 @@ bool FreeSpace::is_clearly_free(const Point& a, const Point& b, double radius) c
 
 double FreeSpace::free_length(const Point& a, const Point& b, double radius) const {
   const double s = esdf_.voxel_size;
+  if (!can_ask(esdf_, a, b, radius)) return 0.0;
   const double length = (b - a).norm();
   if (!is_for_sphere()) {
     double free = length;
@@ -113,6 +121,7 @@ double FreeSpace::free_length(const Point& a, const Point& b, double radius) con
 }
 
 std::optional<Point> FreeSpace::near_obstacle(const Point& p) const {
+  if (!has_voxel(p, esdf_.voxel_size)) return std::nullopt;
   const VoxelIndex v = voxel_at(p, esdf_.voxel_size);
   const VoxelId id = esdf_.layout.find(v);
   if (id == kNoVoxel || esdf_.squared[id] == kNoSite) return std::nullopt;
@@ -122,6 +131,7 @@ std::optional<Point> FreeSpace::near_obstacle(const Point& p) const {
 }
 
 bool FreeSpace::is_known_free(const Point& a, const Point& b) const {
+  if (!can_ask(esdf_, a, b, 0.0)) return false;
   const Vector from = a / esdf_.voxel_size, along = b / esdf_.voxel_size - from;
   // Between two crossings of lattice planes the segment stays in one voxel: ask at its middle,
   // and at the crossing itself.
@@ -136,6 +146,7 @@ bool FreeSpace::is_known_free(const Point& a, const Point& b) const {
           along[axis] > 0.0 ? std::floor(here + 1e-9) + 1.0 : std::ceil(here - 1e-9) - 1.0;
       next = std::min(next, (plane - from[axis]) / along[axis]);
     }
+    next = std::max(next, std::nextafter(t, 1.0));  // far out a plane may be where it was
     if (!touches_free(esdf_, from + 0.5 * (t + next) * along) ||
         !touches_free(esdf_, from + next * along))
       return false;

@@ -4,11 +4,14 @@
 #include <array>
 #include <cmath>
 
+#include "common/require.hpp"
 #include "obstacle_scan.hpp"
 #include "ridgeway/esdf/distance_field.hpp"
 
 namespace ridgeway {
 namespace {
+
+using detail::require;
 
 /// Distance, voxels, from a centre to the cube at an offset.
 double distance_to_cube(int dx, int dy, int dz) {
@@ -53,9 +56,12 @@ double distance_beside(const EsdfMap& esdf, const VoxelIndex& voxel, double far)
   return s * std::sqrt(squared);
 }
 
-}  // namespace
+void require_depth(double deepest) {
+  require(deepest >= 0.0 && std::isfinite(deepest), "deepest", deepest,
+          "give the metres that are looked at inside obstacles, 0 or more");
+}
 
-double signed_distance(const EsdfMap& esdf, const VoxelIndex& voxel, double deepest) {
+double distance_of(const EsdfMap& esdf, const VoxelIndex& voxel, double deepest) {
   const double s = esdf.voxel_size;
   const double far = std::min(esdf.max_distance, kFarthestSite * s);
   const VoxelId id = esdf.layout.find(voxel);
@@ -63,7 +69,15 @@ double signed_distance(const EsdfMap& esdf, const VoxelIndex& voxel, double deep
   return id == kNoVoxel ? distance_beside(esdf, voxel, far) : std::min(esdf.distance(id), far);
 }
 
+}  // namespace
+
+double signed_distance(const EsdfMap& esdf, const VoxelIndex& voxel, double deepest) {
+  require_depth(deepest);
+  return distance_of(esdf, voxel, deepest);
+}
+
 DistanceAndGradient interpolate_distance(const EsdfMap& esdf, const Point& point, double deepest) {
+  require_depth(deepest);
   const double s = esdf.voxel_size;
   const Point shifted = point / s - Point::Constant(0.5);
   const VoxelIndex base = voxel_at(shifted, 1.0);
@@ -71,7 +85,7 @@ DistanceAndGradient interpolate_distance(const EsdfMap& esdf, const Point& point
   std::array<double, 8> d;  // bit 0: x, bit 1: y, bit 2: z
   for (int i = 0; i < 8; ++i)
     d[static_cast<std::size_t>(i)] =
-        signed_distance(esdf, base + VoxelIndex{i & 1, i >> 1 & 1, i >> 2}, deepest);
+        distance_of(esdf, base + VoxelIndex{i & 1, i >> 1 & 1, i >> 2}, deepest);
   const auto mix = [](double a, double b, double share) { return a + share * (b - a); };
   const double x00 = mix(d[0], d[1], t.x()), x10 = mix(d[2], d[3], t.x());
   const double x01 = mix(d[4], d[5], t.x()), x11 = mix(d[6], d[7], t.x());

@@ -81,6 +81,7 @@ class Refinement {
       return std::min(value, 0.0);
     }
     double nearest = std::numeric_limits<double>::infinity();
+    if (esdf_.squared[id] == kNoSite) return nearest;
     SiteOffset last{};
     for (int direction = 0; direction < 27; ++direction) {
       const VoxelId other = esdf_.layout.neighbour(id, direction);

@@ -13,42 +13,18 @@
 
 #include "mapping/memory_limit.hpp"
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/common/parallel.hpp"
 
 namespace ridgeway::detail {
 namespace {
 
-/// Upper bound of the Chebyshev distance, in blocks, from each block to an occupied one: steps
-/// through the layout, or by plain search where no step leads there.
-std::vector<int> blocks_to_obstacle(const BlockLayout& layout, const std::vector<bool>& occupied) {
-  std::vector<int> steps(layout.block_count(), -1);
-  std::vector<std::uint32_t> front;
-  for (std::uint32_t slot = 0; slot < layout.block_count(); ++slot)
-    if (occupied[slot]) {
-      steps[slot] = 0;
-      front.push_back(slot);
-    }
-  const std::vector<std::uint32_t> sources = front;
-  while (!front.empty()) {
-    std::vector<std::uint32_t> next;
-    for (const std::uint32_t slot : front)
-      for (int d = 0; d < 27; ++d) {
-        const std::uint32_t n = layout.neighbour_block(slot, d);
-        if (n == BlockLayout::kNoBlock || steps[n] >= 0) continue;
-        steps[n] = steps[slot] + 1;
-        next.push_back(n);
-      }
-    front = std::move(next);
-  }
-  for (std::uint32_t slot = 0; slot < layout.block_count(); ++slot) {
-    if (steps[slot] >= 0) continue;
-    int nearest = kFarthestSite;
-    for (const std::uint32_t source : sources) {
-      const BlockIndex o = layout.block(source) - layout.block(slot);
-      nearest = std::min(nearest, std::max({std::abs(o.x), std::abs(o.y), std::abs(o.z)}));
-    }
-    steps[slot] = nearest;
-  }
-  return steps;
+/// The first and the last of some ascending numbers that are within a radius of one, if any.
+std::optional<std::pair<int, int>> range_near(const std::vector<int>& numbers, int middle,
+                                              int radius) {
+  const auto first = std::lower_bound(numbers.begin(), numbers.end(), middle - radius);
+  const auto end = std::upper_bound(first, numbers.end(), middle + radius);
+  if (first == end) return std::nullopt;
+  return std::pair(*first, *(end - 1));
 }
 
 /// Of the blocks that hold an obstacle, the x of each row (y, z), ascending, by y, by z.
@@ -62,6 +38,61 @@ ObstacleRows rows_of(const BlockLayout& layout, const std::vector<bool>& occupie
       rows[block.z][block.y].push_back(block.x);
     }
   return rows;
+}
+
+/// Whether a block lies within a Chebyshev distance of one of the rows.
+bool is_within(const ObstacleRows& rows, const BlockIndex& block, int radius) {
+  const auto last_plane = rows.upper_bound(block.z + radius);
+  for (auto plane = rows.lower_bound(block.z - radius); plane != last_plane; ++plane) {
+    const auto last_row = plane->second.upper_bound(block.y + radius);
+    for (auto row = plane->second.lower_bound(block.y - radius); row != last_row; ++row)
+      if (range_near(row->second, block.x, radius)) return true;
+  }
+  return false;
+}
+
+/// That distance, or `most` where it is larger.
+int nearest_in(const ObstacleRows& rows, const BlockIndex& block, int most) {
+  int beyond = 0, within = 1;  // beyond the one, within the other
+  while (within < most && !is_within(rows, block, within)) {
+    beyond = within;
+    within = std::min(2 * within, most);
+  }
+  while (within - beyond > 1) {
+    const int middle = beyond + (within - beyond) / 2;
+    (is_within(rows, block, middle) ? within : beyond) = middle;
+  }
+  return within;
+}
+
+/// Upper bound of the Chebyshev distance, in blocks, from each block to an occupied one, or
+/// `most`, if that is less: steps through the layout, or a search where no step leads there.
+std::vector<int> blocks_to_obstacle(const BlockLayout& layout, const std::vector<bool>& occupied,
+                                    const ObstacleRows& rows, int most) {
+  std::vector<int> steps(layout.block_count(), -1);
+  std::vector<std::uint32_t> front;
+  for (std::uint32_t slot = 0; slot < layout.block_count(); ++slot)
+    if (occupied[slot]) {
+      steps[slot] = 0;
+      front.push_back(slot);
+    }
+  while (!front.empty()) {
+    stop_if_cancelled();
+    std::vector<std::uint32_t> next;
+    for (const std::uint32_t slot : front)
+      for (int d = 0; d < 27; ++d) {
+        const std::uint32_t n = layout.neighbour_block(slot, d);
+        if (n == BlockLayout::kNoBlock || steps[n] >= 0) continue;
+        steps[n] = steps[slot] + 1;
+        next.push_back(n);
+      }
+    front = std::move(next);
+  }
+  parallel_for_each_index(steps.size(), [&](std::size_t slot) {
+    if (steps[slot] < 0)
+      steps[slot] = nearest_in(rows, layout.block(static_cast<std::uint32_t>(slot)), most);
+  });
+  return steps;
 }
 
 /// Blocks that are collected up to what memory allows.
@@ -104,6 +135,7 @@ void raise(Reach& reach, const BlockIndex& block, int radius) {
 Reach run_along_z(const Reach& targets, const ObstacleRows& rows, BlockSet& domain) {
   Reach begins;
   for (const auto& [block, radius] : targets) {
+    stop_if_cancelled();
     int first = block.z, last = block.z;
     const auto end = rows.upper_bound(block.z + radius);
     for (auto plane = rows.lower_bound(block.z - radius); plane != end; ++plane) {
@@ -116,19 +148,11 @@ Reach run_along_z(const Reach& targets, const ObstacleRows& rows, BlockSet& doma
   return begins;
 }
 
-/// The first and the last of some ascending numbers that are within a radius of one, if any.
-std::optional<std::pair<int, int>> range_near(const std::vector<int>& numbers, int middle,
-                                              int radius) {
-  const auto first = std::lower_bound(numbers.begin(), numbers.end(), middle - radius);
-  const auto end = std::upper_bound(first, numbers.end(), middle + radius);
-  if (first == end) return std::nullopt;
-  return std::pair(*first, *(end - 1));
-}
-
 /// Before that the sweep along y, within planes, from the rows with obstacles in reach.
 Reach run_along_y(const Reach& ends, const ObstacleRows& rows, BlockSet& domain) {
   Reach begins;
   for (const auto& [block, radius] : ends) {
+    stop_if_cancelled();
     int first = block.y, last = block.y;
     const std::map<int, std::vector<int>>& plane = rows.at(block.z);
     const auto end = plane.upper_bound(block.y + radius);
@@ -145,10 +169,12 @@ Reach run_along_y(const Reach& ends, const ObstacleRows& rows, BlockSet& domain)
 
 /// And before that the sweep along x, within rows, from their obstacles in reach.
 void run_along_x(const Reach& ends, const ObstacleRows& rows, BlockSet& domain) {
-  for (const auto& [block, radius] : ends)
+  for (const auto& [block, radius] : ends) {
+    stop_if_cancelled();
     if (const auto range = range_near(rows.at(block.z).at(block.y), block.x, radius))
       domain.add_run(block, &BlockIndex::x, std::min(block.x, range->first),
                      std::max(block.x, range->second));
+  }
 }
 
 }  // namespace
@@ -174,8 +200,9 @@ BlockLayout sweep_domain(const BlockLayout& target, const std::vector<bool>& occ
                          double farthest, int bytes_per_voxel) {
   const ObstacleRows rows = rows_of(target, occupied);
   if (rows.empty()) return target;
-  const std::vector<int> steps = blocks_to_obstacle(target, occupied);
   const double most = std::min(farthest, static_cast<double>(kFarthestSite));
+  const std::vector<int> steps =
+      blocks_to_obstacle(target, occupied, rows, static_cast<int>(std::ceil(most / kBlockSide)));
   Reach targets;
   for (std::uint32_t slot = 0; slot < target.block_count(); ++slot) {
     // A block k steps away lies within (k + 1) block diagonals of an obstacle voxel.

@@ -13,10 +13,11 @@ namespace ridgeway {
 /// distance field alone, and in a map that is only read to be coarsened or cut down.
 inline constexpr int kEsdfBytesPerVoxel = 9;
 inline constexpr int kMapBytesPerVoxel = 3;
-/// What the kernel takes of a voxel of the thinned edges, beyond that, and the graph of a voxel of
-/// the diagram, bytes: measured on space full of single voxels, where they take the most.
+/// What joining the diagram takes of a voxel of the thinned edges or the kernel, beyond that, and
+/// the graph of a voxel of the diagram, bytes: measured on space full of single voxels and on a
+/// checkerboard, where they take the most.
 inline constexpr int kKernelBytesPerEdgeVoxel = 100;
-inline constexpr int kGraphBytesPerDiagramVoxel = 350;
+inline constexpr int kGraphBytesPerDiagramVoxel = 420;
 
 /// What the system says of memory: the contents of its files, empty where there is none.
 struct MemoryReadings {

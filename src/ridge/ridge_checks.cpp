@@ -188,8 +188,8 @@ bool ways_end(const Roadmap& roadmap, const std::vector<WaysOfBlock>& ways) {
 Defect find_size_defect(const Roadmap& roadmap) {
   const EsdfMap& esdf = roadmap.esdf;
   const std::size_t voxels = esdf.layout.voxel_count(), blocks = esdf.layout.block_count();
-  if (!(esdf.voxel_size > 0.0) || !std::isfinite(esdf.voxel_size)) {
-    return RoadmapDefect{"header", "has no positive voxel size"};
+  if (!(esdf.voxel_size >= 1e-6 && esdf.voxel_size <= 1e6)) {
+    return RoadmapDefect{"header", "has no voxel size from 1e-6 to 1e6 metres"};
   }
   if (esdf.state.size() != voxels || esdf.squared.size() != voxels || esdf.site.size() != voxels ||
       esdf.obstacle.block_count() != blocks) {

@@ -7,6 +7,7 @@
 #include "cell_bends.hpp"
 #include "cell_neighbours.hpp"
 #include "cell_walks.hpp"
+#include "common/require.hpp"
 #include "open_parts.hpp"
 #include "paths/planning_constants.hpp"
 #include "ridgeway/common/parallel.hpp"
@@ -237,6 +238,8 @@ class CellGraphBuilder {
 }  // namespace
 
 CellGraph build_cell_graph(const EsdfMap& esdf, double min_clearance) {
+  detail::require(min_clearance > 0.0 && std::isfinite(min_clearance), "min_clearance",
+                  min_clearance, "give the robot's radius in metres, above 0");
   if (esdf.planar) return {};  // its cells would be layers beside the one that flights are in
   return CellGraphBuilder(esdf, min_clearance).run();
 }

@@ -16,6 +16,7 @@
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/mapping/map_edits.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
 #include "ridgeway/skeleton/diagram.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
 #include "skeleton/join_diagram.hpp"
@@ -47,9 +48,9 @@ TangentConfig tangent_config(const BuildConfig& config) {
   return {.tangent_pairs = config.tangent_pairs};
 }
 
-/// Of the stages that follow, which take so much for each of these voxels.
-void require_memory_for(const VoxelMask& voxels, int bytes_each) {
-  require_memory(static_cast<double>(voxels.count()) * bytes_each, "map",
+/// Of the stages that follow, which take so much for each of so many voxels.
+void require_memory_for(std::size_t voxels, int bytes_each) {
+  require_memory(static_cast<double>(voxels) * bytes_each, "map",
                  "use larger voxels, or cut the map down to a smaller box");
 }
 
@@ -75,6 +76,9 @@ GvdConfig ridges_of(const BuildConfig& config) {
 }
 
 void require_suits(const BuildConfig& config, double voxel_size) {
+  validate_voxel_size(voxel_size, "voxel_size");
+  require(config.min_clearance <= (kFarthestSite - 2) * voxel_size, "min_clearance",
+          config.min_clearance, "give the robot's radius in metres, at most 15,998 voxels");
   require(config.min_clearance >= 1e-3 * voxel_size, "min_clearance", config.min_clearance,
           "give the robot's radius in metres, at least a thousandth of a voxel");
   // Up to two voxels below max_distance radii are exact; at least the smallest must be.
@@ -194,7 +198,7 @@ JoinedDiagram find_diagram(const RememberedSpace& space, const EdgesOf& edges_of
       for (VoxelMask* mask : {&kernel, &edges})
         *mask = common_members(*memory->rest->without, *mask);
   }
-  require_memory_for(edges, kKernelBytesPerEdgeVoxel);
+  require_memory_for(edges.count() + kernel.count(), kKernelBytesPerEdgeVoxel);
   open_shells(esdf, kernel, peaks);
   VoxelMask diagram = join_diagram(space, edges, kernel, config.min_clearance, basins,
                                    memory == nullptr ? nullptr : &memory->diagram);
@@ -224,7 +228,7 @@ void build_on_watershed(const EdgesOf& edges_of, const SpaceOf& space_of, const 
   clock.end(report.seconds.kernel);
 
   clock.begin("graph");
-  require_memory_for(diagram, kGraphBytesPerDiagramVoxel);
+  require_memory_for(diagram.count(), kGraphBytesPerDiagramVoxel);
   const DiagramCurves curves = index_diagram(esdf, diagram, config.min_clearance, segments);
   roadmap.graph = detail::build_graph(esdf, curves, graph_config(config), segments);
   if (config.simplify)

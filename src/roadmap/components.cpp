@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/name_table.hpp"
+#include "common/require.hpp"
 #include "ridgeway/skeleton/basins.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
 #include "voxel/disjoint_sets.hpp"
@@ -89,6 +90,8 @@ SpaceParts::SpaceParts(const EsdfMap& esdf, bool within_limits)
                           kSmallest * esdf.voxel_size)) {}
 
 ComponentReport SpaceParts::report(double radius, const std::vector<VoxelId>& asked) const {
+  detail::require(radius > 0.0 && std::isfinite(radius), "radius", radius,
+                  "give the robot's radius in metres, above 0");
   SinkingLevel level(basins_);
   level.sink_to(least_clearance(radius, esdf_.voxel_size));
   std::vector<std::size_t> component_of(basins_.peaks.size(), kNoComponent);  // by set

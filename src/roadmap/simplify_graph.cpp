@@ -70,7 +70,8 @@ class Simplification {
   }
 
   /// Whether the ball at a dead end (`way` leads from it to its base) reaches far enough beyond
-  /// those of the vertices around: of all that are no farther from its base than the end itself.
+  /// those of the vertices around: of those that are met from its base on, the fewest edges first,
+  /// no farther off than the end itself.
   bool is_significant(const std::vector<Number>& way) const {
     const Number end = way.front(), base = way.back(), inside = way[way.size() - 2];
     const double along = graph_.length(way);
@@ -96,6 +97,7 @@ class Simplification {
       again = false;
       for (Number end = 0; end < graph_.size(); ++end) {
         if (graph_.links_of(end).size() != 1) continue;
+        detail::stop_if_cancelled();
         const std::vector<Number> way = graph_.way_to_fork(end);
         if (graph_.links_of(way.back()).size() < 3 || is_significant(way)) continue;
         for (std::size_t i = 0; i + 1 < way.size(); ++i) graph_.unlink(way[i], way[i + 1]);
@@ -133,6 +135,7 @@ class Simplification {
     std::sort(longest_first.begin(), longest_first.end());
     bool changed = false;
     for (const NeighbourPair& c : longest_first) {
+      detail::stop_if_cancelled();
       const std::vector<Number> way =
           graph_.other_way(c.from, c.to, -c.length * config_.stretch,
                            widths_.kept(graph_.links_of(c.from).at(c.to).clearance));

@@ -10,6 +10,7 @@
 
 #include "by_height.hpp"
 #include "common/parallel_sort.hpp"
+#include "common/require.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "voxel/disjoint_sets.hpp"
 #include "watershed.hpp"
@@ -162,6 +163,8 @@ Basins detail::find_passes(const RememberedSpace& space, double radius, Watershe
 }
 
 Basins find_basins(const EsdfMap& esdf, const VoxelMask& traversable, double radius) {
+  detail::require(radius > 0.0 && std::isfinite(radius), "radius", radius,
+                  "give the robot's radius in metres, above 0");
   return detail::find_passes(detail::RememberedSpace(esdf, nullptr), radius,
                              detail::find_watershed(esdf, traversable));
 }

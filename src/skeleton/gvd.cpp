@@ -186,6 +186,8 @@ VoxelMask filter(const BlockLayout& layout, const VoxelMask& mask, const Keep& k
 
 VoxelMask traversable_voxels(const EsdfMap& esdf, double radius, bool within_limits) {
   assert(esdf.state.is_of(esdf.layout) && esdf.squared.is_of(esdf.layout));
+  detail::require(radius >= 0.0 && std::isfinite(radius), "radius", radius,
+                  "give the robot's radius in metres, 0 or more");
   return mask_by_block(esdf.layout, [&](std::uint32_t slot) {
     return detail::traversable_in_block(esdf, radius, slot, within_limits);
   });

@@ -8,6 +8,7 @@
 #include "common/parallel_sort.hpp"
 #include "parallel_deletion.hpp"
 #include "ridgeway/skeleton/diagram.hpp"
+#include "sheet_groups.hpp"
 #include "shell_memory.hpp"
 #include "simple_point.hpp"
 #include "voxel/mask_sets.hpp"
@@ -40,12 +41,14 @@ class OrderedDeletion {
     delete_all(std::move(work), may_go);
   }
 
-  /// Left over from turns that have come, each once: those around which anything has changed since
-  /// the last call, and some others.
+  /// Whether a voxel's turn has come, and it is still there.
+  bool is_due(VoxelId id) const { return due_.test(id); }
+
+  /// Voxels around which anything has changed since the last call, or that are gone, and some
+  /// others, each once.
   std::vector<VoxelId> take_changed(const std::vector<VoxelId>& others) {
     std::vector<VoxelId> changed = std::exchange(asked_, {});
     changed.insert(changed.end(), others.begin(), others.end());
-    std::erase_if(changed, [&](VoxelId id) { return !due_.test(id); });
     std::sort(changed.begin(), changed.end());
     changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
     return changed;
@@ -93,33 +96,6 @@ void for_each_level(const std::vector<std::uint64_t>& order, const Level& level,
 /// A voxel of a sheet: foreground around it hangs together, background lies on two sides of it.
 bool is_sheet(Cube27 cube) { return foreground_parts(cube) == 1 && background_parts(cube) > 1; }
 
-/// From each connected group of sheet voxels the one nearest to an obstacle. `sheet`: an empty set,
-/// which it is again afterwards.
-std::vector<VoxelId> piercing_places(const EsdfMap& esdf, const std::vector<VoxelId>& sheets,
-                                     VoxelMask& sheet) {
-  for (const VoxelId id : sheets) sheet.set(id);
-  std::vector<VoxelId> places;
-  for (const VoxelId seed : sheets) {
-    if (!sheet.test(seed)) continue;
-    VoxelId best = seed;
-    std::vector<VoxelId> stack{seed};
-    sheet.reset(seed);
-    while (!stack.empty()) {
-      const VoxelId id = stack.back();
-      stack.pop_back();
-      if (std::pair(esdf.squared[id], esdf.layout.order_of(id)) <
-          std::pair(esdf.squared[best], esdf.layout.order_of(best)))
-        best = id;
-      for (Cube27 cube = cube_around(esdf.layout, sheet, id); cube != 0; cube &= cube - 1) {
-        stack.push_back(esdf.layout.neighbour(id, std::countr_zero(cube)));
-        sheet.reset(stack.back());
-      }
-    }
-    places.push_back(best);
-  }
-  return places;
-}
-
 VoxelMask mask_of(const BlockLayout& layout, const std::vector<VoxelId>& ids) {
   VoxelMask mask(layout);
   for (const VoxelId id : ids) mask.set(id);
@@ -150,13 +126,18 @@ void open_shells_among(const EsdfMap& esdf, VoxelMask& voxels, const VoxelMask& 
     deletion.process(std::move(ids), may_go);
     // None of the voxels that are due is a sheet's when the next level begins, so only those can be
     // around which something has changed.
-    for (std::vector<VoxelId> sheets;;) {
-      sheets = deletion.take_changed(sheets);
-      std::erase_if(sheets, [&](VoxelId id) {
-        return keep.test(id) || !is_sheet(cube_around(esdf.layout, voxels, id));
-      });
+    SheetGroups sheets(esdf, scratch.sheet, scratch.fresh);
+    for (std::vector<VoxelId> pierced;;) {
+      std::vector<VoxelId> gone, come;
+      for (const VoxelId id : deletion.take_changed(pierced)) {
+        const bool belongs =
+            deletion.is_due(id) && !keep.test(id) && is_sheet(cube_around(esdf.layout, voxels, id));
+        if (belongs != sheets.contains(id)) (belongs ? come : gone).push_back(id);
+      }
+      sheets.update(gone, come);
       if (sheets.empty()) break;
-      deletion.process_after(piercing_places(esdf, sheets, scratch.sheet), may_be_pierced, may_go);
+      pierced = sheets.nearest();
+      deletion.process_after(pierced, may_be_pierced, may_go);
     }
   });
   for (const VoxelId id : among) scratch.due.reset(id);

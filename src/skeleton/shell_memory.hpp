@@ -11,9 +11,9 @@ namespace ridgeway::detail {
 
 /// Sets to work with, empty before and after each use.
 struct ShellScratch {
-  VoxelMask due, sheet;
+  VoxelMask due, sheet, fresh;
 
-  explicit ShellScratch(const BlockLayout& layout) : due(layout), sheet(layout) {}
+  explicit ShellScratch(const BlockLayout& layout) : due(layout), sheet(layout), fresh(layout) {}
 };
 
 /// What open_shells() does, of some members of the set: those of whole 26-components of what is not

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <limits>
+#include <utility>
 
 #include "ridgeway/esdf/esdf.hpp"
 #include "support/brute_force.hpp"
@@ -233,6 +234,39 @@ TEST(FreeSpace, KeepsToKnownFreeVoxelsWhereUnknownIsIgnored) {
   EXPECT_FALSE(space.is_free(Point(0.5, 0.5, 0.05), 0.3));
   // Through the very corner that two free voxels share, past unknown ones.
   EXPECT_TRUE(space.is_free(Point(0.05, 0.15, 0.05), Point(0.15, 0.05, 0.05), 0.3));
+}
+
+TEST(FreeSpace, NothingIsFreeWhereNoVoxelIsNorForNoRadius) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const OccupancyMap map = testing::make_map(0.1, {0, 0, 0}, {15, 15, 15}, [](const VoxelIndex& v) {
+    return v.x == 9 ? VoxelState::kOccupied : VoxelState::kFree;
+  });
+  const Point here(0.25, 0.55, 0.55), wall(0.95, 0.55, 0.55);
+  for (const auto policy :
+       {UnknownPolicy::kObstacle, UnknownPolicy::kIgnore, UnknownPolicy::kFree}) {
+    const EsdfMap esdf = compute_esdf(map, {.unknown = policy});
+    const FreeSpace space(esdf);
+    for (const double x : {2e8, 1e100, 1e154, 1e300, kInfinity, kNaN, -1e154}) {
+      const Point far(x, 0.55, 0.55);
+      EXPECT_FALSE(space.is_free(far, 0.1));
+      for (const auto& [a, b] : {std::pair(here, far), std::pair(far, here)}) {
+        EXPECT_FALSE(space.is_free(a, b, 0.1)) << x;
+        EXPECT_FALSE(space.is_clearly_free(a, b, 0.1)) << x;
+        EXPECT_FALSE(space.is_known_free(a, b)) << x;
+        EXPECT_EQ(space.free_length(a, b, 0.1), 0.0) << x;
+        EXPECT_EQ(space.clearance(a, b), 0.0) << x;
+      }
+      EXPECT_FALSE(space.near_obstacle(far));
+    }
+    EXPECT_TRUE(space.is_free(here, 0.1));
+    for (const double radius : {kNaN, -1e-9, -1.0}) {
+      EXPECT_FALSE(space.is_free(here, radius)) << radius;
+      EXPECT_FALSE(space.is_free(wall, radius)) << radius;
+      EXPECT_FALSE(space.is_clearly_free(here, here, radius)) << radius;
+      EXPECT_EQ(space.free_length(here, wall, radius), 0.0) << radius;
+    }
+  }
 }
 
 }  // namespace

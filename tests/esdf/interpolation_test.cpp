@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include <gtest/gtest.h>
 
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/distance_field.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "support/brute_force.hpp"
@@ -123,6 +124,19 @@ TEST(DistanceAt, IsInfiniteWhereThereIsNoObstacle) {
     ASSERT_TRUE(found);
     EXPECT_TRUE(std::isinf(found->distance));
     EXPECT_EQ(found->gradient, Point::Zero());
+  }
+}
+
+TEST(SignedDistance, ADepthThatIsNoneIsRefused) {
+  const EsdfMap esdf = compute_esdf(testing::make_map(
+      0.1, {0, 0, 0}, {7, 7, 7}, [](const VoxelIndex&) { return VoxelState::kOccupied; }));
+  EXPECT_EQ(signed_distance(esdf, {3, 3, 3}, 0.0), 0.0);
+  EXPECT_EQ(signed_distance(esdf, {3, 3, 3}, 2.0), -2.0);
+  for (const double deepest :
+       {-1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THROW(signed_distance(esdf, {3, 3, 3}, deepest), InputError);
+    EXPECT_THROW(interpolate_distance(esdf, {0.4, 0.4, 0.4}, deepest), InputError);
+    EXPECT_THROW(distance_at(esdf, {0.4, 0.4, 0.4}, deepest), InputError);
   }
 }
 

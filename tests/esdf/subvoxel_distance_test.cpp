@@ -101,6 +101,23 @@ TEST(SubvoxelDistance, TheBoundHoldsAndObstaclesAreNotPositive) {
   }
 }
 
+TEST(SubvoxelDistance, TheBoundIsFiniteWhereDistancesEnd) {
+  World ball;
+  ball.spheres.push_back({Point(0.02, 0.03, 0.01), 0.7});
+  const TsdfMap tsdf = tsdf_of(ball, 0.1, {-16, -16, -16}, {15, 15, 15});
+  const EsdfMap esdf =
+      compute_esdf(occupancy_of(tsdf), {.unknown = UnknownPolicy::kIgnore, .max_distance = 0.5});
+  const SubvoxelDistances fine = subvoxel_distances(esdf, tsdf);
+  EXPECT_LE(fine.error_bound, 0.2);
+  std::size_t without_site = 0;
+  for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
+    if (esdf.squared[id] == kNoSite) {
+      EXPECT_TRUE(std::isinf(fine.distance[id]));
+      ++without_site;
+    }
+  EXPECT_GT(without_site, 1000u);
+}
+
 TEST(SubvoxelDistance, FusedHouseIsThatOfTheExactDistance) {
   const World world = load_world(std::string(RIDGEWAY_SOURCE_DIR) + "/worlds/house.yaml");
   TsdfFusion fusion({.truncation = 0.4});

@@ -8,6 +8,7 @@
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/esdf.hpp"
+#include "support/brute_force.hpp"
 #include "support/random_maps.hpp"
 
 namespace ridgeway {
@@ -81,6 +82,39 @@ TEST(SweepDomain, ABlockFarAwayDoesNotLetItGrowAroundACube) {
   const BlockLayout domain =
       detail::sweep_domain(cube.layout, occupied_blocks(cube), kAnyDistance, kBytesPerVoxel);
   EXPECT_EQ(domain.block_count(), 1001u);
+}
+
+/// Islands that no step leads between, half of them without an obstacle.
+TEST(SweepDomain, IslandsHaveTheDistancesOfBruteForce) {
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    std::mt19937 random(seed);
+    const auto below = [&](unsigned n) { return static_cast<int>(random() % n); };
+    std::vector<BlockIndex> blocks;
+    blocks.reserve(7);
+    for (int i = 0; i < 7; ++i) blocks.push_back({3 * below(4), 3 * below(3), 3 * below(4)});
+    OccupancyMap map;
+    map.voxel_size = 1.0;
+    map.layout = BlockLayout(blocks);
+    map.state = VoxelField<VoxelState>(map.layout, VoxelState::kFree);
+    for (std::uint32_t slot = 0; slot < map.layout.block_count(); slot += 2)
+      map.state[slot * kBlockVoxels + static_cast<VoxelId>(below(kBlockVoxels))] =
+          VoxelState::kOccupied;
+    for (const double farthest : {kAnyDistance, 30.0, 12.0}) {
+      const EsdfMap esdf =
+          compute_esdf(map, {.unknown = UnknownPolicy::kIgnore, .max_distance = farthest});
+      const std::vector<VoxelIndex> obstacles = testing::all_obstacles(map, UnknownPolicy::kIgnore);
+      for (VoxelId id = 0; id < esdf.layout.voxel_count(); id += 7) {
+        if (esdf.state[id] != VoxelState::kFree) continue;
+        const double brute = std::sqrt(
+            testing::brute_squared_distance(centre_of(esdf.layout.index_of(id), 1.0), obstacles));
+        if (brute < farthest - 2.0) {
+          ASSERT_NEAR(esdf.distance(id), brute, 1e-9);
+        } else if (std::isfinite(farthest)) {
+          ASSERT_GE(esdf.distance(id), farthest - 2.0);
+        }
+      }
+    }
+  }
 }
 
 TEST(SweepDomain, RefusesWhatMemoryWouldNotDoForBeforeItIsTaken) {

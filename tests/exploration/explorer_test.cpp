@@ -141,6 +141,7 @@ TEST(Explorer, EndsWhereADoorClosesOnAllThatIsLeftToSee) {
   ASSERT_EQ(step.status, ExplorationStatus::kFly) << name_of(step.status);
   for (int y = 8; y < 22; ++y) {
     std::vector<VoxelChange> door;
+    door.reserve(15);
     for (int z = 0; z < 15; ++z) door.push_back({{30, y, z}, VoxelState::kOccupied});
     live.set_voxels(door);
   }

@@ -313,7 +313,7 @@ TEST(MeshFile, MapsAccountForWhatSinglePrecisionLoses) {
       text.replace(at, 5, "double");
     write_whole(folder / "box.ply", text);
     LoadNotes told;
-    const OccupancyMap map = load_map(folder / "box.ply", {.voxel_size = 0.1}, &told);
+    OccupancyMap map = load_map(folder / "box.ply", {.voxel_size = 0.1}, &told);
     for (const std::string& note : told.notes) notes += note + "\n";
     return map;
   };

@@ -137,7 +137,7 @@ TEST(Snapshots, AThousandThatAreTakenAndDroppedLeaveNothing) {
       held.push_back(live.snapshot());
       if (held.size() > 5) held.pop_front();
     }
-    const std::string last = bytes_of(held.back().get());
+    std::string last = bytes_of(held.back().get());
     held.clear();
     return last;
   };

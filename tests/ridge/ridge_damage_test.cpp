@@ -198,7 +198,7 @@ TEST_F(HostileRidge, WrongHeadersAreRefused) {
 TEST_F(HostileRidge, FilesOfTheFirstVersionHaveTheirOriginAtZero) {
   const auto with_origin = [](const std::string& text) {
     return [text](std::string& header) {
-      const std::size_t from = header.find("\"origin\""), to = header.find("]", from);
+      const std::size_t from = header.find("\"origin\""), to = header.find(']', from);
       ASSERT_NE(to, std::string::npos);
       header.replace(from, to + 2 - from, text);  // the comma too
     };

@@ -12,6 +12,9 @@
 #include "common/random.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "ridgeway/roadmap/components.hpp"
+#include "ridgeway/skeleton/basins.hpp"
+#include "ridgeway/skeleton/gvd.hpp"
 #include "support/random_maps.hpp"
 
 namespace ridgeway {
@@ -59,6 +62,32 @@ TEST(BuildRoadmap, RefusesAMapAtTheEndOfTheWorldAndAPolicyThatIsNone) {
     EXPECT_THROW(build_at(block), InputError);
   EXPECT_THROW(build_roadmap(testing::random_map(1), {.unknown = static_cast<UnknownPolicy>(3)}),
                InputError);
+}
+
+TEST(BuildRoadmap, RefusesSizesOfVoxelsAndRadiiThatAreNone) {
+  OccupancyMap map = testing::random_map(1);
+  for (const double size : {0.0, -1.0, 1e-7, 2e6, std::numeric_limits<double>::infinity(),
+                            std::numeric_limits<double>::quiet_NaN()}) {
+    map.voxel_size = size;
+    EXPECT_THROW(build_roadmap(map, {.min_clearance = 0.1}), InputError) << size;
+    EXPECT_THROW(compute_esdf(map), InputError) << size;
+  }
+  map.voxel_size = 0.1;
+  try {  // farther than any site that a voxel may have
+    build_roadmap(map, {.min_clearance = 0.1 * kFarthestSite, .unknown = UnknownPolicy::kFree});
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.where(), "min_clearance");
+  }
+  const EsdfMap esdf = compute_esdf(map);
+  const VoxelMask free = traversable_voxels(esdf, 0.05);
+  for (const double radius :
+       {-0.3, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THROW(traversable_voxels(esdf, radius), InputError) << radius;
+    EXPECT_THROW(find_basins(esdf, free, radius), InputError) << radius;
+    EXPECT_THROW(build_cell_graph(esdf, radius), InputError) << radius;
+    EXPECT_THROW(SpaceParts(esdf).report(radius), InputError) << radius;
+  }
 }
 
 /// Asked again within a stage, the answer counts: stages of large maps take seconds.

@@ -14,7 +14,8 @@ namespace ridgeway {
 /// obstacle inside them. Distances inside are searched for on the spot, no deeper than `deepest`
 /// metres (then -deepest): nobody flies there, so no memory is spent on them. Voxels that are not
 /// allocated count as obstacles (`deepest` inside) or, where unknown space is none, are measured
-/// beside the map's blocks, and farther off count as far from everything.
+/// beside the map's blocks, and farther off count as far from everything. Throws InputError where
+/// `deepest` is below 0 or not finite, as the next two do.
 double signed_distance(const EsdfMap& esdf, const VoxelIndex& voxel, double deepest = 1.0);
 
 /// How far obstacles are from a place, and in which direction that grows.

@@ -27,8 +27,9 @@ namespace ridgeway {
 /// margin its height grows by as much at both ends, for a smaller one it shrinks in proportion.
 /// Where flights are limited, free also means within the limits; distances and clearances are to
 /// obstacles alone.
-/// All points are in the map's local frame: take to_local(esdf, point) of those of the world.
-/// A view: the EsdfMap and the limits must outlive it. Thread-safe.
+/// All points are in the map's local frame: take to_local(esdf, point) of those of the world. One
+/// that is no number, or too far out for a voxel (has_voxel), is in an obstacle, and nothing is
+/// free for a radius below 0. A view: the EsdfMap and the limits must outlive it. Thread-safe.
 class FreeSpace {
  public:
   /// Within the limits of the map, where it has some.
@@ -87,10 +88,10 @@ class FreeSpace {
     return limits_->allow(a, b, margin);
   }
 
-  /// D at a point, metres; 0 in an obstacle, max_distance where all obstacles are farther than
-  /// that (infinite where there is none at all). Where the map has no block and unknown space is no
-  /// obstacle, D is found only if there is a max_distance: otherwise it is infinite, though nothing
-  /// is free there.
+  /// D at a point, metres; 0 in an obstacle. Where all obstacles are farther than max_distance, or
+  /// than kFarthestSite voxels, max_distance or more (infinite where there is no limit). Where the
+  /// map has no block and unknown space is no obstacle, D is found only if there is a max_distance:
+  /// otherwise it is infinite, though nothing is free there.
   double distance(const Point& p) const;
 
   /// Smallest D along a segment, metres; for one outside the map's blocks as distance().
