@@ -73,11 +73,11 @@ std::vector<std::string> worlds_of(const BenchExploreOptions& options) {
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-/// Of one part of all decisions, or of the whole.
+/// Of one part of all decisions, or of the whole; at scans in between nothing is decided.
 Json milliseconds_of(const ExplorationFlight& flight, double ExplorationSeconds::*part) {
   std::vector<double> milliseconds;
   for (const ExplorationSample& sample : flight.samples)
-    milliseconds.push_back(1e3 * sample.seconds.*part);
+    if (sample.seconds.total > 0.0) milliseconds.push_back(1e3 * sample.seconds.*part);
   const Spread spread = spread_of(milliseconds);
   return {{"median", spread.median}, {"p95", spread.p95}, {"max", spread.max}};
 }

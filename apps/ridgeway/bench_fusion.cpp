@@ -9,6 +9,7 @@
 #include "console.hpp"
 #include "experiments/fusion_speed.hpp"
 #include "interruption.hpp"
+#include "threads.hpp"
 
 namespace ridgeway::cli {
 namespace {
@@ -49,7 +50,7 @@ int run(const BenchFusionOptions& options, const Globals& globals) {
                                   {"scans", options.scan.scans},
                                   {"voxel_size", config.voxel_size},
                                   {"sigma", config.sigma},
-                                  {"threads", globals.threads}};
+                                  {"threads", threads_to_use(globals)}};
   return table.report(globals, options.output, "fusion", facts, complete);
 }
 

@@ -148,7 +148,7 @@ std::string scenarios_csv(const std::vector<GridRow>& rows, const std::vector<So
   for (std::size_t map = 0; map < rows.size(); ++map)
     for (std::size_t i = 0; i < rows[map].scenarios.size(); ++i) {
       const GridRow& row = rows[map];
-      csv.append(row.map).append(",").append(number_text(row.scenarios[i]));
+      csv.append(csv_cell(row.map)).append(",").append(number_text(row.scenarios[i]));
       for (const double value : {sources[map].scenarios[row.scenarios[i]].optimum,
                                  row.shortened.ratios[i], row.raw.ratios[i]})
         csv.append(",").append(std::isnan(value) ? "" : number_text(value));

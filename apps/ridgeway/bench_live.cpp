@@ -20,6 +20,7 @@
 #include "ridgeway/recordings/depth_sequence.hpp"
 #include "ridgeway/recordings/scan_sequence.hpp"
 #include "sensing/world_generators.hpp"
+#include "threads.hpp"
 
 namespace ridgeway::cli {
 namespace {
@@ -69,7 +70,9 @@ int run_changes(const BenchLiveOptions& options, const Globals& globals) {
       [&] { run_change_sets(options.changes, options.config.seed, bar.callback(), sets); });
   bar.clear();
   BenchTable table;
-  table.add({{"change_sets", sets.done}, {"same_as_batch", sets.same}});
+  table.add({{"change_sets", sets.done},
+             {"same_as_batch", sets.same},
+             {"without_roadmap", sets.without_roadmap}});
   return table.report(globals, options.output, "live_changes", {{"seed", options.config.seed}},
                       complete);
 }
@@ -146,7 +149,7 @@ class LiveBench {
     facts_["radius"] = options_.config.min_clearance;
     facts_["max_distance"] = options_.config.max_distance;
     facts_["voxel_size"] = options_.config.voxel_size;
-    facts_["threads"] = globals_.threads;
+    facts_["threads"] = threads_to_use(globals_);
     return table_.report(globals_, options_.output, "live", facts_, complete);
   }
 
@@ -157,11 +160,12 @@ class LiveBench {
     LiveFlight flight;
     try {
       fly(flight);
-    } catch (const Cancelled&) {
+    } catch (const Cancelled&) {  // what is written is complete
       if (!flight.scans.empty()) show(name, flight);
       throw;
     }
     show(name, flight);
+    write_scans(flight.scans, options_.output, "live_" + name);
   }
 
   void show(const std::string& name, const LiveFlight& flight) {
@@ -169,7 +173,6 @@ class LiveBench {
     const BenchTable stages = live_table(flight.scans);
     if (!globals_.json) stages.print(name);
     facts_["stages"][name] = stages.rows();
-    write_scans(flight.scans, options_.output, "live_" + name);
     table_.add(row_of(name, flight));
   }
 

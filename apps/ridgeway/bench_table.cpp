@@ -97,15 +97,24 @@ void BenchTable::print(const std::string& title) const {
   }
 }
 
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+  return quoted + "\"";
+}
+
 std::string BenchTable::csv() const {
   std::string csv;
   for (const Json& row : rows_) {
     const Json cells = flat(row);
     const auto line = [&](const auto& text_of_cell) {
-      std::string text;
-      for (const auto& [key, value] : cells.items())
-        text.append(text.empty() ? "" : ",").append(text_of_cell(key, value));
-      csv.append(text).append("\n");
+      const char* before = "";
+      for (const auto& [key, value] : cells.items()) {
+        csv.append(before).append(csv_cell(text_of_cell(key, value)));
+        before = ",";
+      }
+      csv.append("\n");
     };
     if (csv.empty()) line([](const std::string& key, const Json&) { return key; });
     line([](const std::string&, const Json& value) {
@@ -119,14 +128,14 @@ int BenchTable::report(const Globals& globals, const std::string& folder, const 
                        Json facts, bool complete) const {
   facts["complete"] = complete;
   facts["rows"] = rows_;
-  if (complete && !folder.empty()) {
-    write_text_file(fs::path(folder) / (name + ".csv"), csv());
-    write_text_file(fs::path(folder) / (name + ".json"), facts.dump(2) + "\n");
-  }
   if (globals.json)
     print_json(facts);
   else
     print();
+  if (complete && !folder.empty()) {  // what was measured is printed, whatever becomes of the files
+    write_text_file(fs::path(folder) / (name + ".csv"), csv());
+    write_text_file(fs::path(folder) / (name + ".json"), facts.dump(2) + "\n");
+  }
   if (complete) return kExitDone;
   note(globals, "interrupted: these are the results so far");
   return interrupted_exit_code();

@@ -39,6 +39,9 @@ class BenchTable {
   Json rows_ = Json::array();
 };
 
+/// A text as a cell of CSV (RFC 4180): quoted where it has to be.
+std::string csv_cell(const std::string& text);
+
 /// What the experiments with a moving depth camera share: the world, and where the camera may be.
 struct ScanOptions {
   std::string world;

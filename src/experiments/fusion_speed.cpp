@@ -75,6 +75,9 @@ void run_fusion_speed(const World& world, const FusionSpeedConfig& config, const
                       std::vector<FusionSpeed>& results) {
   results.clear();
   config.validate();
+  const PoseSampling inside = sampling_inside(world);
+  if (!inside.low.allFinite() || !inside.high.allFinite())
+    throw InputError(world.name, "has no enclosure", "give a world with one");
   DepthSensor sensor;
   sensor.range_sigma = config.sigma;
   std::vector<Scan> scans;
@@ -88,7 +91,6 @@ void run_fusion_speed(const World& world, const FusionSpeedConfig& config, const
   TsdfFusion projective(fusion);
   fusion.integrator = Integrator::kRayCasting;
   TsdfFusion rays(fusion);
-  const PoseSampling inside = sampling_inside(world);
   detail::PlainVoxels plain_voxels(config.voxel_size, config.truncation, {inside.low, inside.high});
   detail::PlainRays plain_rays(config.voxel_size, config.truncation);
   const PinholeCamera& camera = sensor.camera;

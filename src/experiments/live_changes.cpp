@@ -129,11 +129,12 @@ void run_change_sets(std::size_t count, std::uint64_t seed, const Progress& prog
           !progress("change", static_cast<double>(results.done) / static_cast<double>(count)))
         throw Cancelled();
       const std::vector<VoxelChange> changes = random_set(random);
-      bool is_same = false;
+      LiveScan scan;
       with_threads(static_cast<int>(1 + i % 2),
-                   [&] { is_same = judge.judge(live, live.set_voxels(changes)).is_same; });
+                   [&] { scan = judge.judge(live, live.set_voxels(changes)); });
       ++results.done;
-      results.same += is_same;
+      results.same += scan.is_same;
+      results.without_roadmap += !scan.is_judged;
     }
   }
 }

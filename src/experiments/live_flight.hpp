@@ -80,6 +80,8 @@ DoorResult run_door(const DoorConfig& config, const Progress& progress = {});
 /// roadmap that a batch build gives. With one thread and with more in turn.
 struct ChangeSets {
   std::size_t done = 0, same = 0;
+  /// Of those: sets after which there is no roadmap, in batch neither.
+  std::size_t without_roadmap = 0;
 };
 void run_change_sets(std::size_t count, std::uint64_t seed, const Progress& progress,
                      ChangeSets& results);

@@ -6,6 +6,7 @@
 #include <bit>
 #include <utility>
 
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/skeleton/diagram.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
 
@@ -74,6 +75,19 @@ bool is_same(const Roadmap& a, const Roadmap& b) {
   return a.esdf.layout.block_count() == b.esdf.layout.block_count();
 }
 
+namespace {
+
+bool can_be_built(const OccupancyMap& map, const BuildConfig& build) {
+  try {
+    build_roadmap(map, build);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
 LiveJudge::LiveJudge(const BuildConfig& build, std::size_t every)
     : build_(build), every_(every), before_(std::make_unique<Stages>()) {}
 LiveJudge::~LiveJudge() = default;
@@ -82,8 +96,12 @@ LiveScan LiveJudge::judge(const LiveRoadmap& live, const UpdateReport& update) {
   LiveScan scan;
   scan.update = update;
   const std::shared_ptr<const Roadmap> now = live.snapshot();
-  if (every_ == 0 || ++updates_ % every_ != 0 || now == nullptr) return scan;
+  if (every_ == 0 || ++updates_ % every_ != 0) return scan;
   const OccupancyMap map = live.map();
+  if (now == nullptr) {
+    scan.is_same = !can_be_built(map, build_);
+    return scan;
+  }
   scan.known_voxels = count_voxels(map).known();
   scan.map_blocks = map.layout.block_count();
   const BuildResult batch = build_roadmap(map, build_);

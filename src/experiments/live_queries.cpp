@@ -65,6 +65,7 @@ void LiveQueryLoad::finish() {
 
 void LiveQueryLoad::ask_again() {
   end(End::kNow);
+  if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
   for (const Asked& asked : asked_) {
     const double start = detail::thread_seconds_now();
     plan(*asked.roadmap, asked.start, asked.goal);
@@ -88,8 +89,19 @@ std::shared_ptr<const Roadmap> LiveQueryLoad::wait_for_next(const LiveRoadmap& l
   return nullptr;
 }
 
+/// So that those that are kept are as likely of any time of the flight.
+void LiveQueryLoad::keep(const Asked& asked, double seconds, Random& random) {
+  if (asked_.size() < kMostKept) {
+    results_.meanwhile.push_back(seconds);
+    asked_.push_back(asked);
+  } else if (const std::uint64_t place = random.below(results_.asked); place < kMostKept) {
+    results_.meanwhile[place] = seconds;
+    asked_[place] = asked;
+  }
+}
+
 void LiveQueryLoad::run(const LiveRoadmap& live, std::uint64_t seed) {
-  Random random(seed, 1);
+  Random random(seed, 1), chosen(seed, 2);
   while (const std::shared_ptr<const Roadmap> now = wait_for_next(live)) {
     const Asked asked{now, random_place(*now, random), random_place(*now, random)};
     const double start = detail::thread_seconds_now();
@@ -98,9 +110,7 @@ void LiveQueryLoad::run(const LiveRoadmap& live, std::uint64_t seed) {
     ++results_.asked;
     results_.solved += path.ok();
     results_.wrong += path.ok() && !still_safe(path.waypoints, now->min_clearance, *now);
-    if (asked_.size() == kMostKept) continue;
-    results_.meanwhile.push_back(seconds);
-    asked_.push_back(asked);
+    keep(asked, seconds, chosen);
   }
 }
 

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "common/random.hpp"
 #include "live_flight.hpp"
 
 namespace ridgeway {
@@ -40,6 +41,7 @@ class LiveQueryLoad {
   enum class End : std::uint8_t { kNotYet, kWhenAllAreAsked, kNow };
 
   void run(const LiveRoadmap& live, std::uint64_t seed);
+  void keep(const Asked& asked, double seconds, Random& random);
   /// What the next one is asked of; none where the thread is to end.
   std::shared_ptr<const Roadmap> wait_for_next(const LiveRoadmap& live);
   void end(End when);

@@ -7,7 +7,9 @@
 #include <numbers>
 
 #include "common/clock.hpp"
+#include "exploration/legs.hpp"
 #include "exploration/shaped_trajectory.hpp"
+#include "planning/escape.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/mapping/occupancy_map.hpp"
 #include "ridgeway/trajectory/plan_trajectory.hpp"
@@ -109,33 +111,60 @@ void NextBestView::grow(const Roadmap& roadmap, std::vector<Node>& tree) {
   }
 }
 
+/// Where the tree begins: at the robot or, where what was seen last is nearer to it than what it
+/// has to keep from, at the nearest place that is free. None where there is no way out.
+std::optional<Point> NextBestView::root_at(const Roadmap& roadmap, const Point& local) {
+  const FreeSpace space(roadmap.esdf);
+  if (space.is_free(local, roadmap.min_clearance)) return local;
+  const detail::EscapeResult out =
+      detail::find_escape(space, local, roadmap.min_clearance, detail::Deadline::never());
+  if (out.status != detail::SearchStatus::kFound) return std::nullopt;
+  return out.place;
+}
+
+/// The first edge of a branch, from rest to rest.
+std::optional<Trajectory> NextBestView::fly(const Roadmap& roadmap, const FlightState& state,
+                                            const Point& root, const Viewpoint& to) const {
+  if (root != to_local(roadmap.esdf, state.position))
+    return detail::fly_to_rest(roadmap, config_.limits, to, state);
+  const std::vector<Point> edge = {state.position, to.position};
+  TrajectoryResult flown = plan_trajectory(
+      roadmap.esdf, edge,
+      {.radius = roadmap.min_clearance, .limits = config_.limits, .follow_yaw = false});
+  if (!flown.ok()) return std::nullopt;
+  detail::turn_to(flown.trajectory, state.yaw, to.yaw, config_.limits.max_yaw_rate);
+  return std::move(flown.trajectory);
+}
+
 ExplorationStep NextBestView::decide(const std::shared_ptr<const Roadmap>& now,
                                      const FlightState& state) {
   ExplorationStep step;
   if (state.time < busy_until_ - 1e-9) return step;
   const double began = detail::thread_seconds_now();
   const EsdfMap& esdf = now->esdf;
-  std::vector<Node> tree = {{to_local(esdf, state.position), state.yaw, 0, 0.0, 0.0}};
+  const std::optional<Point> root = root_at(*now, to_local(esdf, state.position));
+  if (!root) {
+    step.status = ExplorationStatus::kStuck;
+    step.seconds.total = detail::thread_seconds_now() - began;
+    return step;
+  }
+  std::vector<Node> tree = {{*root, state.yaw, 0, 0.0, 0.0}};
   grow(*now, tree);
   const auto best = std::max_element(tree.begin(), tree.end(),
                                      [](const Node& a, const Node& b) { return a.gain < b.gain; });
-  step.status = ExplorationStatus::kComplete;
+  step.status = tree.size() > 1 ? ExplorationStatus::kComplete : ExplorationStatus::kStuck;
   if (best->gain > 0.0) {
     std::vector<Viewpoint> branch;
     for (auto i = static_cast<std::size_t>(best - tree.begin()); i != 0; i = tree[i].parent)
       branch.insert(branch.begin(), {to_world(esdf, tree[i].position), tree[i].yaw});
-    const std::vector<Point> edge = {state.position, branch.front().position};
-    TrajectoryResult flown = plan_trajectory(
-        esdf, edge, {.radius = now->min_clearance, .limits = config_.limits, .follow_yaw = false});
-    kept_.assign(branch.begin() + (flown.ok() ? 1 : 0), branch.end());
+    std::optional<Trajectory> flown = fly(*now, state, *root, branch.front());
+    kept_.clear();
     step.status = ExplorationStatus::kKeep;
-    if (flown.ok()) {
+    if (flown) {
+      kept_.assign(branch.begin() + 1, branch.end());
       step.status = ExplorationStatus::kFly;
-      step.trajectory = std::move(flown.trajectory);
-      detail::turn_to(step.trajectory, state.yaw, branch.front().yaw, config_.limits.max_yaw_rate);
+      step.trajectory = std::move(*flown);
       busy_until_ = state.time + step.trajectory.duration();
-    } else {
-      kept_.clear();
     }
   }
   step.seconds.total = detail::thread_seconds_now() - began;

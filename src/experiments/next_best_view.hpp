@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "common/random.hpp"
@@ -36,6 +37,9 @@ class NextBestView {
   void add(const Roadmap& roadmap, std::vector<Node>& tree, std::size_t parent, const Point& at,
            double yaw) const;
   void grow(const Roadmap& roadmap, std::vector<Node>& tree);
+  static std::optional<Point> root_at(const Roadmap& roadmap, const Point& local);
+  std::optional<Trajectory> fly(const Roadmap& roadmap, const FlightState& state, const Point& root,
+                                const Viewpoint& to) const;
 
   ExplorerConfig config_;
   Random random_;

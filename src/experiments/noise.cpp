@@ -57,7 +57,8 @@ OccupancyMap scan(const World& world, const std::vector<Eigen::Isometry3d>& pose
                   double& milliseconds) {
   DepthSensor sensor;
   sensor.range_sigma = sigma;
-  TsdfFusion fusion({.voxel_size = voxel_size, .truncation = config.truncation});
+  TsdfFusion fusion(
+      {.voxel_size = voxel_size, .truncation = std::max(config.truncation, voxel_size)});
   std::vector<double> times;
   Random seeds(config.seed);
   for (const Eigen::Isometry3d& pose : poses) {

@@ -210,6 +210,7 @@ ExplorationStep OfflineTour::decide(const Roadmap& now, const FlightState& state
   if (!is_due) return step;
   last_order_ = state.time;
   const std::vector<std::size_t> tour = order(state);
+  step.seconds.total = detail::thread_seconds_now() - began;
   if (tour.empty()) {
     if (at_rest) step.status = ExplorationStatus::kComplete;
     return step;

@@ -227,7 +227,7 @@ void draw_narrow_places(Canvas& canvas, const MapMarks& marks, const MapFrame& f
     });
     if (is_covered || !frame.shows(join.place)) continue;
     texts.emplace_back(x, y);
-    const std::string label = short_number(join.radius, 2) + " m";
+    const std::string label = short_number_at_most(join.radius, 2) + " m";
     canvas.set_font(14.0 * u, true);
     const double width = canvas.text_width(label), top = y - 30.0 * u;
     canvas.fill_rectangle(x - 0.5 * width - 3.0 * u, top, width + 6.0 * u, 18.0 * u, ink::kHalo);

@@ -35,7 +35,8 @@ struct PathLayer {
   std::span<const Point> waypoints;
   std::string label;
   PathStroke stroke;
-  bool halo = false;  ///< stands out from what is below
+  bool halo = false;        ///< stands out from what is below
+  std::string ending = {};  ///< of the label: how long the path is
 };
 
 /// Those that there are, the uppermost last.
@@ -49,8 +50,8 @@ std::vector<PathLayer> path_layers(std::span<const Point> path, const PictureCon
     const NamedPath& other = config.paths[i];
     PathStroke stroke{kSeriesColours[i], 4.0, {}};
     if (i % 2 == 1) stroke.dashes = {10.0, 9.0};  // neighbours differ by more than their colour
-    add({other.waypoints, other.name + ", " + short_number(length_of(other.waypoints), 1) + " m",
-         std::move(stroke)});
+    add({other.waypoints, other.name, std::move(stroke), false,
+         ", " + short_number(length_of(other.waypoints), 1) + " m"});
   }
   add({path, config.path_label, {ink::kPath, 5.0, {}}, true});
   return layers;
@@ -123,7 +124,7 @@ std::vector<LegendItem> legend_items(const MapMarks& marks, const std::vector<Pa
   if (!marks.limits.keep_out.empty()) items.push_back({Mark::kNoFly, "no flights"});
   if (!marks.narrow.empty()) items.push_back({Mark::kNarrow, "narrow: the radius that fits"});
   for (auto layer = layers.rbegin(); layer != layers.rend(); ++layer)
-    items.push_back({Mark::kPath, layer->label, layer->stroke});
+    items.push_back({Mark::kPath, layer->label, layer->stroke, layer->ending});
   if (ends) {
     items.push_back({Mark::kStart, "start"});
     items.push_back({Mark::kGoal, "goal"});
@@ -135,21 +136,30 @@ std::vector<LegendItem> legend_items(const MapMarks& marks, const std::vector<Pa
 struct Page {
   LegendLayout legend;
   double unit = 1.0;
+  double left = 0.0;  ///< of the maps: as much as is written beside them
   double legend_left = 0.0, legend_top = 0.0, charts_top = 0.0;
   int height = 0;
 };
 
 constexpr double kMargin = 36.0, kLeft = 78.0, kTitle = 96.0, kScaleBar = 300.0;
+constexpr double kEdgeGap = 4.0;  // between the page's edge and what is written beside the maps
 
-Page lay_out_page(std::vector<Panel>& panels, double voxel_size, std::span<const LegendItem> items,
-                  const PictureConfig& config) {
+/// `measure`: of the picture's own format, in which texts are as wide as they will be.
+Page lay_out_page(Canvas& measure, std::vector<Panel>& panels, double voxel_size,
+                  std::span<const LegendItem> items, const PictureConfig& config) {
   Page page;
   page.unit = config.width / 1600.0;
   const double u = page.unit;
-  page.legend_top = lay_out_panels(panels, voxel_size, kLeft * u, kTitle * u,
-                                   config.width - (kLeft + kMargin) * u, u);
-  Canvas measure("page.svg", 8, 8);
-  page.legend_left = (kLeft + kScaleBar) * u;
+  page.left = kLeft * u;
+  const auto lay_out_maps = [&] {
+    return lay_out_panels(panels, voxel_size, page.left, kTitle * u,
+                          config.width - page.left - kMargin * u, u);
+  };
+  lay_out_maps();  // which coordinates are written depends on the scale
+  for (const Panel& panel : panels)
+    page.left = std::max(page.left, border_width(measure, panel.frame) + kEdgeGap * u);
+  page.legend_top = lay_out_maps();
+  page.legend_left = page.left + kScaleBar * u;
   page.legend = lay_out_legend(measure, items, config.width - page.legend_left - kMargin * u, u);
   const double rows = std::max(1.6, static_cast<double>(page.legend.rows.size()));
   page.charts_top = page.legend_top + (rows + 0.2) * legend_row_height(u);
@@ -160,14 +170,15 @@ Page lay_out_page(std::vector<Panel>& panels, double voxel_size, std::span<const
 }
 
 void draw_title(Canvas& canvas, const std::string& title, const std::string& subtitle,
-                const PictureConfig& config, double unit) {
-  const double room = config.width - (kLeft + kMargin) * unit;
+                const PictureConfig& config, const Page& page) {
+  const double unit = page.unit;
+  const double room = config.width - page.left - kMargin * unit;
   canvas.set_colour(ink::kText);
   canvas.set_font(28.0 * unit, true);
-  canvas.draw_text(kLeft * unit, 46.0 * unit, canvas.fitted(title, room));
+  canvas.draw_text(page.left, 46.0 * unit, canvas.fitted(title, room));
   canvas.set_colour(ink::kFaint);
   canvas.set_font(17.0 * unit);
-  canvas.draw_text(kLeft * unit, 76.0 * unit, canvas.fitted(subtitle, room));
+  canvas.draw_text(page.left, 76.0 * unit, canvas.fitted(subtitle, room));
 }
 
 void draw_caption(Canvas& canvas, const Panel& panel) {
@@ -208,7 +219,8 @@ void draw_floor_plan(const Roadmap& roadmap, std::span<const Point> path,
   const std::vector<PathLayer> layers = path_layers(path, config);
   const std::span<const Point> marked = marked_path(path, config);
   const std::vector<LegendItem> items = legend_items(marks, layers, !marked.empty(), config);
-  const Page page = lay_out_page(panels, voxel_size, items, config);
+  Canvas measure(out, 8, 8);  // is not written
+  const Page page = lay_out_page(measure, panels, voxel_size, items, config);
   const double u = page.unit;
 
   Canvas canvas(out, config.width, page.height);
@@ -224,11 +236,11 @@ void draw_floor_plan(const Roadmap& roadmap, std::span<const Point> path,
     draw_ends(canvas, marked, frame);
     draw_caption(canvas, panel);
   }
-  draw_title(canvas, title_of(roadmap, config), subtitle_of(roadmap, path, panels), config, u);
-  draw_scale_bar(canvas, panels.front().frame, kLeft * u, page.legend_top, (kScaleBar - 80.0) * u);
+  draw_title(canvas, title_of(roadmap, config), subtitle_of(roadmap, path, panels), config, page);
+  draw_scale_bar(canvas, panels.front().frame, page.left, page.legend_top, (kScaleBar - 80.0) * u);
   draw_legend(canvas, items, page.legend, page.legend_left, page.legend_top, u);
-  draw_charts(canvas, config.charts, kLeft * u, page.charts_top,
-              config.width - (kLeft + kMargin) * u, u);
+  draw_charts(canvas, config.charts, page.left, page.charts_top,
+              config.width - page.left - kMargin * u, u);
   canvas.finish();
 }
 

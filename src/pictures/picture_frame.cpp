@@ -15,6 +15,8 @@ constexpr double kSwatch = 34.0;   // width of a mark in the legend, units
 constexpr double kMarkGap = 9.0;   // between a mark and its text
 constexpr double kItemGap = 25.0;  // between items
 constexpr double kLegendFont = 16.0;
+constexpr double kTick = 6.0, kTickGap = 5.0;  // beside a map, and from there to its text
+constexpr double kAxisFont = 14.0;
 constexpr const char* kAxisNames[] = {"x (m)", "y (m)", "z (m)"};
 
 double mark_width(LegendItem::Mark mark, double unit) {
@@ -88,6 +90,16 @@ void draw_mark(Canvas& canvas, const LegendItem& item, double x, double y, doubl
   }
 }
 
+/// Those that are written along an axis, from its lowest on, which is so many pixels long: round
+/// numbers, from 80 to 200 units apart.
+std::vector<double> coordinates(const MapFrame& frame, double low, double pixels) {
+  const double step = round_step(200.0 * frame.unit / frame.scale);
+  std::vector<double> all;
+  for (double k = std::ceil(low / step); k * step <= low + pixels / frame.scale; ++k)
+    all.push_back(k * step);
+  return all;
+}
+
 }  // namespace
 
 bool MapFrame::clip(Point& a, Point& b) const {
@@ -156,6 +168,12 @@ std::string short_number(double value, int decimals) {
   return number == "-0" ? "0" : number;
 }
 
+std::string short_number_at_most(double value, int decimals) {
+  constexpr double kRounding = 1e-9;  // 0.29 is 28.999999999999996 hundredths
+  const double scale = std::pow(10.0, decimals);
+  return short_number(std::floor(value * scale + kRounding) / scale, decimals);
+}
+
 void set_stroke(Canvas& canvas, const PathStroke& stroke, double unit) {
   std::vector<double> dashes = stroke.dashes;
   for (double& length : dashes) length *= unit;
@@ -194,8 +212,11 @@ LegendLayout lay_out_legend(Canvas& canvas, std::span<const LegendItem> items, d
   LegendLayout layout;
   double x = 0.0;
   for (std::size_t i = 0; i < items.size(); ++i) {
-    const double item =
-        mark_width(items[i].mark, unit) + kMarkGap * unit + canvas.text_width(items[i].text);
+    const double mark = mark_width(items[i].mark, unit) + kMarkGap * unit;
+    layout.texts.push_back(
+        canvas.fitted(items[i].text, width - mark - canvas.text_width(items[i].ending)) +
+        items[i].ending);
+    const double item = mark + canvas.text_width(layout.texts.back());
     if (layout.rows.empty() || x + item > width) {
       layout.rows.emplace_back();
       x = 0.0;
@@ -217,7 +238,7 @@ void draw_legend(Canvas& canvas, std::span<const LegendItem> items, const Legend
       canvas.set_font(kLegendFont * unit);
       canvas.set_colour(ink::kText);
       canvas.draw_text(x + mark_width(items[i].mark, unit) + kMarkGap * unit, y + 5.5 * unit,
-                       items[i].text);
+                       layout.texts[i]);
     }
     y += legend_row_height(unit);
   }
@@ -244,40 +265,44 @@ void draw_scale_bar(Canvas& canvas, const MapFrame& frame, double left, double t
 }
 
 void draw_border(Canvas& canvas, const MapFrame& frame) {
-  const double u = frame.unit, tick = 6.0 * u;
+  const double u = frame.unit, tick = kTick * u;
   const double bottom = frame.top + frame.height, right = frame.left + frame.width;
   cairo_rectangle(canvas.cairo(), frame.left, frame.top, frame.width, frame.height);
   canvas.set_colour(ink::kFrame);
   canvas.set_line(1.5 * u);
   cairo_stroke(canvas.cairo());
 
-  double step = round_step(200.0 * u / frame.scale);  // from 80 to 200 units apart
-  canvas.set_font(14.0 * u);
+  canvas.set_font(kAxisFont * u);
   const auto [across, up, along] = frame.projection;
-  const double low_x = frame.min[across], low_y = frame.min[up];
-  const double first_x = std::ceil(low_x / step);
-  for (double k = first_x; k * step <= low_x + frame.width / frame.scale; ++k) {
-    const double x = frame.left + (k * step - low_x) * frame.scale;
+  for (const double at : coordinates(frame, frame.min[across], frame.width)) {
+    const double x = frame.left + (at - frame.min[across]) * frame.scale;
     canvas.set_colour(ink::kFrame);
     draw_line(canvas, x, bottom, x, bottom + tick);
     canvas.set_colour(ink::kFaint);
     if (x > right - 64.0 * u) continue;  // the axis' name stands there
-    canvas.draw_text(x, bottom + tick + 15.0 * u, short_number(k * step, 6),
-                     Canvas::Align::kMiddle);
+    canvas.draw_text(x, bottom + tick + 15.0 * u, short_number(at, 6), Canvas::Align::kMiddle);
   }
-  const double first_y = std::ceil(low_y / step);
-  for (double k = first_y; k * step <= low_y + frame.height / frame.scale; ++k) {
-    const double y = bottom - (k * step - low_y) * frame.scale;
+  for (const double at : coordinates(frame, frame.min[up], frame.height)) {
+    const double y = bottom - (at - frame.min[up]) * frame.scale;
     canvas.set_colour(ink::kFrame);
     draw_line(canvas, frame.left - tick, y, frame.left, y);
     canvas.set_colour(ink::kFaint);
     if (y < frame.top + 20.0 * u) continue;
-    canvas.draw_text(frame.left - tick - 5.0 * u, y + 5.0 * u, short_number(k * step, 6),
+    canvas.draw_text(frame.left - tick - kTickGap * u, y + 5.0 * u, short_number(at, 6),
                      Canvas::Align::kRight);
   }
   canvas.draw_text(right, bottom + tick + 15.0 * u, kAxisNames[across], Canvas::Align::kRight);
-  canvas.draw_text(frame.left - tick - 5.0 * u, frame.top + 11.0 * u, kAxisNames[up],
+  canvas.draw_text(frame.left - tick - kTickGap * u, frame.top + 11.0 * u, kAxisNames[up],
                    Canvas::Align::kRight);
+}
+
+double border_width(Canvas& canvas, const MapFrame& frame) {
+  canvas.set_font(kAxisFont * frame.unit);
+  const int up = frame.projection.up;
+  double widest = canvas.text_width(kAxisNames[up]);
+  for (const double at : coordinates(frame, frame.min[up], frame.height))
+    widest = std::max(widest, canvas.text_width(short_number(at, 6)));
+  return widest + (kTick + kTickGap) * frame.unit;
 }
 
 }  // namespace ridgeway

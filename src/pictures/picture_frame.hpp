@@ -88,13 +88,15 @@ struct LegendItem {
   };
   Mark mark;
   std::string text;
-  PathStroke stroke = {};  ///< of a path
+  PathStroke stroke = {};   ///< of a path
+  std::string ending = {};  ///< of the text: stays whole where the rest is shortened
 };
 
 /// Rows that the legend takes beside the scale bar.
 struct LegendLayout {
   std::vector<std::vector<std::size_t>> rows;  ///< numbers of the items
   std::vector<double> offsets;                 ///< of each item from the legend's left, pixels
+  std::vector<std::string> texts;              ///< of each item, no wider than there is room
 };
 LegendLayout lay_out_legend(Canvas& canvas, std::span<const LegendItem> items, double width,
                             double unit);
@@ -107,6 +109,8 @@ void draw_scale_bar(Canvas& canvas, const MapFrame& frame, double left, double t
                     double most_pixels);
 /// Border of the map with coordinates every round number of metres.
 void draw_border(Canvas& canvas, const MapFrame& frame);
+/// How far the coordinates beside a map reach to the left of it, pixels.
+double border_width(Canvas& canvas, const MapFrame& frame);
 
 /// 1, 2 or 5 times a power of ten, the largest that is at most `most`.
 double round_step(double most);
@@ -114,5 +118,7 @@ double round_step(double most);
 std::string grouped(std::size_t count);
 /// A number with no more decimals than it needs, at most `decimals`.
 std::string short_number(double value, int decimals);
+/// The same, rounded down: a radius that still fits.
+std::string short_number_at_most(double value, int decimals);
 
 }  // namespace ridgeway

@@ -39,3 +39,24 @@ list(FILTER needed EXCLUDE REGEX "\\[(libtbb|libzstd|libstdc\\+\\+|libm|libgcc_s
 if(needed OR NOT dynamic MATCHES "libzstd\\.so" OR NOT dynamic MATCHES "libtbb\\.so")
   message(FATAL_ERROR "a program that loads a .ridge and plans links more or less than it needs: ${needed}")
 endif()
+
+# By pkg-config, from where it was installed.
+find_program(PKG_CONFIG pkg-config)
+if(PKG_CONFIG)
+  file(WRITE "${WORK_DIR}/explorer.cpp" "#include \"ridgeway/exploration/explorer.hpp\"\n"
+       "int main() { return ridgeway::Explorer({}).frontiers().voxels() == 0 ? 0 : 1; }\n")
+  file(GLOB_RECURSE pc_file "${WORK_DIR}/prefix/*/ridgeway.pc")
+  get_filename_component(pc_folder "${pc_file}" DIRECTORY)
+  separate_arguments(cxx_flags UNIX_COMMAND "${CXX_FLAGS}")
+  foreach(package IN ITEMS ridge exploration)
+    set(source_ridge "${SOURCE_DIR}/ridge.cpp")
+    set(source_exploration "${WORK_DIR}/explorer.cpp")
+    execute_process(
+      COMMAND "${CMAKE_COMMAND}" -E env "PKG_CONFIG_PATH=${pc_folder}" "${PKG_CONFIG}" --cflags
+              --libs ridgeway-${package}
+      OUTPUT_VARIABLE flags COMMAND_ERROR_IS_FATAL ANY)
+    separate_arguments(flags UNIX_COMMAND "${flags}")
+    run("${CXX}" -std=c++20 ${cxx_flags} "${source_${package}}" -o "${WORK_DIR}/${package}" ${flags})
+    run("${WORK_DIR}/${package}")
+  endforeach()
+endif()

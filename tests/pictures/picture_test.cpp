@@ -12,6 +12,7 @@
 #include <set>
 
 #include "pictures/colour_map.hpp"
+#include "pictures/picture_frame.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "support/random_maps.hpp"
@@ -118,6 +119,40 @@ TEST(Picture, EveryPathToCompareHasItsColourAndALineInTheLegend) {
     EXPECT_GT(count_pixels(image.get(), colour), 1000u) << std::hex << colour;  // legend: 200
   config.paths.push_back({"one too many", ends});
   EXPECT_THROW(height(), InputError);
+}
+
+/// Pixels in the columns at the left and at the right of a picture that are not white.
+std::size_t count_at_edges(cairo_surface_t* image, int columns) {
+  const int width = cairo_image_surface_get_width(image);
+  std::size_t count = 0;
+  for (int y = 0; y < cairo_image_surface_get_height(image); ++y) {
+    const unsigned char* row =
+        cairo_image_surface_get_data(image) + y * cairo_image_surface_get_stride(image);
+    for (int x = 0; x < width; ++x)
+      if (x < columns || x >= width - columns)
+        count += row[4 * x] != 255 || row[4 * x + 1] != 255 || row[4 * x + 2] != 255;
+  }
+  return count;
+}
+
+TEST(Picture, NothingRunsOutOfThePageWhateverCoordinatesAndNames) {
+  const TemporaryFolder folder;
+  for (const int far : {0, 53'000'012, -1'000'000'013}) {
+    Roadmap roadmap = synthetic_roadmap();
+    roadmap.esdf.origin.y = far;
+    PictureConfig config;
+    config.width = 1000;
+    config.paths.push_back({std::string(300, 'n'), diagonal(roadmap)});
+    draw_floor_plan(roadmap, {}, folder / "plan.png", config);
+    EXPECT_EQ(count_at_edges(open_png(folder / "plan.png").get(), 2), 0u) << far;
+  }
+}
+
+TEST(Picture, RadiiThatFitAreRoundedDown) {
+  EXPECT_EQ(short_number_at_most(0.2947457, 2), "0.29");
+  EXPECT_EQ(short_number_at_most(0.299999, 2), "0.29");
+  for (const double exact : {0.07, 0.29, 0.3, 0.57, 1.1, 12.0})
+    EXPECT_EQ(short_number_at_most(exact, 2), short_number(exact, 2));
 }
 
 TEST(Picture, SvgIsOneDocument) {

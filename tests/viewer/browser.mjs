@@ -89,10 +89,31 @@ export async function click_at(page, place) {
   await page.mouse.click(at.x, at.y);
 }
 
-/** Acts, and waits until what is planned then has been planned. */
+/** Acts, and waits until what is planned then has been planned, and the flight along it, if any, is there. */
 export async function planned(page, act) {
   const count = () => page.evaluate(() => Number(document.body.dataset.planned ?? 0));
   const before = await count();
   await act();
   await page.waitForFunction((before) => Number(document.body.dataset.planned ?? 0) > before, before, { timeout: 30_000 });
+  await page.evaluate(() => window.ridgeway.app.flight.flown);
+}
+
+/** Holds up answers to addresses that match, from when they are asked for (`asked`) until `release()`. */
+export async function hold(page, pattern) {
+  let tell, release;
+  const asked = new Promise((resolve) => (tell = resolve));
+  const released = new Promise((resolve) => (release = resolve));
+  await page.route(pattern, async (route) => {
+    const response = await route.fetch();
+    tell();
+    await released;
+    await route.fulfill({ response });
+  });
+  return {
+    asked,
+    release: async () => {
+      release();
+      await page.unroute(pattern, { behavior: "wait" });
+    },
+  };
 }

@@ -32,6 +32,41 @@ function event(origin, voxel_size, blocks) {
   return bytes.buffer;
 }
 
+test("radii that fit are rounded down, what is missing is rounded up, and neither where it is exact", async () => {
+  const { metres_at_most, metres_at_least } = await load("numbers");
+  assert.deepEqual([metres_at_most(0.2947457), metres_at_most(0.2947457, 2), metres_at_least(0.2947457)], ["0.294", "0.29", "0.295"]);
+  for (const exact of [0.001, 0.07, 0.29, 0.3, 1.005, 12]) assert.deepEqual([metres_at_most(exact), metres_at_least(exact)], [String(exact), String(exact)]);
+  const { join_text, reason_text } = await load("answer_text");
+  assert.match(join_text({ a: 0, b: 1, radius: 0.2947457, place: [0, 0, 0], by: "obstacle" }, () => "some"), /^radius 0\.294 m/);
+  const answer = { status: "no_route", radius: 0.3, seconds: { total: 0 }, blocked: { radius: 0.2947457, place: [0, 0, 0], by: "obstacle" } };
+  assert.match(reason_text(answer), /too narrow by 0\.006 m/);
+});
+
+test("reasons name what stands in the form, not options of the command line", async () => {
+  const { error_text, reason_text } = await load("answer_text");
+  const reasons = {
+    "the start (0, 0, 0) cannot be used: it is 0.1 m from the nearest obstacle, less than the radius of 0.3 m: move it, or let --snap do so, or give --escape to begin or end there, or give a --radius of at most 0.3 m": /Radius of at most/,
+    "start and goal are not connected at a radius of 0.5 m, but they are at 0.4 m: give that --radius": /give that Radius$/,
+    "the map was built for robots of a radius of 0.3 m and more, asked for 0.2 m: give a larger --radius, or build the map with a smaller --min-clearance": /a larger Radius, or build/,
+    "the limit came before a path was found: give a larger --time-limit, or --iteration-limit where the planner samples": /planner graph/,
+  };
+  for (const [reason, expected] of Object.entries(reasons)) {
+    const text = reason_text({ status: "no_route", reason, radius: 0.3, seconds: { total: 0 } });
+    assert.match(text, expected);
+    assert.doesNotMatch(text, /--(?!min-clearance)/, "only what builds a map is of the command line"); 
+  }
+  assert.equal(error_text(new Error("prefer_clearance '-3': is out of range (give one)")), "Prefer clearance '-3': is out of range (give one)");
+  assert.equal(error_text(new Error("from: is missing")), "Start: is missing");
+  assert.equal(error_text(new Error("the server does not answer: start it")), "the server does not answer: start it");
+});
+
+test("no narrow places: nothing to join, or nothing that joins", async () => {
+  const { no_joins_text } = await load("answer_text");
+  assert.match(no_joins_text(0), /fits nowhere/);
+  assert.match(no_joins_text(1), /are connected/);
+  assert.match(no_joins_text(3), /3 parts/);
+});
+
 test("cells of a live map are where they are, however wide it is", async () => {
   const { LiveSurface } = await load("live_surface");
   for (const far of [10, 8191, 8192, 100000]) {

@@ -7,11 +7,11 @@ import { appendFileSync, copyFileSync, existsSync, mkdirSync, readFileSync, writ
 import net from "node:net";
 import { join } from "node:path";
 import test, { after, before } from "node:test";
-import { axe_source, difference, launch, open, pixels, planned, text_of } from "./browser.mjs";
+import { axe_source, difference, hold, launch, open, pixels, planned, text_of } from "./browser.mjs";
 import { data, folder, follow, run, run_json } from "./program.mjs";
 
 const recording = join(data, "house_depth");
-const scans = 8;
+const scans = 10;
 const growing = join(folder, "growing");
 const map = join(folder, "live.ridge");
 const options = ["--voxel-size", "0.2", "--min-clearance", "0.3", "--max-distance", "2"];
@@ -124,6 +124,40 @@ test("who is slow holds up nobody, and gets the newest", async () => {
   socket.destroy();
 });
 
+test("a layer that was asked for before the newest scan is asked for again, though no other scan comes", { timeout: 120_000 }, async () => {
+  const asked = () => page.asked.filter((address) => address.endsWith("/api/diagram")).length;
+  const settled = () => page.waitForFunction(() => !window.ridgeway.app.layers.renewing);
+  await settled();
+  const diagram = await hold(page, "**/api/diagram");
+  write_scan();
+  await diagram.asked;
+  await shown_scan(8);
+  // As another scan does while the answer is on its way; one that is written may still go into the same.
+  const before = asked();
+  await page.evaluate(() => void window.ridgeway.app.layers.renew());
+  await diagram.release();
+  await settled();
+  assert.ok(asked() > before, "the diagram stays that of an older map");
+});
+
+test("a page that cannot be seen does not follow, and has it all when it is seen again", async () => {
+  const see = (is_seen) => page.evaluate((is_seen) => {
+    Object.defineProperty(document, "hidden", { value: !is_seen, configurable: true });
+    document.dispatchEvent(new Event("visibilitychange"));
+  }, is_seen);
+  const followed_again = () => page.asked.filter((address) => address.endsWith("/api/live")).length;
+  const before = followed_again();
+  await see(false);
+  const other = await open(browser, followed.address);
+  write_scan();
+  await other.waitForFunction(() => Number(document.body.dataset.scan ?? 0) >= 9);
+  await other.close();
+  assert.equal(await page.evaluate(() => document.body.dataset.scan), "8");
+  await see(true);
+  await shown_scan(9);
+  assert.equal(followed_again(), before + 1);
+});
+
 test("refuses other sites, and more followers than there is room for", async () => {
   const foreign = await fetch(`${followed.address}api/live`, { headers: { Origin: "http://evil.example" } });
   assert.equal(foreign.status, 403);
@@ -218,6 +252,23 @@ test("an exploration shows where the drone flies next", async () => {
   await explored.stop();
   assert.ok(events.some((event) => event.ahead.length > 2), "no event has a trajectory");
   assert.ok(events.at(-1).mapped > 30, `${events.at(-1).mapped} m3`);
+});
+
+test("where another run answers at the address, the page begins anew", async () => {
+  const short = join(folder, "short");
+  mkdirSync(join(short, "depth"), { recursive: true });
+  copyFileSync(join(recording, "camera-intrinsics.txt"), join(short, "camera-intrinsics.txt"));
+  copyFileSync(join(recording, lines_of("depth.txt")[0].split(" ")[1]), join(short, lines_of("depth.txt")[0].split(" ")[1]));
+  for (const list of ["depth.txt", "groundtruth.txt"]) writeFileSync(join(short, list), `${lines_of(list)[0]}\n`);
+  const run_at = (port, voxel_size) => follow("live", short, "-o", join(folder, "short.ridge"), "--voxel-size", voxel_size, "--min-clearance", "0.3", "--max-distance", "2", "--follow", "60", "--view", "--port", String(port));
+  const first = await run_at(0, "0.2");
+  const reader = await open(browser, first.address);
+  assert.match(await text_of(reader, "#facts"), /voxels of 0\.2 m/);
+  await first.stop();
+  const second = await run_at(first.port, "0.25");
+  await reader.waitForFunction(() => /voxels of 0\.25 m/.test(document.getElementById("facts").textContent), null, { timeout: 60_000 });
+  await reader.close();
+  await second.stop();
 });
 
 test("says which port cannot be had, and what belongs together", () => {

@@ -23,5 +23,19 @@ TEST(MapAnswers, TellsOfAMapWhateverItsFileIsCalled) {
   }
 }
 
+TEST(MapAnswers, WhereAPathIsGivenNothingThatPlansOneIsPassedOver) {
+  const Roadmap roadmap = synthetic_roadmap({});
+  MapAnswers answers(roadmap, "map");
+  for (const char* name :
+       {"from", "to", "planner", "prefer_clearance", "snap", "escape", "explain"}) {
+    const Question question{"/api/trajectory", {{"path", "1,1,1;2,1,1"}, {name, "0"}}};
+    const Reply reply = answers.answer(question);
+    EXPECT_EQ(reply.status, 400) << name;
+    EXPECT_NE(reply.body->find(name), std::string::npos) << *reply.body;
+  }
+  const Question alone{"/api/trajectory", {{"path", "1,1,1;2,1,1"}, {"radius", "0.3"}}};
+  EXPECT_EQ(answers.answer(alone).status, 200);
+}
+
 }  // namespace
 }  // namespace ridgeway::cli

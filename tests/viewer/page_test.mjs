@@ -310,14 +310,44 @@ test("measures what is clicked", async () => {
   await page.keyboard.press("Escape");
 });
 
-test("keys turn the view", async () => {
-  await page.keyboard.press("o");
+/** Waits until the view is still: while it moves there may be fewer pixels. */
+const still = () => page.waitForFunction(() => !window.ridgeway.stage.coarse);
+
+test("the picture is there again after the graphics card has lost it", async () => {
+  await still();
+  const before = await pixels(page);
+  await page.evaluate(() => new Promise((resolve) => {
+    const canvas = document.getElementById("canvas");
+    const card = window.ridgeway.stage.renderer.getContext().getExtension("WEBGL_lose_context");
+    canvas.addEventListener("webglcontextlost", () => setTimeout(() => card.restoreContext()), { once: true });
+    canvas.addEventListener("webglcontextrestored", () => requestAnimationFrame(() => resolve()), { once: true });
+    card.loseContext();
+  }));
+  assert.equal(difference(before, await pixels(page)), 0);
+});
+
+test("keys choose tools, with Shift and after a click on a layer too, and not with Alt", async () => {
+  const is_chosen = () => page.getAttribute("[data-tool=start]", "aria-pressed");
+  await page.locator("#layer-routes").focus();
+  await page.keyboard.press("Alt+s");
+  assert.equal(await is_chosen(), "false");
+  await page.keyboard.press("Shift+S");
+  assert.equal(await is_chosen(), "true");
+  await page.keyboard.press("Escape");
+  assert.equal(await is_chosen(), "false");
+  await page.locator("#radius").focus();
+  await page.keyboard.press("s");
+  assert.equal(await is_chosen(), "false");
+});
+
+test("keys turn the view, from the side and from above", async () => {
   await page.locator("#canvas").focus();
-  await page.waitForTimeout(400);
+  await page.keyboard.press("o");
+  await still();
   let before = await pixels(page);
-  for (const key of ["ArrowLeft", "ArrowUp", "+", "t"]) {
+  for (const key of ["ArrowLeft", "ArrowUp", "+", "t", "ArrowLeft", "ArrowUp", "+"]) {
     await page.keyboard.press(key);
-    await page.waitForTimeout(600);
+    await still();
     const now = await pixels(page);
     assert.ok(difference(before, now) > 100, key);
     before = now;
@@ -325,14 +355,23 @@ test("keys turn the view", async () => {
 });
 
 test("narrow places are listed, or that there are none", async () => {
-  await page.locator("#layer-narrow").click();
-  await page.waitForTimeout(500);
+  await switch_layer("narrow");
   assert.match(await text_of(page, "#narrow-list"), /None: all places|radius/);
+});
+
+test("on a small screen hints and tools do not cover each other, and the legend leaves room for both", async () => {
+  await page.setViewportSize({ width: 320, height: 568 });
+  await page.locator("[data-tool=start]").click();
+  await page.evaluate(() => { document.getElementById("legend-box").open = true; });
+  const [tools, hint, legend] = await Promise.all(["#tools", "#hint", "#legend-box"].map((part) => page.locator(part).boundingBox()));
+  assert.ok(hint.y >= tools.y + tools.height, `tools end at ${tools.y + tools.height}, the hint begins at ${hint.y}`);
+  assert.ok(legend.y >= hint.y + hint.height, `the hint ends at ${hint.y + hint.height}, the legend begins at ${legend.y}`);
+  await page.keyboard.press("Escape");
 });
 
 test("axe finds nothing serious, light and dark, wide and narrow", async () => {
   for (const colorScheme of ["light", "dark"])
-    for (const [width, height] of [[1280, 720], [820, 1180], [700, 900]]) {
+    for (const [width, height] of [[1280, 720], [820, 1180], [700, 900], [320, 568]]) {
       await page.emulateMedia({ colorScheme });
       await page.setViewportSize({ width, height });
       await page.evaluate(axe_source);

@@ -19,18 +19,19 @@ export function run_json(...words) {
   return JSON.parse(run(...words, "--json").stdout);
 }
 
-/** Two rooms side by side, each 3 m x 4 m x 2 m, and a door 1.2 m wide in the wall x = 0. */
-export function rooms() {
+/** Two rooms side by side, each 3 m x 4 m x 2 m, and a door 1.2 m wide in the wall x = 0, or none. */
+export function rooms({ name = "rooms", has_door = true, options = ["--min-clearance", "0.3"] } = {}) {
   const lines = ["x y z"];
   for (let y = -20; y < 20; ++y)
     for (let z = 0; z < 20; ++z)
-      if (y < -6 || y >= 6) lines.push(`0.05 ${(0.1 * y + 0.05).toFixed(2)} ${(0.1 * z + 0.05).toFixed(2)}`);
+      if (!has_door || y < -6 || y >= 6) lines.push(`0.05 ${(0.1 * y + 0.05).toFixed(2)} ${(0.1 * z + 0.05).toFixed(2)}`);
   // The floor, so that there is something to click on.
   for (let x = -30; x < 30; ++x)
     for (let y = -20; y < 20; ++y) lines.push(`${(0.1 * x + 0.05).toFixed(2)} ${(0.1 * y + 0.05).toFixed(2)} -0.05`);
-  writeFileSync(join(folder, "rooms.xyz"), lines.join("\n"));
-  const map = join(folder, "rooms.ridge");
-  execFileSync(program, ["build", join(folder, "rooms.xyz"), "-o", map, "--voxel-size", "0.1", "--bounds=-3,-2,-0.1,3,2,2", "--min-clearance", "0.3", "--quiet"]);
+  const points = join(folder, `${name}.xyz`);
+  writeFileSync(points, lines.join("\n"));
+  const map = join(folder, `${name}.ridge`);
+  execFileSync(program, ["build", points, "-o", map, "--voxel-size", "0.1", "--bounds=-3,-2,-0.1,3,2,2", ...options, "--quiet"]);
   return map;
 }
 

@@ -170,6 +170,9 @@ test("refuses other methods and all bodies", async () => {
     const answer = await send(`${method} /api/info HTTP/1.1\r\nHost: 127.0.0.1:${served.port}\r\nContent-Length: 0\r\n\r\n`);
     assert.ok(status(answer) >= 400, `${method}: ${answer.slice(0, 100)}`);
   }
+  const put = await send(`PUT /api/info HTTP/1.1\r\nHost: 127.0.0.1:${served.port}\r\nContent-Length: 0\r\n\r\n`);
+  assert.equal(status(put), 405);
+  assert.match(put, /\r\nAllow: GET, HEAD\r\n/);
   const head = await send(`HEAD /api/info HTTP/1.1\r\nHost: 127.0.0.1:${served.port}\r\n\r\n`);
   assert.equal(status(head), 200);
   assert.doesNotMatch(head, /voxel_size/);

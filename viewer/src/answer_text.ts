@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 import type { Join, PlanAnswer, Route } from "./layers";
-import { metres, place_text, seconds } from "./numbers";
+import { metres, metres_at_least, metres_at_most, place_text, seconds } from "./numbers";
 
 // Answers in words.
 
 export function join_text(join: Join, volume: (component: number) => string): string {
   const between = join.by === "unknown" ? "between unknown space" : join.by === "limits" ? "within the limits of flights" : "between obstacles";
-  return `radius ${metres(join.radius)} m joins ${volume(join.a)} and ${volume(join.b)}, ${between}`;
+  return `radius ${metres_at_most(join.radius)} m joins ${volume(join.a)} and ${volume(join.b)}, ${between}`;
+}
+
+/** Where no two places are joined by a way that only a smaller robot fits through. */
+export function no_joins_text(components: number): string {
+  if (components === 0) return "None: a robot fits nowhere.";
+  if (components === 1) return "None: all places that a robot fits are connected.";
+  return `None: there are ${components} parts, and no smaller robot finds a way between them.`;
 }
 
 /** A reason of the command line, for who has a form in place of options. */
@@ -16,7 +23,18 @@ function in_words_of_form(reason: string): string {
     .replace(", or give --escape to begin or end there", "")
     .replace("let --snap do so", "let a larger Snap do so")
     .replace(/let --snap ([\d.]+) do so/, "let a Snap of $1 m do so")
-    .replace("a --radius of", "a Radius of");
+    .replace("give a larger --time-limit, or --iteration-limit where the planner samples", "take the planner graph, or move Start and Goal nearer to each other")
+    .replace("give that --radius", "give that Radius")
+    .replace("--radius", "Radius");
+}
+
+/** What the server calls what stands in a field of the form. */
+const kTitles: Record<string, string> = { from: "Start", to: "Goal", radius: "Radius", prefer_clearance: "Prefer clearance", snap: "Snap", alternatives: "Routes", max_speed: "Speed" };
+
+/** What is wrong with a query, for who has filled in a form. */
+export function error_text(error: unknown): string {
+  const { message } = error as Error;
+  return message.replace(/^\w+(?= '|:)/, (name) => kTitles[name] ?? name);
 }
 
 /** Why there is no route, beginning with what to change. */
@@ -25,7 +43,7 @@ export function reason_text(answer: PlanAnswer): string {
   const full = reason ? in_words_of_form(reason) : `No route: ${answer.status.replaceAll("_", " ")}`;
   if (!blocked || blocked.radius <= 0 || !blocked.place) return full;
   const narrow = { unknown: "Between unknown space the way is", limits: "Within the limits of flights the way is" }[blocked.by] ?? "The way is";
-  return `${narrow} too narrow by ${metres(Math.max(0.001, radius - blocked.radius))} m at ${place_text(blocked.place)}. ${full}`;
+  return `${narrow} too narrow by ${metres_at_least(Math.max(0.001, radius - blocked.radius))} m at ${place_text(blocked.place)}. ${full}`;
 }
 
 export function route_rows(routes: Route[], answer: PlanAnswer): HTMLElement[] {

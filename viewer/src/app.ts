@@ -9,7 +9,7 @@ import { connect_keys } from "./keys";
 import { LayerPanel } from "./layer_panel";
 import type { Info, Vector } from "./layers";
 import { Legend } from "./legend";
-import { metres } from "./numbers";
+import { metres, metres_at_least } from "./numbers";
 import type { Page } from "./page";
 import { Pointing } from "./pointing";
 import { QueryPanel } from "./query";
@@ -73,6 +73,6 @@ export class App implements Page {
     const { x, y, z } = this.stage.size;
     element("facts").textContent =
       `${metres(x, 1)} x ${metres(y, 1)} x ${metres(z, 1)} m, voxels of ${metres(info.voxel_size)} m, ` +
-      `for robots of ${metres(info.min_clearance)} m radius and more; ${info.vertices.toLocaleString("en")} vertices, ${info.edges.toLocaleString("en")} edges`;
+      `for robots of ${metres_at_least(info.min_clearance)} m radius and more; ${info.vertices.toLocaleString("en")} vertices, ${info.edges.toLocaleString("en")} edges`;
   }
 }

@@ -20,6 +20,15 @@ export function three_colour(rgb: Rgb): THREE.Color {
   return new THREE.Color().setRGB(...rgb, THREE.LinearSRGBColorSpace);
 }
 
+/** Lets go of what the graphics card holds of a drawing; it is made again where it is drawn again. */
+export function dispose(drawing: THREE.Object3D): void {
+  drawing.traverse((part) => {
+    if (!(part instanceof THREE.Mesh || part instanceof THREE.Line || part instanceof THREE.Points)) return;
+    part.geometry.dispose();
+    part.material.dispose();
+  });
+}
+
 /** A diagram or a graph: lines between places, and places as points. */
 export class NetDrawing {
   readonly group = new THREE.Group();

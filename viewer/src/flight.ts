@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
+import { error_text } from "./answer_text";
 import { kFlight } from "./colours";
 import { element, input } from "./dom";
 import type { Flight, Vector } from "./layers";
@@ -8,54 +9,71 @@ import { metres, place_text } from "./numbers";
 import type { Page } from "./page";
 import { ask_json } from "./source";
 
-/** Characters: the server takes addresses of 8 KiB, in which commas are three. */
-const kLongestPath = 6_000;
+/** Characters of the path as it stands in the address, of which the server takes 8 KiB. */
+const kLongestPath = 7_500;
 
 /** The trajectory along the route, and the drone on it, by a slider for the time. */
 export class FlightPanel {
   /** Set where the layer is switched on and off. */
   is_shown: () => boolean = () => true;
+  /** Of the last flight that was asked for: when it is there. */
+  flown: Promise<void> = Promise.resolve();
   private flight?: Flight;
   private query?: Record<string, string>;
   private waypoints: Vector[] = [];
   private playing = 0;
+  private asked = 0; // flights so far: only the last is taken
 
   constructor(private readonly page: Page) {
     input("time").addEventListener("input", () => this.set_time(input("time").valueAsNumber));
     element("play").addEventListener("click", () => (this.playing ? this.stop() : this.play()));
-    element("speed").addEventListener("change", () => this.query && void this.fly(this.query, this.waypoints));
+    element("speed").addEventListener("change", () => this.query && this.fly(this.query, this.waypoints));
   }
 
   /** Asks for the flight along the route that answers a query: as it is shown, unless it is too long to be asked for. */
-  async fly(query: Record<string, string>, waypoints: Vector[]): Promise<void> {
+  fly(query: Record<string, string>, waypoints: Vector[]): void {
     const { alternatives: _, ...parameters } = query;
     const path = waypoints.map((p) => p.join(",")).join(";");
-    const along: Record<string, string> = path.length < kLongestPath ? { path, radius: query.radius! } : parameters;
+    const along: Record<string, string> = encodeURIComponent(path).length < kLongestPath ? { path, radius: query.radius! } : parameters;
     this.query = query;
     this.waypoints = waypoints;
+    this.flown = this.ask({ ...along, max_speed: input("speed").value });
+  }
+
+  private async ask(parameters: Record<string, string>): Promise<void> {
+    const asked = ++this.asked;
+    let flight: Flight | undefined;
+    let failure = "";
     try {
-      const flight = await ask_json<Flight>(this.page.source, "/api/trajectory", { ...along, max_speed: input("speed").value });
-      if (this.query === query) this.set(flight.status === "ok" ? flight : undefined);
+      const answer = await ask_json<Flight>(this.page.source, "/api/trajectory", parameters);
+      if (answer.status === "ok") flight = answer;
+      else failure = `No trajectory: ${answer.reason ?? answer.status.replaceAll("_", " ")}`;
     } catch (error) {
-      this.page.hint((error as Error).message);
+      failure = error_text(error);
     }
+    if (asked === this.asked) this.set(flight, failure);
   }
 
   clear(): void {
+    ++this.asked;
     this.query = undefined;
-    if (this.flight) this.set(undefined);
+    if (!element("flight").hidden) this.set(undefined);
   }
 
   explain(legend: Legend): void {
     if (this.flight && this.is_shown()) legend.mark(`Trajectory, ${metres(this.flight.duration, 2)} s`, kFlight);
   }
 
-  private set(flight: Flight | undefined): void {
+  /** Where there is a failure, its words stand in place of the flight; the speed can still be changed. */
+  private set(flight: Flight | undefined, failure = ""): void {
     this.stop();
     this.flight = flight;
     this.page.routes.show_flight(flight);
     if (!this.is_shown()) this.page.routes.flight_group.visible = false;
-    element("flight").hidden = !flight;
+    element("flight").hidden = !flight && !failure;
+    element("flight-time").hidden = element("play").hidden = !flight;
+    element("no-flight").textContent = failure;
+    element("state").textContent = "";
     if (flight) {
       input("time").max = String(flight.duration);
       input("time").value = "0";

@@ -17,7 +17,8 @@ export class HeightPanel {
   sectioned: Promise<void> = Promise.resolve();
   private readonly section = new SectionDrawing();
   private is_cut_chosen = false;
-  private asking = false;
+  private is_slice_wanted = false;
+  private is_slice_asked = false;
   private is_section_wanted = false;
   private is_section_asked = false;
 
@@ -72,21 +73,24 @@ export class HeightPanel {
     this.is_section_asked = false;
   }
 
+  /** Asks for the slice, of the map as it is now; of those that wait only the last is asked. */
   async show_slice(): Promise<void> {
-    if (!this.is_slice_shown() || this.asking) return;
-    this.asking = true;
+    if (!this.is_slice_shown()) return;
+    this.is_slice_wanted = true;
+    if (this.is_slice_asked) return;
     const { page } = this;
-    try {
-      for (let height = NaN; height !== input("slice").valueAsNumber; ) {
-        height = input("slice").valueAsNumber;
-        const bytes = await page.source.ask("/api/slice", { z: String(page.base.z + height) });
+    this.is_slice_asked = true;
+    while (this.is_slice_wanted) {
+      this.is_slice_wanted = false;
+      try {
+        const bytes = await page.source.ask("/api/slice", { z: String(page.base.z + input("slice").valueAsNumber) });
         this.slice.show(read_slice(bytes), page.base, page.scale);
-        page.stage.changed();
+      } catch (error) {
+        page.hint((error as Error).message);
       }
-    } catch (error) {
-      page.hint((error as Error).message);
+      page.stage.changed();
     }
-    this.asking = false;
+    this.is_slice_asked = false;
   }
 
   private set_range(): void {

@@ -12,21 +12,28 @@ const kTurns: Record<string, [number, number, number]> = {
   "+": [0, 0, 0.85], "=": [0, 0, 0.85], "-": [0, 0, 1 / 0.85],
 };
 
+/** Letters are typed into it, or choose in it. */
+function takes_letters(target: HTMLElement): boolean {
+  if (target instanceof HTMLInputElement) return target.type !== "checkbox" && target.type !== "range";
+  return target instanceof HTMLSelectElement || target instanceof HTMLTextAreaElement;
+}
+
 function press(event: KeyboardEvent, stage: Stage, pointing: Pointing): void {
-  if (event.ctrlKey || event.metaKey) return;
+  if (event.ctrlKey || event.metaKey || event.altKey) return;
   const target = event.target as HTMLElement;
-  if (target instanceof HTMLInputElement || target instanceof HTMLSelectElement) {
+  if (takes_letters(target)) {
     if (event.key === "Escape") element("canvas").focus();
     return;
   }
-  const tool = kTools[event.key];
+  const key = event.key.length === 1 ? event.key.toLowerCase() : event.key; // also with Shift and Caps Lock
+  const tool = kTools[key];
   if (tool) {
-    if (event.key === "Escape") pointing.clear_measured();
+    if (key === "Escape") pointing.clear_measured();
     return pointing.use(tool);
   }
-  if (event.key === "t") return stage.look_from_above();
-  if (event.key === "o") return stage.look_from_side();
-  const turn = kTurns[event.key];
+  if (key === "t") return stage.look_from_above();
+  if (key === "o") return stage.look_from_side();
+  const turn = kTurns[key];
   if (!turn || (target.id !== "canvas" && target !== document.body)) return;
   event.preventDefault();
   stage.turn(...turn);

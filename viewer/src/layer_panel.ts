@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 import * as THREE from "three";
-import { join_text } from "./answer_text";
+import { join_text, no_joins_text } from "./answer_text";
 import { kClearances, kHeights, kNarrow, kSection } from "./colours";
 import { element, input } from "./dom";
-import { ball, cloud_drawing, LabelLayer, NetDrawing, type ColourBy, type SliceDrawing } from "./drawings";
+import { ball, cloud_drawing, dispose, LabelLayer, NetDrawing, type ColourBy, type SliceDrawing } from "./drawings";
 import { read_cloud, read_components, read_net, type Narrow, type Net, type Vector } from "./layers";
 import type { Legend } from "./legend";
-import { metres } from "./numbers";
+import { metres, metres_at_most } from "./numbers";
 import type { Page } from "./page";
 import { ask_json } from "./source";
 
@@ -16,6 +16,8 @@ interface Layer {
   shown: boolean;
   /** Makes what is drawn, when it is first shown. */
   load?: () => Promise<THREE.Object3D>;
+  /** When what is being made is there. */
+  loading?: Promise<void>;
   object?: THREE.Object3D;
   on_switch?: () => Promise<void>;
 }
@@ -25,15 +27,6 @@ function volume_text(volume: number): string {
   return `${metres(volume, volume < 1 ? 3 : 1)} m³`;
 }
 
-/** Lets go of what the graphics card holds of a drawing; it is made again where it is drawn again. */
-function dispose(drawing: THREE.Object3D): void {
-  drawing.traverse((part) => {
-    if (!(part instanceof THREE.Mesh || part instanceof THREE.Line || part instanceof THREE.Points)) return;
-    part.geometry.dispose();
-    part.material.dispose();
-  });
-}
-
 /** What is drawn of the map, switched on and off. */
 export class LayerPanel {
   private readonly labels = new LabelLayer(element("labels"));
@@ -41,6 +34,7 @@ export class LayerPanel {
   private readonly diagram: NetDrawing;
   private readonly graph: NetDrawing;
   private renewing = false;
+  private is_renewal_wanted = false; // the map has changed since the last was begun
   /** Of the last switch: when what it shows is there. */
   switched: Promise<void> = Promise.resolve();
 
@@ -79,7 +73,7 @@ export class LayerPanel {
     input(`layer-${name}`).checked = shown;
     if (shown && !layer.object && layer.load) {
       try {
-        this.put(name, await layer.load());
+        await (layer.loading = this.load_layer(name));
       } catch (error) {
         layer.shown = input(`layer-${name}`).checked = false;
         return this.page.hint(`${layer.title}: ${(error as Error).message}`);
@@ -108,21 +102,32 @@ export class LayerPanel {
 
   /** The map has changed: asks again for what is shown of it, and forgets the rest. */
   async renew(): Promise<void> {
+    this.is_renewal_wanted = true;
     if (this.renewing) return;
     this.renewing = true;
-    for (const name of ["gvd", "diagram", "narrow"]) {
-      const layer = this.layers[name]!;
-      if (!layer.object) continue;
-      try {
-        if (layer.shown) this.put(name, await layer.load!());
-        else this.put(name, undefined);
-      } catch (error) {
-        this.page.hint(`${layer.title}: ${(error as Error).message}`);
-      }
+    while (this.is_renewal_wanted) {
+      this.is_renewal_wanted = false;
+      for (const name of ["gvd", "diagram", "narrow"]) await this.renew_layer(name);
+      if (this.is_shown("slice")) await this.layers.slice!.on_switch?.();
+      this.page.stage.changed();
     }
-    if (this.is_shown("slice")) await this.layers.slice!.on_switch?.();
     this.renewing = false;
-    this.page.stage.changed();
+  }
+
+  private async renew_layer(name: string): Promise<void> {
+    const layer = this.layers[name]!;
+    try {
+      await layer.loading?.catch(() => {}); // of an older map; who has switched it on tells what is wrong
+      if (!layer.object) return;
+      if (layer.shown) await this.load_layer(name);
+      else this.put(name, undefined);
+    } catch (error) {
+      this.page.hint(`${layer.title}: ${(error as Error).message}`);
+    }
+  }
+
+  private async load_layer(name: string): Promise<void> {
+    this.put(name, await this.layers[name]!.load!());
   }
 
   explain(legend: Legend): void {
@@ -197,7 +202,7 @@ export class LayerPanel {
       const mark = ball(kNarrow, Math.max(join.radius, 0.04));
       mark.position.copy(place);
       marks.add(mark);
-      this.labels.add(place, `${metres(join.radius, 2)} m`);
+      this.labels.add(place, `${metres_at_most(join.radius, 2)} m`);
       const item = document.createElement("li");
       const button = document.createElement("button");
       button.type = "button";
@@ -208,7 +213,7 @@ export class LayerPanel {
     }
     if (shown.length === 0) {
       const none = document.createElement("li");
-      none.textContent = "None: all places that a robot fits are connected.";
+      none.textContent = no_joins_text(components.length);
       list.append(none);
     }
     if (wide_enough.length > shown.length) this.page.hint(`${shown.length} of ${wide_enough.length} narrow places are shown, the widest`);

@@ -183,6 +183,7 @@ export interface Sample {
 
 export interface Flight {
   status: string;
+  reason?: string;
   duration: number;
   clearance: number | null;
   step: string;

@@ -43,7 +43,7 @@ export class LivePage {
   private readonly came = new PathDrawing(kDrone, 2.5);
   private readonly ahead = new PathDrawing(kAhead, 2.5);
   private readonly group = new THREE.Group();
-  private readonly events: EventSource;
+  private events?: EventSource; // while it follows
   private last?: LiveEvent;
   private beginning?: Promise<void>;
   private refresh_asked = false;
@@ -55,9 +55,23 @@ export class LivePage {
     stage.overlay.add(this.group);
     this.group.visible = false;
     this.tell("Waiting for the first scan");
-    this.events = new EventSource("/api/live");
-    this.events.onmessage = (message) => this.take(message.data);
-    this.events.onerror = () => this.tell(this.events.readyState === EventSource.CLOSED ? "The run cannot be followed: as many pages as can already do" : "The connection is lost; trying again");
+    document.addEventListener("visibilitychange", () => this.follow());
+    this.follow();
+  }
+
+  /**
+   * Follows for as long as the page can be seen and the run goes on. A browser has six connections to
+   * a server, and each page that follows keeps one: pages that nobody sees must not hold up the others.
+   */
+  private follow(): void {
+    if (document.hidden || this.last?.is_last) {
+      this.events?.close();
+      this.events = undefined;
+    } else if (!this.events) {
+      const events = (this.events = new EventSource("/api/live"));
+      events.onmessage = (message) => this.take(message.data);
+      events.onerror = () => this.tell(events.readyState === EventSource.CLOSED ? "The run cannot be followed: as many pages as can already do" : "The connection is lost; trying again");
+    }
   }
 
   private take(text: string): void {
@@ -67,13 +81,20 @@ export class LivePage {
       this.surface.clear();
       this.graph.clear();
       this.trail.length = 0;
+      if (this.app) void this.check_run(this.app.info);
     }
     if (event.surface) this.surface.apply(bytes_of(event.surface).buffer);
     if (event.graph) this.graph.apply(bytes_of(event.graph).buffer);
     this.trail.push(...event.positions);
     this.last = event;
-    if (event.is_last) this.events.close();
+    if (event.is_last) this.follow();
     this.ask_refresh();
+  }
+
+  /** Where another run answers at the address now, the page begins anew: what it knows is of the old one. */
+  private async check_run({ name, voxel_size, min_clearance }: Info): Promise<void> {
+    const now = await ask_json<Info>(this.source, "/api/info").catch(() => undefined);
+    if (now && (now.name !== name || now.voxel_size !== voxel_size || now.min_clearance !== min_clearance)) location.reload();
   }
 
   /** However many events come, there is one picture of them a frame. */

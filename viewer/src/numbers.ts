@@ -12,6 +12,18 @@ export function metres(value: number, decimals = 3): string {
   return String(Number(value.toFixed(decimals)));
 }
 
+/** What fits: metres that are no more than a value. */
+export function metres_at_most(value: number, decimals = 3): string {
+  const scale = 10 ** decimals;
+  return metres(Math.floor(value * scale + 1e-9) / scale, decimals);
+}
+
+/** What is needed: metres that are no less than a value. */
+export function metres_at_least(value: number, decimals = 3): string {
+  const scale = 10 ** decimals;
+  return metres(Math.ceil(value * scale - 1e-9) / scale, decimals);
+}
+
 export function place_text(place: Vector): string {
   return place.map((x) => metres(x)).join(",");
 }

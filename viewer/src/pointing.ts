@@ -3,11 +3,12 @@
 import * as THREE from "three";
 import { kMeasure } from "./colours";
 import { element, input } from "./dom";
-import { ball, LabelLayer, PathDrawing } from "./drawings";
+import { ball, dispose, LabelLayer, PathDrawing } from "./drawings";
 import type { Vector } from "./layers";
 import { metres } from "./numbers";
 import type { Page } from "./page";
 import type { QueryPanel } from "./query";
+import type { Hit } from "./surface";
 
 export type Tool = "look" | "start" | "goal" | "measure";
 
@@ -19,8 +20,8 @@ export class Pointing {
   private readonly measured = new THREE.Group();
   private tool: Tool = "look";
   private measure_from?: THREE.Vector3;
-  private down?: { x: number; y: number };
-  private dragged?: { which: "start" | "goal"; plane: THREE.Plane; offset: THREE.Vector3 };
+  private down?: { pointer: number; x: number; y: number };
+  private dragged?: { pointer: number; which: "start" | "goal"; plane: THREE.Plane; offset: THREE.Vector3 };
 
   constructor(private readonly page: Page, private readonly query: QueryPanel) {
     const { stage, routes } = page;
@@ -30,20 +31,22 @@ export class Pointing {
       button.addEventListener("click", () => this.use(button.dataset.tool as Tool));
     const canvas = element("canvas");
     canvas.addEventListener("pointerdown", (event) => {
-      this.down = { x: event.offsetX, y: event.offsetY };
+      // A second finger moves the view: neither is a click then.
+      this.down = event.isPrimary ? { pointer: event.pointerId, x: event.offsetX, y: event.offsetY } : undefined;
+      if (!this.down) return;
       const which = event.button === 0 ? routes.marker_at(event.offsetX, event.offsetY) : undefined;
       if (which) this.begin_drag(which, event);
     }, { capture: true });
     canvas.addEventListener("pointermove", (event) => {
-      if (this.dragged) this.drag(event);
-      else if (event.buttons === 0) canvas.style.cursor = routes.marker_at(event.offsetX, event.offsetY) ? "grab" : this.tool === "look" ? "" : "crosshair";
+      if (this.dragged?.pointer === event.pointerId) this.drag(event);
+      else if (!this.dragged && event.buttons === 0) canvas.style.cursor = routes.marker_at(event.offsetX, event.offsetY) ? "grab" : this.tool === "look" ? "" : "crosshair";
     });
     canvas.addEventListener("pointerup", (event) => {
-      if (this.dragged) return this.end_drag();
+      if (this.dragged?.pointer === event.pointerId) return this.end_drag();
       const { down } = this;
-      if (down && event.button === 0 && Math.hypot(event.offsetX - down.x, event.offsetY - down.y) < 5) this.click(event.offsetX, event.offsetY);
+      if (down?.pointer === event.pointerId && event.button === 0 && Math.hypot(event.offsetX - down.x, event.offsetY - down.y) < 5) this.click(event.offsetX, event.offsetY);
     });
-    canvas.addEventListener("pointercancel", () => this.end_drag());
+    canvas.addEventListener("pointercancel", (event) => this.dragged?.pointer === event.pointerId && this.end_drag());
   }
 
   use(tool: Tool): void {
@@ -54,6 +57,7 @@ export class Pointing {
   }
 
   clear_measured(): void {
+    dispose(this.measured);
     this.measured.clear();
     this.labels.clear();
     this.page.stage.changed();
@@ -62,7 +66,7 @@ export class Pointing {
   private click(x: number, y: number): void {
     if (this.tool === "look") return;
     const { page } = this;
-    const hit = page.surface.hit(page.stage.ray_at(x, y));
+    const hit = this.hit_at(x, y);
     if (!hit) return page.hint("There is no obstacle to click on here: click on the floor or a wall");
     if (this.tool === "measure") return this.measure(hit.place);
     const room = this.query.radius + page.info.voxel_size;
@@ -73,6 +77,19 @@ export class Pointing {
     this.query.set_end(which, this.rounded(place));
     this.use(which === "start" && !this.query.goal ? "goal" : "look");
     void this.query.plan();
+  }
+
+  /** What is clicked on: an obstacle, or on a planar map, which has no floor, the layer that robots are in. */
+  private hit_at(x: number, y: number): Hit | undefined {
+    const { stage, surface, info, base } = this.page;
+    const ray = stage.ray_at(x, y);
+    const hit = surface.hit(ray);
+    if (!info.planar || !info.bounds) return hit;
+    const normal = new THREE.Vector3(0, 0, 1);
+    const place = ray.intersectPlane(new THREE.Plane(normal, base.z - info.bounds.min[2] - info.voxel_size / 2), new THREE.Vector3());
+    if (!place || !stage.box.clone().expandByScalar(1e-6).containsPoint(place)) return hit;
+    const distance = place.distanceTo(ray.origin);
+    return hit && hit.distance < distance ? hit : { distance, place, normal };
   }
 
   /** In the world, to millimetres. */
@@ -108,7 +125,7 @@ export class Pointing {
     const normal = upright ? ray.direction.clone().setZ(0).normalize().negate() : new THREE.Vector3(0, 0, 1);
     const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(normal, marker.position);
     const at = ray.intersectPlane(plane, new THREE.Vector3()) ?? marker.position;
-    this.dragged = { which, plane, offset: marker.position.clone().sub(at) };
+    this.dragged = { pointer: event.pointerId, which, plane, offset: marker.position.clone().sub(at) };
     this.query.is_dragging = true;
     stage.controls.enabled = false;
     stage.moves_over(true);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-import { reason_text, route_rows } from "./answer_text";
+import { error_text, reason_text, route_rows } from "./answer_text";
 import { kGoal, kRoutes, kStart } from "./colours";
 import { element, input } from "./dom";
 import type { FlightPanel } from "./flight";
@@ -9,6 +9,15 @@ import type { Legend } from "./legend";
 import { metres, place_of, place_text, shell_word } from "./numbers";
 import type { Page } from "./page";
 import { ask_json } from "./source";
+
+type End = "start" | "goal";
+const kEnds: readonly End[] = ["start", "goal"];
+const kFields = { start: "from", goal: "to" } as const;
+const kTitles = { start: "Start", goal: "Goal" } as const;
+const kNoPlace = "three numbers: x, y, z";
+
+/** As it is asked. */
+type Query = Record<string, string>;
 
 /** The question for a route, and its answer. */
 export class QueryPanel {
@@ -22,49 +31,82 @@ export class QueryPanel {
   private asking = false; // a plan is under way
   private wanted: "nothing" | "route" | "all" = "nothing"; // of the next
   private blocked_place?: Vector;
-  private unwritten?: "start" | "goal"; // moved, and not yet in the form
+  private unwritten?: End; // moved, and not yet in the form
 
   constructor(private readonly page: Page, private readonly flight: FlightPanel, fly_to: (place: Vector) => void) {
-    input("radius").value = metres(page.info.min_clearance);
+    input("radius").value = String(page.info.min_clearance); // rounded it may be less than the map was built for
     page.routes.set_radius(this.radius);
     page.stage.after_frame.push(() => this.write_end());
-    for (const id of ["from", "to"] as const)
-      input(id).addEventListener("change", () => {
-        this.set_end(id === "from" ? "start" : "goal", place_of(input(id).value));
-        void this.plan();
-      });
+    for (const end of kEnds) input(kFields[end]).addEventListener("change", () => this.take_typed(end));
     for (const id of ["radius", "planner", "alternatives", "prefer", "snap"])
       element(id).addEventListener("change", () => {
         page.routes.set_radius(this.radius);
+        this.fit_form();
         void this.plan();
       });
     element("query").addEventListener("submit", (event) => {
       event.preventDefault();
-      void this.plan();
+      const missing = kEnds.find((end) => !this[end]);
+      if (missing) this.refuse(this.fault() || `${kTitles[missing]} is missing: click on the map, or type ${kNoPlace}`);
+      else void this.plan();
     });
+    this.fit_form();
     element("show-place").addEventListener("click", () => this.blocked_place && fly_to(this.blocked_place));
   }
 
+  /** Where none is given, that of the smallest robot. */
   get radius(): number {
-    return input("radius").valueAsNumber || this.page.info.min_clearance;
+    const { valueAsNumber } = input("radius");
+    return Number.isNaN(valueAsNumber) ? this.page.info.min_clearance : valueAsNumber;
+  }
+
+  /** Only the graph has other routes to offer. */
+  private fit_form(): void {
+    input("alternatives").disabled = input("planner").value !== "graph";
+  }
+
+  private take_typed(end: End): void {
+    const text = input(kFields[end]).value.trim();
+    const place = place_of(text);
+    this.mark_field(end, text && !place ? kNoPlace : "");
+    this.set_end(end, place);
+    void this.plan();
+  }
+
+  /** `fault`: what should stand there instead. */
+  private mark_field(end: End, fault: string): void {
+    const field = input(kFields[end]);
+    field.setCustomValidity(fault);
+    if (fault) field.setAttribute("aria-invalid", "true");
+    else field.removeAttribute("aria-invalid");
+  }
+
+  /** What is wrong with a place that was typed. */
+  private fault(): string {
+    const end = kEnds.find((end) => input(kFields[end]).validity.customError);
+    return end ? `${kTitles[end]} is no place: give ${kNoPlace}` : "";
   }
 
   /** Sets an end, for the form and the picture. */
-  set_end(which: "start" | "goal", place: Vector | undefined): void {
+  set_end(which: End, place: Vector | undefined): void {
     this[which] = place;
     this.unwritten = which;
+    if (place) this.mark_field(which, "");
     const awaits_route = this.is_dragging && !!this.start && !!this.goal;
     this.page.routes.set_end(which, place, awaits_route);
     // A word that changes is a frame of the whole page, which the frame with the route would wait for.
     if (!awaits_route) this.write_end();
-    if (!this.is_dragging) this.page.update_legend();
+    if (this.is_dragging) return;
+    if (this.start && this.goal) return this.page.update_legend();
+    this.wanted = "nothing";
+    this.refuse(this.fault());
   }
 
   private write_end(): void {
     const which = this.unwritten;
     this.unwritten = undefined;
     const place = which && this[which];
-    if (place) input(which === "start" ? "from" : "to").value = place_text(place).replaceAll(",", ", ");
+    if (place) input(kFields[which]).value = place_text(place).replaceAll(",", ", ");
   }
 
   /**
@@ -76,12 +118,15 @@ export class QueryPanel {
     if (!is_quick || this.wanted === "nothing") this.wanted = is_quick ? "route" : "all";
     if (this.asking) return;
     this.asking = true;
-    while (this.wanted !== "nothing") {
-      const is_route_enough = this.wanted === "route";
-      this.wanted = "nothing";
-      await this.plan_once(is_route_enough);
+    try {
+      while (this.wanted !== "nothing") {
+        const is_route_enough = this.wanted === "route";
+        this.wanted = "nothing";
+        await this.plan_once(this.query(), is_route_enough);
+      }
+    } finally {
+      this.asking = false;
     }
-    this.asking = false;
     document.body.dataset.planned = String(Number(document.body.dataset.planned ?? 0) + 1);
   }
 
@@ -93,28 +138,43 @@ export class QueryPanel {
     this.shown.forEach((route, i) => legend.mark(`Route ${several ? `${i + 1}, ` : ""}${metres(route.length, 2)} m`, kRoutes[i % kRoutes.length]!));
   }
 
-  private async plan_once(is_quick: boolean): Promise<void> {
+  /** A flight is asked for, and not waited for: meanwhile others can be planned. */
+  private async plan_once(query: Query, is_quick: boolean): Promise<void> {
     const started = performance.now();
-    const parameters = this.parameters();
     try {
-      const answer = await ask_json<PlanAnswer>(this.page.source, "/api/plan", is_quick ? { ...parameters, explain: "0" } : parameters);
+      const answer = await ask_json<PlanAnswer>(this.page.source, "/api/plan", is_quick ? { ...query, explain: "0" } : query);
       this.answer_time = performance.now() - started;
-      this.show(answer);
+      if (!this.start || !this.goal) return; // taken away since
+      this.show(answer, query);
       const first = this.shown[0];
-      if (first && !is_quick && this.wanted === "nothing") await this.flight.fly(parameters, first.waypoints);
+      if (first && !is_quick && this.wanted === "nothing") this.flight.fly(query, first.waypoints);
     } catch (error) {
-      this.show_failure((error as Error).message);
+      if (this.start && this.goal) this.refuse(error_text(error));
     }
   }
 
-  private parameters(): Record<string, string> {
+  /** What the form asks, where both ends are there. */
+  private query(): Query {
     const value = (id: string) => input(id).value;
-    const parameters: Record<string, string> = { from: place_text(this.start!), to: place_text(this.goal!), radius: value("radius"), planner: value("planner"), prefer_clearance: value("prefer"), snap: value("snap") };
-    if (Number(value("alternatives")) > 1 && value("planner") === "graph") parameters.alternatives = value("alternatives");
-    return parameters;
+    const query: Query = { from: place_text(this.start!), to: place_text(this.goal!), radius: String(this.radius), planner: value("planner"), prefer_clearance: value("prefer"), snap: value("snap") };
+    const routes = value("alternatives");
+    if (value("planner") === "graph" && routes && Number(routes) !== 1) query.alternatives = routes;
+    return query;
   }
 
-  private show(answer: PlanAnswer): void {
+  /** There is no answer to what the form asks now, and what answered an earlier question must not stay for one. */
+  private refuse(text: string): void {
+    this.shown = [];
+    this.blocked_place = undefined;
+    this.page.routes.show_routes([]);
+    this.flight.clear();
+    element("show-place").hidden = true;
+    element("command").textContent = "";
+    this.show_failure(text);
+    this.page.update_legend();
+  }
+
+  private show(answer: PlanAnswer, query: Query): void {
     const routes = answer.routes ?? (answer.status === "ok" ? [answer as Route] : []);
     this.shown = routes;
     this.page.routes.show_routes(routes);
@@ -122,22 +182,23 @@ export class QueryPanel {
     this.page.stage.answered(); // the picture first: it is drawn while the words are set
     this.blocked_place = answer.blocked?.place ?? undefined;
     element("show-place").hidden = !this.blocked_place;
-    element("command").textContent = this.command();
+    element("command").textContent = this.command(query);
     if (routes.length === 0) this.show_failure(reason_text(answer));
     else element("result").replaceChildren(...route_rows(routes, answer));
     this.page.update_legend();
   }
 
   private show_failure(text: string): void {
+    element("result").replaceChildren();
+    if (!text) return;
     const line = document.createElement("p");
     line.className = "bad";
     line.textContent = text;
-    element("result").replaceChildren(line);
+    element("result").append(line);
   }
 
   /** The same question on the command line. */
-  private command(): string {
-    const parameters = this.parameters();
+  private command(parameters: Query): string {
     const words = ["ridgeway plan", shell_word(this.page.info.name), `--from=${parameters.from}`, `--to=${parameters.to}`, `--radius ${parameters.radius}`];
     if (parameters.planner !== "graph") words.push(`--planner ${parameters.planner}`);
     if (Number(parameters.prefer_clearance) > 0) words.push(`--prefer-clearance ${parameters.prefer_clearance}`);

@@ -8,11 +8,12 @@ export interface MapSource {
 
 export class AnswerError extends Error {}
 
-function message_of(bytes: ArrayBuffer): string {
+/** `status`: of HTTP. */
+function message_of(bytes: ArrayBuffer, status: number): string {
   try {
     return JSON.parse(new TextDecoder().decode(bytes)).error;
   } catch {
-    return "the answer cannot be read";
+    return `the answer cannot be read (HTTP status ${status})`;
   }
 }
 
@@ -27,7 +28,7 @@ export class ServerSource implements MapSource {
       throw new AnswerError("the server does not answer: is `ridgeway view` still running?");
     }
     const bytes = await response.arrayBuffer();
-    if (!response.ok) throw new AnswerError(message_of(bytes));
+    if (!response.ok) throw new AnswerError(message_of(bytes, response.status));
     return bytes;
   }
 }
@@ -69,7 +70,7 @@ export class PlannerSource implements MapSource {
       const waiting = this.waiting.get(id);
       this.waiting.delete(id);
       if (status === 200) waiting?.resolve(bytes);
-      else waiting?.reject(new AnswerError(message_of(bytes)));
+      else waiting?.reject(new AnswerError(message_of(bytes, status)));
     };
     this.worker.onerror = (event) => {
       for (const { reject } of this.waiting.values())

@@ -61,6 +61,8 @@ export class Stage extends View {
       this.changed();
     };
     dark.addEventListener("change", paint);
+    // After what three.js does then itself: the graphics card has lost the picture, and the colour of the ground.
+    canvas.addEventListener("webglcontextrestored", paint);
     paint();
   }
 

@@ -25,7 +25,10 @@ export abstract class View {
     this.controls.enableDamping = false;
     this.controls.zoomToCursor = true;
     this.controls.screenSpacePanning = false;
-    this.controls.addEventListener("start", () => (this.preset = undefined));
+    this.controls.addEventListener("start", () => {
+      this.preset = undefined;
+      cancelAnimationFrame(this.flight);
+    });
   }
 
   /** Asks for a frame in which anything may be another. */
@@ -161,9 +164,11 @@ export abstract class View {
 
   /** Turns the view, radians, and moves it nearer (below 1) or farther. */
   turn(right: number, up: number, farther: number): void {
+    cancelAnimationFrame(this.flight);
     this.preset = undefined;
     if (this.camera_now === this.orthographic) {
       this.orthographic.zoom /= farther;
+      this.orthographic.updateProjectionMatrix();
       const step = this.orthographic.top / this.orthographic.zoom;
       const move = new THREE.Vector3(right * step, up * step, 0);
       this.controls.target.add(move);

@@ -23,12 +23,21 @@ function bytes_of_answer(module: Planner): Uint8Array<ArrayBuffer> {
   return module.HEAPU8.slice(at, at + module._planner_size());
 }
 
+function bytes_of_error(error: string): Uint8Array<ArrayBuffer> {
+  return new TextEncoder().encode(JSON.stringify({ error }));
+}
+
 function answer({ id, path, parameters }: Ask): void {
   let status = 500;
   let bytes = failure?.slice() ?? new Uint8Array();
-  if (planner) {
-    status = planner.ccall("planner_ask", "number", ["string", "string"], [path, JSON.stringify(parameters)]);
-    bytes = bytes_of_answer(planner);
+  try {
+    if (planner) {
+      status = planner.ccall("planner_ask", "number", ["string", "string"], [path, JSON.stringify(parameters)]);
+      bytes = bytes_of_answer(planner);
+    }
+  } catch (error) {
+    status = 500;
+    bytes = bytes_of_error(`the planner has ended: ${error}`);
   }
   postMessage({ id, status, bytes: bytes.buffer }, { transfer: [bytes.buffer] });
 }
@@ -42,7 +51,7 @@ async function load({ map, name }: Load): Promise<void> {
     else failure = bytes_of_answer(module);
     module.FS.unlink("/map.ridge");
   } catch (error) {
-    failure = new TextEncoder().encode(JSON.stringify({ error: `the planner cannot start: ${error}` }));
+    failure = bytes_of_error(`the planner cannot start: ${error}`);
   }
   for (const ask of waiting.splice(0)) answer(ask);
 }

@@ -7,10 +7,25 @@
 #include <unistd.h>
 
 #include <array>
+#include <csignal>
 
 #include "console.hpp"
 
 namespace ridgeway::cli {
+namespace {
+
+/// In a session of its own, so that Ctrl-C ends us alone, and with the usual effects of signals.
+void set_apart(posix_spawnattr_t& attributes) {
+  sigset_t signals;
+  ::sigemptyset(&signals);
+  ::posix_spawnattr_setsigmask(&attributes, &signals);
+  for (const int usual : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE}) ::sigaddset(&signals, usual);
+  ::posix_spawnattr_setsigdefault(&attributes, &signals);
+  ::posix_spawnattr_setflags(&attributes,
+                             POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+}
+
+}  // namespace
 
 bool open_in_browser(const std::string& address) {
   std::string program = "xdg-open", argument = address;
@@ -20,9 +35,13 @@ bool open_in_browser(const std::string& address) {
   // It must not write into our output, nor read what is typed here.
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     ::posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_RDWR, 0);
+  posix_spawnattr_t attributes;
+  ::posix_spawnattr_init(&attributes);
+  set_apart(attributes);
   pid_t process = 0;
   const int error =
-      ::posix_spawnp(&process, program.c_str(), &actions, nullptr, words.data(), environ);
+      ::posix_spawnp(&process, program.c_str(), &actions, &attributes, words.data(), environ);
+  ::posix_spawnattr_destroy(&attributes);
   ::posix_spawn_file_actions_destroy(&actions);
   return error == 0;
 }

@@ -33,10 +33,11 @@ std::optional<LiveView::Update> LiveView::next(Seen& seen, std::chrono::millisec
 }
 
 std::shared_ptr<LiveView::Snapshot> LiveView::newest() {
+  std::shared_ptr<Snapshot> before;  // let go of after the lock, as in show()
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!scene_.roadmap) return nullptr;
   if (!snapshot_ || snapshot_->roadmap != scene_.roadmap)
-    snapshot_ = std::make_shared<Snapshot>(scene_.roadmap, name_);
+    before = std::exchange(snapshot_, std::make_shared<Snapshot>(scene_.roadmap, name_));
   return snapshot_;
 }
 

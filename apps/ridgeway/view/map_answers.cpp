@@ -63,6 +63,15 @@ void require_known_parameters(const Question& question) {
   }
 }
 
+/// What leads to a path has no say where it is given.
+void require_path_alone(const Question& question) {
+  const std::set<std::string_view> taken = {"path", "radius", "max_speed", "max_acceleration"};
+  for (const auto& [name, value] : question.parameters)
+    if (!taken.contains(name))
+      throw InputError("parameter " + in_quotes(name), "plans nothing where a path is given",
+                       "leave out this or path");
+}
+
 std::optional<std::string> find(const Question& question, const std::string& name) {
   const auto found = question.parameters.find(name);
   if (found == question.parameters.end()) return std::nullopt;
@@ -255,6 +264,7 @@ Json MapAnswers::plan(const Question& question) {
 Json MapAnswers::trajectory(const Question& question) {
   constexpr double kMostSamples = 20'000.0;
   const auto given = find(question, "path");
+  if (given) require_path_alone(question);
   const double radius = number_of(question, "radius", kLengths, roadmap_.min_clearance);
   const Query query = given ? Query{{}, {}, radius} : query_of(question, roadmap_);
   const PlanConfig config = config_of(question, query.radius);

@@ -157,8 +157,10 @@ struct PageServer::Running {
     if (!is_from_here(request, port))
       return set_body(response,
                       json_reply(403, {{"error", "this server answers its own page alone"}}));
-    if (request.method != "GET" && request.method != "HEAD")
+    if (request.method != "GET" && request.method != "HEAD") {
+      response.set_header("Allow", "GET, HEAD");
       return set_body(response, json_reply(405, {{"error", "only GET and HEAD are answered"}}));
+    }
     if (const auto file = find_page_file(request.path))
       return set_bytes(response, std::string(file->type), file->body);
     if (request.path == kLivePath) return follow(served.live, followers, response);

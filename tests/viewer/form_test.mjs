@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+
+// The form of the page: what is asked with it, what is wrong in it, and answers in another order than their questions.
+import assert from "node:assert/strict";
+import test, { after, before } from "node:test";
+import { click_at, hold, launch, open, planned, text_of } from "./browser.mjs";
+import { rooms, view } from "./program.mjs";
+
+/** Where an answer is waited for that is never asked for. */
+const kLimit = { timeout: 60_000 };
+
+let served, browser, page;
+before(async () => {
+  served = await view(rooms());
+  browser = await launch();
+  page = await open(browser, served.address);
+  await set("from", "-2, 1, 1");
+  await planned(page, () => set("to", "2, -1, 1"));
+}, { timeout: 120_000 });
+after(async () => {
+  await browser?.close();
+  await served?.stop();
+});
+
+const set = (id, value) =>
+  page.evaluate(([id, value]) => {
+    const input = document.getElementById(id);
+    input.value = value;
+    input.dispatchEvent(new Event("change", { bubbles: true }));
+  }, [id, value]);
+
+test("what waits is not lost when an end is taken away meanwhile, nor is what comes later", kLimit, async () => {
+  const plan = await hold(page, "**/api/plan*");
+  await planned(page, async () => {
+    await set("radius", "0.31");
+    await plan.asked;
+    await set("radius", "0.32"); // waits
+    await set("from", "");
+    await plan.release();
+  });
+  assert.equal(await text_of(page, "#result"), "");
+  await set("radius", "0.3");
+  await planned(page, () => set("from", "-2, 1, 1"));
+  assert.equal(await page.locator("#length").count(), 1, await text_of(page, "#result"));
+});
+
+/** Nothing is left of an earlier answer. */
+async function nothing_is_shown(what) {
+  assert.equal(await page.evaluate(() => window.ridgeway.app.query.shown.length), 0, what);
+  assert.equal(await page.evaluate(() => window.ridgeway.app.routes.has_flight), false, what);
+  assert.equal(await page.locator("#length").count(), 0, what);
+  assert.equal(await page.locator("#command").textContent(), "", what);
+  for (const id of ["flight", "show-place"]) assert.ok(await page.locator(`#${id}`).isHidden(), `${what}: ${id}`);
+  assert.doesNotMatch(await text_of(page, "#legend"), /Route|Trajectory/, what);
+}
+
+test("a mistake is named as the form names it, and takes away the answer from before", async () => {
+  for (const [id, wrong, right, message] of [["radius", "-1", "0.3", /^Radius '-1': /], ["prefer", "-3", "0", /^Prefer clearance '-3': /], ["snap", "-3", "0.5", /^Snap '-3': /], ["alternatives", "99", "1", /^Routes '99': /]]) {
+    await planned(page, () => set(id, wrong));
+    assert.match(await text_of(page, "#result"), message);
+    await nothing_is_shown(`${id} ${wrong}`);
+    await planned(page, () => set(id, right));
+    assert.equal(await page.locator("#length").count(), 1, await text_of(page, "#result"));
+  }
+  await set("from", "hello");
+  assert.equal(await page.getAttribute("#from", "aria-invalid"), "true");
+  assert.match(await text_of(page, "#result"), /^Start is no place: give three numbers/);
+  await nothing_is_shown("hello");
+  await set("from", "");
+  assert.equal(await page.getAttribute("#from", "aria-invalid"), null);
+  assert.equal(await text_of(page, "#result"), "");
+  await page.locator("#go").click();
+  assert.match(await text_of(page, "#result"), /^Start is missing/);
+  await planned(page, () => set("from", "-2, 1, 1"));
+});
+
+test("the command gives the same answer, also where the form is left as it is", async () => {
+  await planned(page, () => set("radius", ""));
+  assert.match(await page.locator("#command").textContent(), / --radius 0\.3 --snap 0\.5$/);
+  await planned(page, () => set("alternatives", "3"));
+  await planned(page, () => page.selectOption("#planner", "esdf"));
+  assert.ok(await page.locator("#alternatives").isDisabled(), "A* on voxels has no other routes");
+  assert.doesNotMatch(await page.locator("#command").textContent(), /--alternatives/);
+  await planned(page, () => page.selectOption("#planner", "graph"));
+  assert.ok(await page.locator("#alternatives").isEnabled());
+  assert.match(await page.locator("#command").textContent(), / --alternatives 3$/);
+  await planned(page, () => set("alternatives", "1"));
+  await planned(page, () => set("radius", "0.3"));
+});
+
+test("plans with any numbers that planners take, also those between the steps of a field", async () => {
+  for (const [id, value] of [["radius", "0.3334"], ["snap", "0.25"], ["prefer", "0.3"]]) await planned(page, () => set(id, value));
+  await planned(page, () => page.locator("#go").click());
+  assert.equal(await page.locator("#length").count(), 1, await text_of(page, "#result"));
+  for (const [id, value] of [["radius", "0.3"], ["snap", "0.5"], ["prefer", "0"]]) await planned(page, () => set(id, value));
+});
+
+test("the flight is that of the speed in the form, in whatever order answers come", kLimit, async () => {
+  const flown = () => page.evaluate(() => window.ridgeway.app.flight.flown);
+  const slow = await hold(page, "**/api/trajectory*max_speed=0.5");
+  await set("speed", "0.5");
+  await page.evaluate(() => { window.slow_flight = window.ridgeway.app.flight.flown; });
+  await slow.asked;
+  await set("speed", "4");
+  await flown();
+  const clock = await text_of(page, "#clock");
+  await slow.release();
+  await page.evaluate(() => window.slow_flight);
+  assert.equal(await text_of(page, "#clock"), clock);
+  await set("speed", "0");
+  await flown();
+  assert.match(await text_of(page, "#no-flight"), /^Speed '0': /);
+  assert.ok(await page.locator("#speed").isVisible(), "the speed cannot be mended");
+  await set("speed", "2");
+  await flown();
+  assert.equal(await text_of(page, "#no-flight"), "");
+  assert.match(await text_of(page, "#clock"), /^0\.0 of \d/);
+});
+
+test("a route whose path is too long for an address is flown by its ends", async () => {
+  const before = page.asked.length;
+  await page.evaluate(async () => {
+    const { flight } = window.ridgeway.app;
+    const path = Array.from({ length: 320 }, (_, i) => [-1.9 + 0.001 * i, 1.123, 1.123]);
+    flight.fly({ from: "-2,1,1", to: "2,-1,1", radius: "0.3" }, path);
+    await flight.flown;
+  });
+  const [address] = page.asked.slice(before).filter((address) => address.includes("/api/trajectory"));
+  assert.match(address, /from=/);
+  assert.equal(await text_of(page, "#no-flight"), "");
+  await planned(page, () => page.locator("#go").click());
+});
+
+test("a drag plans while a trajectory is being made", kLimit, async () => {
+  const count = () => page.evaluate(() => Number(document.body.dataset.planned));
+  const plans = (before) => page.waitForFunction((before) => Number(document.body.dataset.planned) > before, before, { timeout: 10_000 });
+  const flight = await hold(page, "**/api/trajectory*");
+  await page.locator("#go").click();
+  await flight.asked;
+  const at = await page.evaluate(() => { const { app, stage } = window.ridgeway; return stage.on_canvas(app.routes.goal.position); });
+  await page.mouse.move(at.x, at.y);
+  await page.mouse.down();
+  const before = await count();
+  await page.mouse.move(at.x, at.y + 8);
+  await plans(before);
+  await flight.release();
+  await planned(page, () => page.mouse.up());
+  assert.ok(await page.locator("#clock").isVisible(), "there is no flight after the drag");
+});
+
+test("parts that nothing joins are told, and a map's own radius is planned with, whatever its decimals", async () => {
+  const other = await view(rooms({ name: "closed", has_door: false, options: ["--min-clearance", "0.3334"] }));
+  const closed = await open(browser, other.address);
+  await closed.locator("#layer-narrow").click();
+  await closed.evaluate(() => window.ridgeway.app.layers.switched);
+  assert.match(await text_of(closed, "#narrow-list"), /^None: there are 2 parts/);
+  assert.equal(await closed.inputValue("#radius"), "0.3334");
+  await closed.fill("#from", "-2, 1, 1");
+  await closed.fill("#to", "-1, -1, 1");
+  await planned(closed, () => closed.locator("#go").click());
+  assert.equal(await closed.locator("#length").count(), 1, await text_of(closed, "#result"));
+  await closed.close();
+  await other.stop();
+});
+
+test("on a planar map, which has no floor, clicks between its walls are places", async () => {
+  const other = await view(rooms({ name: "planar", options: ["--min-clearance", "0.3", "--planar", "0.1,1.5"] }));
+  const planar = await open(browser, other.address);
+  for (const look of ["#orbit", "#top"]) {
+    await planar.locator(look).click();
+    await planar.keyboard.press("s");
+    const z = await planar.evaluate(() => { const { bounds, voxel_size } = window.ridgeway.app.info; return bounds.min[2] + voxel_size / 2; });
+    await click_at(planar, [-2, 0.4, z]);
+    const [x, y] = (await planar.inputValue("#from")).split(",").map(Number);
+    assert.ok(Math.hypot(x + 2, y - 0.4) < 0.05, `${look}: ${x}, ${y}`);
+  }
+  await planar.keyboard.press("g");
+  await planned(planar, () => click_at(planar, [2, -0.7, 0]));
+  assert.equal(await planar.locator("#length").count(), 1, await text_of(planar, "#result"));
+  await planar.close();
+  await other.stop();
+});
+
+test("nothing was complained about to the end but what was refused", () => {
+  assert.deepEqual(page.complaints.filter((text) => !/status of 400/.test(text)), []);
+});
