@@ -126,7 +126,9 @@ std::optional<Point> NextBestView::root_at(const Roadmap& roadmap, const Point& 
 std::optional<Trajectory> NextBestView::fly(const Roadmap& roadmap, const FlightState& state,
                                             const Point& root, const Viewpoint& to) const {
   if (root != to_local(roadmap.esdf, state.position))
-    return detail::fly_to_rest(roadmap, config_.limits, to, state);
+    return detail::fly_to_rest(  // what is left of its motion is rounding
+        roadmap, config_.limits, to,
+        {.time = state.time, .position = state.position, .yaw = state.yaw});
   const std::vector<Point> edge = {state.position, to.position};
   TrajectoryResult flown = plan_trajectory(
       roadmap.esdf, edge,

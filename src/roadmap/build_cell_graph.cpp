@@ -238,8 +238,8 @@ class CellGraphBuilder {
 }  // namespace
 
 CellGraph build_cell_graph(const EsdfMap& esdf, double min_clearance) {
-  detail::require(min_clearance > 0.0 && std::isfinite(min_clearance), "min_clearance",
-                  min_clearance, "give the robot's radius in metres, above 0");
+  detail::require(min_clearance >= 0.0 && std::isfinite(min_clearance), "min_clearance",
+                  min_clearance, "give the robot's radius in metres, 0 or more");
   if (esdf.planar) return {};  // its cells would be layers beside the one that flights are in
   return CellGraphBuilder(esdf, min_clearance).run();
 }
