@@ -119,6 +119,11 @@ void draw(const ExplorationFlight& flight, const std::string& folder, const std:
 
 int run(const BenchExploreOptions& options, const Globals& globals) {
   const std::vector<std::string> worlds = worlds_of(options);
+  std::vector<std::string> names;
+  names.reserve(worlds.size());
+  for (const std::string& world : worlds)
+    names.push_back(std::filesystem::path(world).stem().string());
+  require_distinct(std::move(names));
   if (!options.output.empty()) require_folder(options.output);
   BenchTable table;
   ProgressBar bar(globals);

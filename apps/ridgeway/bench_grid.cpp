@@ -159,6 +159,10 @@ std::string scenarios_csv(const std::vector<GridRow>& rows, const std::vector<So
 
 int run(const BenchGridOptions& options, const Globals& globals) {
   options.config.validate();
+  std::vector<std::string> names;
+  names.reserve(options.maps.size());
+  for (const fs::path map : options.maps) names.push_back(map.stem().string());
+  require_distinct(std::move(names));
   std::vector<Source> sources;  // all of them before the long work
   for (const std::string& map : options.maps) sources.push_back(read_source(map, globals));
   if (!options.output.empty()) require_folder(options.output);

@@ -120,6 +120,13 @@ Json row_of(const std::string& name, const LiveFlight& flight) {
           {"memory_ratio", flight.memory_ratio ? Json(*flight.memory_ratio) : Json()}};
 }
 
+std::string name_of_file(const std::string& file) {
+  return std::filesystem::path(file).stem().string();
+}
+std::string name_of_folder(const std::string& folder) {
+  return (std::filesystem::path(folder) / "").parent_path().filename().string();
+}
+
 /// All that is flown and replayed, one after the other.
 class LiveBench {
  public:
@@ -129,18 +136,20 @@ class LiveBench {
   void run() {
     std::vector<std::string> worlds = options_.worlds;
     if (worlds.empty() && options_.files.empty() && options_.recordings.empty()) worlds = {"house"};
+    std::vector<std::string> names = worlds;
+    for (const std::string& file : options_.files) names.push_back(name_of_file(file));
+    for (const std::string& folder : options_.recordings) names.push_back(name_of_folder(folder));
+    require_distinct(std::move(names));
     for (const std::string& name : worlds)
       if (name == "door")
         add_door();
       else
         add_flight(name, world_of(name, options_.config.seed));
-    for (const std::string& file : options_.files)
-      add_flight(std::filesystem::path(file).stem().string(), load_world(file));
+    for (const std::string& file : options_.files) add_flight(name_of_file(file), load_world(file));
     for (const std::string& folder : options_.recordings)
-      add((std::filesystem::path(folder) / "").parent_path().filename().string(),
-          [&](LiveFlight& flight) {
-            run_recording(folder, options_.config, bar_.callback(), flight);
-          });
+      add(name_of_folder(folder), [&](LiveFlight& flight) {
+        run_recording(folder, options_.config, bar_.callback(), flight);
+      });
   }
 
   int report(bool complete) {
@@ -182,6 +191,7 @@ class LiveBench {
     });
   }
 
+  /// With a roadmap, distances and a number of scans of its own, all of them verified.
   void add_door() {
     const LiveFlightConfig& config = options_.config;
     add("door", [&](LiveFlight& flight) {

@@ -25,20 +25,24 @@ BenchTable table_of(const MazeResult& result) {
   BenchTable table;
   if (result.rows.empty()) return table;
   const double ours = result.rows.back().seconds.median;
-  for (const MazeRow& row : result.rows)
+  for (const MazeRow& row : result.rows) {
+    const auto if_solved = [&](double value) { return row.solved > 0 ? Json(value) : Json(); };
     table.add({{"planner", row.planner},
                {"queries", row.queries},
                {"solved", row.solved},
-               {"seconds", {{"median", row.seconds.median}, {"p95", row.seconds.p95}}},
-               {"seconds_over_graph", ours > 0.0 ? row.seconds.median / ours : 0.0},
-               {"length", {{"median", row.length.median}}},
+               {"seconds",
+                {{"median", if_solved(row.seconds.median)}, {"p95", if_solved(row.seconds.p95)}}},
+               {"seconds_over_graph", ours > 0.0 ? if_solved(row.seconds.median / ours) : Json()},
+               {"length", {{"median", if_solved(row.length.median)}}},
                {"length_over_esdf",
-                {{"median", row.length_over_esdf.median}, {"p95", row.length_over_esdf.p95}}},
-               {"vertices", {{"median", row.vertices.median}}},
+                {{"median", if_solved(row.length_over_esdf.median)},
+                 {"p95", if_solved(row.length_over_esdf.p95)}}},
+               {"vertices", {{"median", if_solved(row.vertices.median)}}},
                {"single",
                 {{"seconds", row.single_seconds},
                  {"length", row.single_length},
                  {"vertices", row.single_vertices}}}});
+  }
   return table;
 }
 

@@ -97,6 +97,13 @@ void BenchTable::print(const std::string& title) const {
   }
 }
 
+void require_distinct(std::vector<std::string> names) {
+  std::sort(names.begin(), names.end());
+  const auto twice = std::adjacent_find(names.begin(), names.end());
+  if (twice != names.end())
+    throw InputError("'" + *twice + "'", "is there twice", "name each map once");
+}
+
 std::string csv_cell(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";

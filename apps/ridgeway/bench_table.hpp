@@ -39,6 +39,10 @@ class BenchTable {
   Json rows_ = Json::array();
 };
 
+/// Throws InputError where two of the maps or worlds that rows and files are named by have one
+/// name.
+void require_distinct(std::vector<std::string> names);
+
 /// A text as a cell of CSV (RFC 4180): quoted where it has to be.
 std::string csv_cell(const std::string& text);
 

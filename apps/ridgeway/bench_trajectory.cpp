@@ -53,10 +53,10 @@ std::vector<NamedMap> load_maps(const BenchTrajectoryOptions& options) {
     if (world != "none") maps.push_back({world, map_of(world, options)});
   for (const fs::path file : options.files) maps.push_back({file.stem().string(), load_map(file)});
   if (maps.empty()) throw InputError("--worlds none", "leaves no map", "name a map's file too");
-  for (std::size_t i = 0; i < maps.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k)
-      if (maps[i].name == maps[k].name)
-        throw InputError("'" + maps[i].name + "'", "is there twice", "name each map once");
+  std::vector<std::string> names;
+  names.reserve(maps.size());
+  for (const NamedMap& map : maps) names.push_back(map.name);
+  require_distinct(std::move(names));
   return maps;
 }
 

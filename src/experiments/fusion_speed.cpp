@@ -75,9 +75,6 @@ void run_fusion_speed(const World& world, const FusionSpeedConfig& config, const
                       std::vector<FusionSpeed>& results) {
   results.clear();
   config.validate();
-  const PoseSampling inside = sampling_inside(world);
-  if (!inside.low.allFinite() || !inside.high.allFinite())
-    throw InputError(world.name, "has no enclosure", "give a world with one");
   DepthSensor sensor;
   sensor.range_sigma = config.sigma;
   std::vector<Scan> scans;
@@ -91,7 +88,11 @@ void run_fusion_speed(const World& world, const FusionSpeedConfig& config, const
   TsdfFusion projective(fusion);
   fusion.integrator = Integrator::kRayCasting;
   TsdfFusion rays(fusion);
-  detail::PlainVoxels plain_voxels(config.voxel_size, config.truncation, {inside.low, inside.high});
+  const PoseSampling inside =
+      sampling_inside(world);  // where there are no walls, cameras may be out
+  const Box looked_at{inside.low.cwiseMin(config.poses.low),
+                      inside.high.cwiseMax(config.poses.high)};
+  detail::PlainVoxels plain_voxels(config.voxel_size, config.truncation, looked_at);
   detail::PlainRays plain_rays(config.voxel_size, config.truncation);
   const PinholeCamera& camera = sensor.camera;
   const auto way = [&](std::string name, auto& method) {

@@ -65,6 +65,16 @@ TEST_F(CliBench, FusionComparesWithPlainLoops) {
   EXPECT_GT(rows[0]["times_as_fast"], 0.0);
 }
 
+TEST_F(CliBench, FusionOfAWorldWithoutWallsComparesTheSameSpace) {
+  write_whole(folder_ / "ground.yaml",
+              "planes:\n  - {point: [0, 0, 0], normal: [0, 0, 1]}\n"
+              "boxes:\n  - {centre: [2, 2, 1], size: [1, 1, 2]}\n");
+  const Outcome outcome = run({"bench", "fusion", "--world", path("ground.yaml"), "--volume",
+                               "0,0,1,6,6,3", "--scans", "2", "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  for (const auto& row : outcome.json()["rows"]) EXPECT_GT(row["voxels"], 1000) << row;
+}
+
 TEST_F(CliBench, MazeHasARowForEveryPlanner) {
   const Outcome outcome =
       run({"bench", "maze", "--cells", "3", "--voxel-size", "0.15", "--pairs", "4", "--long-pairs",
@@ -269,6 +279,31 @@ TEST_F(CliBench, TrajectoryHasARowForEveryMapAndNoViolation) {
   for (const char* file : {"trajectory.json", "trajectory.csv", "trajectory_durations.png",
                            "trajectory_hall.svg", "trajectory_fr_079.png"})
     EXPECT_GT(read_whole(folder_ / "out" / file).size(), 100u) << file;
+}
+
+TEST_F(CliBench, ChangesThatLeaveNoRoadmapAreHeldAgainstBatchToo) {
+  const auto row = run({"bench", "live", "--changes", "60", "--json"}).json()["rows"][0];
+  EXPECT_EQ(row["change_sets"], 60);
+  EXPECT_EQ(row["same_as_batch"], 60);
+  EXPECT_GT(row["without_roadmap"], 0);
+  EXPECT_LT(row["without_roadmap"], 30);
+}
+
+TEST_F(CliBench, NamesAreThereOnceAndQuotedInTables) {
+  const std::string world = path("house.yaml");
+  write_whole(world, read_whole(room()));
+  const std::string grid = std::string(RIDGEWAY_DATA_DIR) + "/none.3dmap";
+  expect_refused({"bench", "live", "--worlds", "house", "--world", world}, {"'house'", "twice"});
+  expect_refused({"bench", "explore", "--worlds", "house", "--world", world, "--start", "1,1,1"},
+                 {"'house'", "twice"});
+  expect_refused({"bench", "grid", grid, grid}, {"'none'", "twice"});
+
+  write_whole(folder_ / "a,b.3dmap", "voxel 9 9 9\n4 4 0\n");
+  ASSERT_EQ(run({"bench", "hall", path("a,b.3dmap"), "--voxel-sizes", "0.5", "--threads-list", "1",
+                 "--repeat", "1", "--queries", "1", "-o", path("out")})
+                .code,
+            0);
+  EXPECT_NE(read_whole(folder_ / "out/hall.csv").find("\n\"a,b\","), std::string::npos);
 }
 
 TEST_F(CliBench, BadArgumentsAreRefused) {
