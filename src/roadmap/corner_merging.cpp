@@ -58,8 +58,8 @@ MergedCorners CornerMerging::merged() const {
 }
 
 CornerMerging::Bucket CornerMerging::bucket_of(const Point& p) const {
-  return {floor_to_int(p.x() / distance_), floor_to_int(p.y() / distance_),
-          floor_to_int(p.z() / distance_)};
+  const double side = std::max(distance_, esdf_.voxel_size);  // so that all of a map have a number
+  return {floor_to_int(p.x() / side), floor_to_int(p.y() / side), floor_to_int(p.z() / side)};
 }
 
 /// Of the eight voxels around a corner the nearest one that is no nearer to obstacles.
