@@ -72,7 +72,9 @@ TEST_F(CliBench, FusionOfAWorldWithoutWallsComparesTheSameSpace) {
   const Outcome outcome = run({"bench", "fusion", "--world", path("ground.yaml"), "--volume",
                                "0,0,1,6,6,3", "--scans", "2", "--json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  for (const auto& row : outcome.json()["rows"]) EXPECT_GT(row["voxels"], 1000) << row;
+  const auto rows = outcome.json()["rows"];
+  ASSERT_EQ(rows.size(), 4u);
+  for (const auto& row : rows) EXPECT_GT(row["voxels"], 1000) << row;
 }
 
 TEST_F(CliBench, MazeHasARowForEveryPlanner) {
