@@ -58,7 +58,7 @@ TEST(SheetGroups, HaveTheNearestVoxelsOfFloodsAfterAnyChanges) {
 
 /// As many shells hang together as there are specks: some minutes where each that is opened costs a
 /// look at all of them.
-TEST(SheetGroups, ABoxOfSpecksIsBuiltInSeconds) {
+TEST(SheetGroups, ABoxOfSpecksHasOneConnectedGraph) {
   const OccupancyMap map = testing::make_map(0.1, {0, 0, 0}, {79, 79, 79}, [](const VoxelIndex& v) {
     return v.x % 2 == 1 && v.y % 2 == 1 && v.z % 2 == 1 ? VoxelState::kOccupied : VoxelState::kFree;
   });

@@ -117,3 +117,15 @@ export async function hold(page, pattern) {
     },
   };
 }
+
+/** Gives a control of the form another value, as a person does; a box is clicked. */
+export const set_control = (page, id, value) =>
+  page.evaluate(([id, value]) => {
+    const input = document.getElementById(id);
+    if (input.type === "checkbox") input.click();
+    else {
+      input.value = value;
+      input.dispatchEvent(new Event("input", { bubbles: true }));
+      input.dispatchEvent(new Event("change", { bubbles: true }));
+    }
+  }, [id, value]);

@@ -4,7 +4,7 @@
 // The form of the page: what is asked with it, what is wrong in it, and answers in another order than their questions.
 import assert from "node:assert/strict";
 import test, { after, before } from "node:test";
-import { click_at, hold, launch, open, planned, text_of } from "./browser.mjs";
+import { click_at, hold, launch, open, planned, set_control, text_of } from "./browser.mjs";
 import { rooms, view } from "./program.mjs";
 
 /** Where an answer is waited for that is never asked for. */
@@ -23,12 +23,7 @@ after(async () => {
   await served?.stop();
 });
 
-const set = (id, value) =>
-  page.evaluate(([id, value]) => {
-    const input = document.getElementById(id);
-    input.value = value;
-    input.dispatchEvent(new Event("change", { bubbles: true }));
-  }, [id, value]);
+const set = (id, value) => set_control(page, id, value);
 
 test("what waits is not lost when an end is taken away meanwhile, nor is what comes later", kLimit, async () => {
   const plan = await hold(page, "**/api/plan*");

@@ -4,7 +4,7 @@
 // The page of `ridgeway view` as a person uses it, in Chromium.
 import assert from "node:assert/strict";
 import test, { after, before } from "node:test";
-import { axe_source, click_at, difference, launch, open, pixels, planned, text_of } from "./browser.mjs";
+import { axe_source, click_at, difference, launch, open, pixels, planned, set_control, text_of } from "./browser.mjs";
 import { rooms, run_json, view } from "./program.mjs";
 
 let served, browser, page, map;
@@ -19,16 +19,7 @@ after(async () => {
   await served?.stop();
 });
 
-const set = (id, value) =>
-  page.evaluate(([id, value]) => {
-    const input = document.getElementById(id);
-    if (input.type === "checkbox") input.click();
-    else {
-      input.value = value;
-      input.dispatchEvent(new Event("input", { bubbles: true }));
-      input.dispatchEvent(new Event("change", { bubbles: true }));
-    }
-  }, [id, value]);
+const set = (id, value) => set_control(page, id, value);
 
 async function switch_layer(name) {
   await page.locator(`#layer-${name}`).click();
