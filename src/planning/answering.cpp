@@ -45,6 +45,9 @@ class Answering {
   }
 
  private:
+  bool is_quick() const { return config_.quick && config_.within == 0.0; }
+  /// Lengths over the expected one that are good enough to ask nothing else.
+  double near() const { return is_quick() ? kPlanning.far : kPlanning.near; }
   bool wants_short() const { return config_.shorten && config_.prefer_clearance == 0.0; }
 
   /// Takes a path for the answer if it holds.
@@ -114,7 +117,7 @@ class Answering {
 
   bool is_enough(const TangentPath& tangents) const {
     if (config_.within > 0.0) return excess(tangents.waypoints) <= config_.within;
-    return config_.quick || over_expected(tangents.waypoints) <= kPlanning.near;
+    return over_expected(tangents.waypoints) <= near();
   }
 
   /// How many times the bound a path is long; infinite for none.
@@ -175,7 +178,7 @@ class Answering {
 
   /// Makes what is known shorter by way of the cells, as far as they have something shorter.
   void look_over_cells(Route& known) {
-    if (over_expected(known) <= kPlanning.near) return;
+    if (over_expected(known) <= near()) return;
     const double longest = known.empty() ? 0.0 : length_of(known);
     CellRoute cells;
     const auto search = [&](const AttachWay& from, const AttachWay& to) {
@@ -190,7 +193,7 @@ class Answering {
   bool is_plausible(const Route& path) const {
     if (path.empty()) return false;
     if (config_.within > 0.0) return excess(path) <= config_.within;
-    return over_expected(path) <= kPlanning.far;
+    return is_quick() || over_expected(path) <= kPlanning.far;
   }
 
   /// The same by way of voxels, where places of cells are too coarse; each effort once, the second
@@ -198,6 +201,7 @@ class Answering {
   void search_over_voxels(Route& known, std::size_t effort) {
     const GuidedEffort& guided = kPlanning.guided[effort];
     const double enough = effort == 0 ? kPlanning.doubtful : kPlanning.far;
+    if (is_quick() && !known.empty()) return;
     if (efforts_over_voxels_ != effort || over_expected(known) <= enough || deadline_.has_passed())
       return;
     ++efforts_over_voxels_;
@@ -224,7 +228,7 @@ class Answering {
   Route shorter(const Route& a, const Route& b) const { return excess(b) < excess(a) ? b : a; }
 
   Route improve(Route path) const {
-    if (path.empty() || over_expected(path) <= kPlanning.near) return path;
+    if (path.empty() || over_expected(path) <= near()) return path;
     return past_what_blocks(esdf_, space_, query_, std::move(path), deadline_);
   }
 

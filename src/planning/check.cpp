@@ -151,27 +151,29 @@ void check_edges(const Roadmap& roadmap, const Progress& progress, CheckReport& 
   report.components = connected_components(graph).count;
 }
 
+PlanConfig answers_of(const CheckConfig& config) {
+  return {.quick = config.quick, .within = config.within};
+}
+
 /// Answers the queries batch by batch into outcomes.
 void ask_all(const Roadmap& roadmap, const CheckConfig& config, const std::vector<Query>& queries,
              const Progress& progress, std::vector<Outcome>& outcomes) {
-  const auto ask = [&](const Query& q, Planner planner, bool shorten) {
-    return detail::plan_locally(roadmap, q.start, q.goal,
-                                {.planner = planner,
-                                 .radius = q.radius,
-                                 .shorten = shorten,
-                                 .limits = config.limits,
-                                 .robot_height = config.robot_height});
+  const auto ask = [&](const Query& q, PlanConfig plan) {
+    plan.radius = q.radius;
+    plan.limits = config.limits;
+    plan.robot_height = config.robot_height;
+    return detail::plan_locally(roadmap, q.start, q.goal, plan);
   };
   for (std::size_t first = 0; first < queries.size(); first += kBatch) {
     report_progress(progress, first, queries.size());
     std::vector<Outcome> batch(std::min(kBatch, queries.size() - first));
     parallel_for_each_index(batch.size(), [&](std::size_t k) {
-      batch[k].roadmap = ask(queries[first + k], Planner::kGraph, true);
-      batch[k].raw = ask(queries[first + k], Planner::kGraph, false);
+      batch[k].roadmap = ask(queries[first + k], answers_of(config));
+      batch[k].raw = ask(queries[first + k], {.shorten = false});
     });
     // Apart, so that its sweep through the map does not slow down the queries that are timed.
     parallel_for_each_index(batch.size(), [&](std::size_t k) {
-      batch[k].esdf = ask(queries[first + k], Planner::kEsdf, true);
+      batch[k].esdf = ask(queries[first + k], {.planner = Planner::kEsdf});
     });
     std::move(batch.begin(), batch.end(), std::back_inserter(outcomes));
   }
@@ -200,6 +202,7 @@ void check_roadmap(const Roadmap& roadmap, const CheckConfig& config, const Prog
                    CheckReport& report) {
   report = {};
   detail::validate_robot_height(config.robot_height);
+  answers_of(config).validate();
   constexpr double kBytesPerQuery = 1000.0;  // with what was answered
   require_memory(static_cast<double>(config.queries) * kBytesPerQuery, "queries",
                  "ask for fewer at a time");

@@ -246,6 +246,8 @@ TEST_F(CliBadInput, CheckOptions) {
     expect_refused({"check", map, "--queries", bad}, {"--queries"});
   for (const char* bad : {"-1", "1.5", "any", "99999999999999999999999"})
     expect_refused({"check", map, "--seed", bad}, {"--seed"});
+  for (const char* bad : {"0.5", "nan", "better", ""})
+    expect_refused({"check", map, "--quality", bad}, {"--quality"});
 }
 
 TEST_F(CliBadInput, FileThatMayNotGrow) {

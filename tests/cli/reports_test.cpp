@@ -36,6 +36,21 @@ TEST_F(CliCheck, JsonHasTheKeysThatScriptsRelyOn) {
   EXPECT_EQ(paths[0]["waypoints"][0].size(), 3u);
 }
 
+TEST_F(CliCheck, MeasuresTheAnswersOfAQuality) {
+  const std::string map = rooms();
+  const auto length_of = [&](const char* quality) {
+    const Outcome checked = run({"check", map, "--queries", "200", "--quality", quality, "--json"});
+    EXPECT_EQ(checked.code, 0) << checked.err;
+    const Json json = checked.json();
+    EXPECT_TRUE(json["clean"]);
+    return json["length_ratio"]["p95"].get<double>();
+  };
+  const double quick = length_of("quick"), best = length_of("best");
+  EXPECT_LE(best, length_of("default"));
+  EXPECT_LT(best, quick);
+  EXPECT_LE(length_of("1.5"), quick);
+}
+
 TEST_F(CliInfo, TellsOfARoadmap) {
   const std::string map = rooms();
   const Outcome told = run({"info", map, "--json"});

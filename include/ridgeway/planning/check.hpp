@@ -39,6 +39,9 @@ struct CheckConfig {
   FlightLimits limits = {};
   /// As in PlanConfig; the radius is then the smallest in all queries.
   double robot_height = 0.0;
+  // As in PlanConfig, of the roadmap's answers; what A* finds is made as short as by default.
+  bool quick = false;
+  double within = 0.0;
 };
 
 /// One query of a check and the path that the roadmap answered with, for independent checkers.
@@ -78,8 +81,8 @@ struct CheckReport {
 /// Verifies the contract of a roadmap: the clearance of every edge, measured anew, and random
 /// queries against A* through the ESDF: start and goal anywhere in the traversable voxels, radius
 /// 1 to 2 times the smallest, half of them 1, 1.25, 1.5 or 2 times. Queries run on all threads; the
-/// times are of one query alone on its thread. Throws InputError for bad limits, and for a robot
-/// that holds no ball of the smallest radius.
+/// times are of one query alone on its thread. Throws InputError for bad limits and a bad `within`,
+/// and for a robot that holds no ball of the smallest radius.
 CheckReport check_roadmap(const Roadmap& roadmap, const CheckConfig& config = {},
                           const Progress& progress = {});
 /// The same; where it is cancelled the report is of what was checked until then.

@@ -68,9 +68,10 @@ struct PlanConfig {
   /// Metres; the roadmap's min_clearance when not given.
   std::optional<double> radius = std::nullopt;
   bool shorten = true;  ///< pull the path tight; otherwise as the search found it
-  /// Settle for the tangent graph's route where it has one, though moving corners would make it a
-  /// little shorter: a percent or two as a rule, but some paths are detours. It changes nothing
-  /// where the tangent graph has no route, or with prefer_clearance.
+  /// Settle for the first route that is hardly longer than may be expected, as it is found over the
+  /// tangent graph, or pulled tight over cells or the graph; voxels are searched only where those
+  /// have none. Paths are a percent or two longer as a rule, but some are detours. It changes
+  /// nothing with `within` or prefer_clearance.
   bool quick = false;
   /// Go on until a short path is at most so many times as long as the bound below which no path can
   /// be (PlanResult::within), or the time limit has passed, or all is searched that there is:
