@@ -84,7 +84,17 @@ class ObstacleScan {
     return best_;
   }
 
+  /// Squared distance between the segment's bounding box and all blocks from one to another: never
+  /// too large.
+  double bound(const BlockIndex& first, const BlockIndex& last) const {
+    return bound({corner_of(first), corner_of(last) + Eigen::Vector3d::Constant(kBlockSide)});
+  }
+
  private:
+  static Eigen::Vector3d corner_of(const BlockIndex& block) {
+    return Eigen::Vector3d(block.x, block.y, block.z) * static_cast<double>(kBlockSide);
+  }
+
   void set_best(double best) {
     constexpr double kSlack = 1e-6;
     best_ = best;
@@ -171,8 +181,7 @@ class ObstacleScan {
 
   /// Returns the block's slot, or kNoBlock where it was not even looked up.
   std::uint32_t scan_block(const BlockIndex& index, std::uint32_t before) {
-    const Eigen::Vector3d corner =
-        Eigen::Vector3d(index.x, index.y, index.z) * static_cast<double>(kBlockSide);
+    const Eigen::Vector3d corner = corner_of(index);
     const VoxelBox whole{corner, corner + Eigen::Vector3d::Constant(kBlockSide)};
     if (bound(whole) >= best_ || is_in_free_ball(whole)) return BlockLayout::kNoBlock;
     constexpr int kNextAlongX = 14;

@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
 
+#include "block_tree.hpp"
 #include "common/rounding.hpp"
 #include "obstacle_scan.hpp"
 #include "ridgeway/common/error.hpp"
@@ -16,31 +20,9 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 using detail::ObstacleScan;
-using BlockBox = ObstacleScan::BlockBox;
 
 constexpr double kPiece = 8.0;              // voxels of a path that are looked at as one
 constexpr double kResolution = 1.0 / 16.0;  // voxels; of the places where paths come too near
-constexpr double kFirstReach = 8.0;         // voxels; doubled until something is found,
-constexpr double kFarthest = 5e8;           // or indices would overflow
-
-double volume_of(const BlockBox& box) {
-  return (box.last.x - box.first.x + 1.0) * (box.last.y - box.first.y + 1.0) *
-         (box.last.z - box.first.z + 1.0);
-}
-
-BlockIndex least(const BlockIndex& a, const BlockIndex& b) {
-  return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
-}
-BlockIndex most(const BlockIndex& a, const BlockIndex& b) {
-  return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
-}
-BlockBox hull_of(const BlockBox& a, const BlockBox& b) {
-  return {least(a.first, b.first), most(a.last, b.last)};
-}
-/// Of two that share some.
-BlockBox common(const BlockBox& a, const BlockBox& b) {
-  return {most(a.first, b.first), least(a.last, b.last)};
-}
 
 /// Calls body(a, b) for pieces of a path, in voxels.
 template <typename Body>
@@ -81,33 +63,39 @@ double share_in_unknown(const EsdfMap& esdf, std::span<const Point> path) {
 
 }  // namespace
 
+struct Surroundings::Kind {
+  VoxelMask members;
+  bool absent_is_member = false;
+  detail::BlockTree blocks{};  ///< with members, and beside allocated ones those that are absent
+};
+
 /// Distances to the voxels of one kind, in voxels.
 class Surroundings::Nearest {
  public:
-  Nearest(const Surroundings& around, const Kind& kind) : around_(around), kind_(kind) {}
+  Nearest(const EsdfMap& esdf, const Kind& kind) : esdf_(esdf), kind_(kind) {}
 
   /// From a segment, or `at_most` (which may be infinite) where none is nearer.
   double distance(const Vector& a, const Vector& b, double at_most) const {
-    if (kind_.slots.empty()) return at_most;
-    const detail::SolidVoxels solid{around_.esdf_.layout, kind_.members, kind_.absent_is_member,
-                                    around_.esdf_.planar};
+    if (kind_.blocks.empty()) return at_most;
+    const detail::SolidVoxels solid{esdf_.layout, kind_.members, kind_.absent_is_member,
+                                    esdf_.planar};
     ObstacleScan scan(solid, a, b);
-    const BlockBox all = hull_of(scan.box_within(0.0), {around_.low_, around_.high_});
-    for (double reach = kFirstReach;; reach *= 2.0) {
-      double limit = std::min(reach, at_most);
-      const BlockBox box = reach > kFarthest ? all : common(scan.box_within(limit), all);
-      if (box.first == all.first && box.last == all.last) limit = at_most;
-      const double squared = run(scan, box, limit * limit);
-      if (squared < limit * limit) return std::sqrt(squared);
-      if (limit == at_most) return at_most;
-    }
+    // Where it is, as what is absent there may have no allocated block beside it.
+    const double here = scan.run_over(scan.box_within(0.0), at_most * at_most);
+    const double squared = kind_.blocks.search(
+        here,
+        [&](const BlockIndex& first, const BlockIndex& last) { return scan.bound(first, last); },
+        [&](const BlockIndex& block, double best) {
+          return scan.run_over({block, block}, best);
+        });
+    return squared < at_most * at_most ? std::sqrt(squared) : at_most;
   }
 
   /// Smallest along a path. A piece is looked at closely only where its middle lies so near that
   /// some of it may be nearer than all before: distances change no faster than places.
   double along(std::span<const Point> path) const {
     double best = std::numeric_limits<double>::infinity();
-    for_each_piece(path, around_.esdf_.voxel_size, [&](const Vector& a, const Vector& b) {
+    for_each_piece(path, esdf_.voxel_size, [&](const Vector& a, const Vector& b) {
       const Vector middle = 0.5 * (a + b);
       const double half = 0.5 * (b - a).norm();
       const double at_middle = distance(middle, middle, best + half);
@@ -128,38 +116,18 @@ class Surroundings::Nearest {
   }
 
  private:
-  double run(ObstacleScan& scan, const BlockBox& box, double best) const {
-    // Where blocks are few in a large box, they are cheaper one by one, each with its neighbours.
-    if (volume_of(box) <= 27.0 * static_cast<double>(kind_.slots.size()))
-      return scan.run_over(box, best);
-    for (const std::uint32_t slot : kind_.slots) {
-      const BlockIndex block = around_.esdf_.layout.block(slot);
-      best = scan.run_over({block - BlockIndex{1, 1, 1}, block + BlockIndex{1, 1, 1}}, best);
-    }
-    return best;
-  }
-
-  const Surroundings& around_;
+  const EsdfMap& esdf_;
   const Kind& kind_;
 };
 
 Surroundings::Surroundings(const EsdfMap& esdf)
     : esdf_(esdf),
       known_(voxels_of(VoxelState::kOccupied)),
-      unknown_(voxels_of(VoxelState::kUnknown)) {
-  if (esdf.layout.block_count() == 0) return;
-  low_ = high_ = esdf.layout.block(0);
-  for (const BlockIndex& b : esdf.layout.blocks()) {
-    low_ = least(low_, b);
-    high_ = most(high_, b);
-  }
-  low_ = low_ - BlockIndex{1, 1, 1};  // what is unknown because it is not allocated begins there
-  high_ = high_ + BlockIndex{1, 1, 1};
-}
+      unknown_(voxels_of(VoxelState::kUnknown)) {}
 
-Surroundings::Kind Surroundings::voxels_of(VoxelState state) const {
+std::shared_ptr<const Surroundings::Kind> Surroundings::voxels_of(VoxelState state) const {
   const BlockLayout& layout = esdf_.layout;
-  Kind kind{VoxelMask(layout), state == VoxelState::kUnknown, {}};
+  Kind kind{VoxelMask(layout), state == VoxelState::kUnknown};
   std::vector<char> has_some(layout.block_count());
   parallel_for_each_index(
       layout.block_count(),
@@ -169,13 +137,22 @@ Surroundings::Kind Surroundings::voxels_of(VoxelState state) const {
         VoxelMask::Block& block = kind.members.block(slot);
         block = block_where([&](int v) { return states[v] == state; });
         has_some[index] = !detail::is_empty(block);
-        for (int d = 0; kind.absent_is_member && d < 27; ++d)
-          has_some[index] |= layout.neighbour_block(slot, d) == BlockLayout::kNoBlock;
       },
       16);
-  for (std::uint32_t slot = 0; slot < layout.block_count(); ++slot)
-    if (has_some[slot] != 0) kind.slots.push_back(slot);
-  return kind;
+  std::vector<BlockIndex> blocks;
+  for (std::uint32_t slot = 0; slot < layout.block_count(); ++slot) {
+    if (has_some[slot] != 0) blocks.push_back(layout.block(slot));
+    if (!kind.absent_is_member) continue;
+    for (const Direction d : kFaceDirections) {  // as near as those across an edge or a corner
+      const VoxelIndex& o = offset_of(d);
+      if (layout.neighbour_block(slot, d) == BlockLayout::kNoBlock)
+        blocks.push_back(layout.block(slot) + BlockIndex{o.x, o.y, o.z});
+    }
+  }
+  std::sort(blocks.begin(), blocks.end());
+  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+  kind.blocks = detail::BlockTree(std::move(blocks));
+  return std::make_shared<const Kind>(std::move(kind));
 }
 
 PathSurroundings Surroundings::along(std::span<const Point> path_world, double radius) const {
@@ -187,8 +164,8 @@ PathSurroundings Surroundings::along(std::span<const Point> path_world, double r
   }
   PathSurroundings result;
   const double s = esdf_.voxel_size;
-  result.known = s * Nearest(*this, known_).along(path);
-  const Nearest unknown(*this, unknown_);
+  result.known = s * Nearest(esdf_, *known_).along(path);
+  const Nearest unknown(esdf_, *unknown_);
   result.unknown = s * unknown.along(path);
   if (esdf_.unknown == UnknownPolicy::kFree) result.unknown_inside = share_in_unknown(esdf_, path);
   const double least = detail::least_fit(radius) / s;

@@ -8,7 +8,8 @@
 
 namespace ridgeway::detail {
 
-/// Length, each piece of it times `factor` of the distance to the nearest obstacle there.
+/// Length, each piece of it times `factor` of the distance to the nearest obstacle there: of those
+/// that the voxels around know, which is only ever too far, and hardly ever at all.
 class PathCost {
  public:
   PathCost(const FreeSpace& space, double radius, double prefer_clearance)

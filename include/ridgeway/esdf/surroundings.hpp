@@ -3,8 +3,8 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <span>
-#include <vector>
 
 #include "ridgeway/esdf/esdf.hpp"
 
@@ -24,9 +24,9 @@ struct PathSurroundings {
 };
 
 /// Measures paths against known obstacles and against unknown space, apart. Made in time linear in
-/// voxels (a look at every state); a path then takes a fraction of a millisecond to some, more than
-/// a query, so that plan() leaves it to whoever wants to know. A view: the EsdfMap must outlive it.
-/// Thread-safe.
+/// voxels (a look at every state); a path then takes a fraction of a millisecond, and more where it
+/// runs beside the unknown for long: often more than a query, so that plan() leaves it to whoever
+/// wants to know. A view: the EsdfMap must outlive it. Thread-safe.
 class Surroundings {
  public:
   explicit Surroundings(const EsdfMap& esdf);  ///< Looks through all states of the map.
@@ -36,19 +36,13 @@ class Surroundings {
   PathSurroundings along(std::span<const Point> path, double radius) const;
 
  private:
-  /// The voxels of one state.
-  struct Kind {
-    VoxelMask members;
-    bool absent_is_member = false;
-    std::vector<std::uint32_t> slots;  ///< blocks in or beside which there are some, ascending
-  };
+  struct Kind;  ///< the voxels of one state
   class Nearest;
 
-  Kind voxels_of(VoxelState state) const;
+  std::shared_ptr<const Kind> voxels_of(VoxelState state) const;
 
   const EsdfMap& esdf_;
-  Kind known_, unknown_;
-  BlockIndex low_, high_;  ///< of the blocks around all members that can be nearest
+  std::shared_ptr<const Kind> known_, unknown_;
 };
 
 }  // namespace ridgeway
