@@ -18,24 +18,32 @@ constexpr double kLeastDistance = 1e-6;     // metres: what is less may be none 
 constexpr double kEscapeSlack = 1e-9;       // metres; rounding
 constexpr int kBetweenLooksAtTheClock = 256;
 
-/// Whether the distance to obstacles never falls from a to b. What falls goes on falling for more
-/// than a step, but for the last one, which is looked at once more just before its end. False where
-/// time is up.
-bool rises(const FreeSpace& space, const Point& a, const Point& b, double voxel_size,
-           const Deadline& deadline) {
-  const double length = (b - a).norm();
-  const auto distance_at = [&](double share) { return space.distance(a + (b - a) * share); };
-  const double steps = 1.0 + std::floor(length / (kEscapeStep * voxel_size));
-  double last = distance_at(0.0);
+/// Whether the distance to obstacles never falls from a to b, by looks at most so many metres
+/// apart. False where time is up.
+bool rises_in_steps(const FreeSpace& space, const Point& a, const Point& b, double step,
+                    const Deadline& deadline) {
+  const double steps = 1.0 + std::floor((b - a).norm() / step);
+  double last = space.distance(a);
   int looks = 0;
   for (double k = 1.0; k <= steps; ++k) {
-    const double here = distance_at(k / steps);
+    const double here = space.distance(a + (b - a) * (k / steps));
     if (here < last - kEscapeSlack) return false;
     if (++looks % kBetweenLooksAtTheClock == 0 && deadline.has_passed()) return false;
     last = here;
   }
-  const double end = std::min(kEnd * voxel_size / length, 0.5);
-  return last >= distance_at(1.0 - end) - kEscapeSlack &&
+  return true;
+}
+
+/// Whether it never falls: what falls goes on falling for more than a small step, but for the last
+/// one, which is looked at once more just before its end. Most that fall show it in steps of a
+/// voxel.
+bool rises(const FreeSpace& space, const Point& a, const Point& b, const Deadline& deadline) {
+  const double voxel = space.map().voxel_size;
+  if (!rises_in_steps(space, a, b, voxel, deadline) ||
+      !rises_in_steps(space, a, b, kEscapeStep * voxel, deadline))
+    return false;
+  const double end = std::min(kEnd * voxel / (b - a).norm(), 0.5);
+  return space.distance(b) >= space.distance(b + end * (a - b)) - kEscapeSlack &&
          space.clearance(a, b) >= space.distance(a) - kEscapeSlack;
 }
 
@@ -48,7 +56,7 @@ EscapeResult find_escape(const FreeSpace& space, const Point& point, double radi
   PlacesAround places(esdf, point, space.inner_radius(radius), kFarthest * radius);
   for (std::optional<Point> place; !deadline.has_passed() && (place = places.next(deadline));)
     if (space.is_known_free(point, *place) && space.is_within_limits(point, *place) &&
-        space.is_free(*place, radius) && rises(space, point, *place, esdf.voxel_size, deadline))
+        space.is_free(*place, radius) && rises(space, point, *place, deadline))
       return {SearchStatus::kFound, *place};
   return {deadline.has_passed() ? SearchStatus::kTimeout : SearchStatus::kNoRoute};
 }
