@@ -201,7 +201,7 @@ class Answering {
   void search_over_voxels(Route& known, std::size_t effort) {
     const GuidedEffort& guided = kPlanning.guided[effort];
     const double enough = effort == 0 ? kPlanning.doubtful : kPlanning.far;
-    if (is_quick() && !known.empty()) return;
+    if (is_quick()) return;
     if (efforts_over_voxels_ != effort || over_expected(known) <= enough || deadline_.has_passed())
       return;
     ++efforts_over_voxels_;

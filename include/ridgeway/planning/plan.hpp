@@ -69,8 +69,8 @@ struct PlanConfig {
   std::optional<double> radius = std::nullopt;
   bool shorten = true;  ///< pull the path tight; otherwise as the search found it
   /// Settle for the first route that is hardly longer than may be expected, as it is found over the
-  /// tangent graph, or pulled tight over cells or the graph; voxels are searched only where those
-  /// have none. Paths are a percent or two longer as a rule, but some are detours. It changes
+  /// tangent graph, or pulled tight over cells, or else for the graph's; no voxels are searched for
+  /// a shorter one. Paths are a percent or two longer as a rule, but some are detours. It changes
   /// nothing with `within` or prefer_clearance.
   bool quick = false;
   /// Go on until a short path is at most so many times as long as the bound below which no path can
