@@ -39,9 +39,9 @@ struct CheckConfig {
   FlightLimits limits = {};
   /// As in PlanConfig; the radius is then the smallest in all queries.
   double robot_height = 0.0;
-  // As in PlanConfig, of the roadmap's answers; what A* finds is made as short as by default.
+  /// As in PlanConfig, of the roadmap's answers; what A* finds is made as short as by default.
   bool quick = false;
-  double within = 0.0;
+  double within = 0.0;  ///< the same
 };
 
 /// One query of a check and the path that the roadmap answered with, for independent checkers.
