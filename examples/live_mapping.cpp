@@ -20,7 +20,7 @@ void plan_meanwhile(const ridgeway::LiveRoadmap& live, const ridgeway::Point& st
                     const std::atomic<std::size_t>& scans, const ridgeway::DepthSequence& all) {
   std::shared_ptr<const ridgeway::Roadmap> last;
   ridgeway::PlanResult path;
-  while (scans < all.frames.size()) {
+  for (std::size_t done = 0; done < all.frames.size(); scans.wait(done), done = scans) {
     const std::shared_ptr<const ridgeway::Roadmap> now = live.snapshot();
     if (!now || now == last) continue;
     if (path.ok() && last) {
@@ -29,7 +29,7 @@ void plan_meanwhile(const ridgeway::LiveRoadmap& live, const ridgeway::Point& st
           !ridgeway::still_safe(path.waypoints, now->min_clearance, *now))
         std::printf("the path is blocked now\n");
     }
-    const std::size_t at = scans > 0 ? scans - 1 : 0;
+    const std::size_t at = done > 0 ? done - 1 : 0;
     path = ridgeway::plan(*now, start, all.frames[at].T_world_camera.translation());
     if (path.ok()) std::printf("after %zu scans: a path of %.2f m\n", at + 1, path.length);
     last = now;
@@ -53,9 +53,11 @@ int main(int argc, char** argv) try {
     for (const ridgeway::DepthFrame& frame : all.frames) {
       live.integrate(ridgeway::read_frame(all, frame), all.camera, frame.T_world_camera);
       ++scans;
+      scans.notify_one();
     }
   } catch (...) {
     scans = all.frames.size();
+    scans.notify_one();
     planner.join();
     throw;
   }

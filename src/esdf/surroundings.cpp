@@ -145,6 +145,7 @@ std::shared_ptr<const Surroundings::Kind> Surroundings::voxels_of(VoxelState sta
     if (!kind.absent_is_member) continue;
     for (const Direction d : kFaceDirections) {  // as near as those across an edge or a corner
       const VoxelIndex& o = offset_of(d);
+      if (esdf_.planar && o.z != 0) continue;
       if (layout.neighbour_block(slot, d) == BlockLayout::kNoBlock)
         blocks.push_back(layout.block(slot) + BlockIndex{o.x, o.y, o.z});
     }

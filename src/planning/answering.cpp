@@ -90,8 +90,7 @@ class Answering {
   TangentPath path_over_corners() {
     if (!config_.shorten || config_.planner != Planner::kGraph || !space_.is_for_sphere())
       return {};
-    TangentPath tangents =
-        plan_tangents(roadmap_.tangents, space_, query_, config_.quick, deadline_);
+    TangentPath tangents = plan_tangents(roadmap_.tangents, space_, query_, is_quick(), deadline_);
     result_.seconds.search = tangents.search_seconds;
     result_.seconds.shorten = tangents.shorten_seconds;
     if (!space_.is_within_limits(tangents.waypoints)) return {};

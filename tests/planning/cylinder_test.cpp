@@ -79,6 +79,46 @@ TEST(Cylinder, IsFreeWhereItSharesNoVolumeWithAnObstacleOnTheWay) {
   EXPECT_GT(shut, 500);
 }
 
+TEST(Cylinder, IsFreeOrNotHoweverManyBlocksItPassesThrough) {
+  int free = 0, shut = 0;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    std::vector<VoxelIndex> cubes;
+    const OccupancyMap map =
+        testing::make_map(0.1, {0, 0, 0}, {63, 63, 63}, [&](const VoxelIndex& v) {
+          if (random() % 8000 != 0) return VoxelState::kFree;
+          cubes.push_back(v);
+          return VoxelState::kOccupied;
+        });
+    const double far = seed % 2 == 0 ? std::numeric_limits<double>::infinity() : 1.2;
+    const EsdfMap esdf = compute_esdf(map, {.unknown = UnknownPolicy::kFree, .max_distance = far});
+    std::uniform_real_distribution<double> unit(0.0, 1.0), place(1.0, 5.4);
+    for (int i = 0; i < 200; ++i) {
+      const double radius = 0.1 + 0.9 * unit(random), height = 0.1 + 3.9 * unit(random);
+      const FreeSpace space(esdf, kNoLimits, radius, height);
+      const Point a(place(random), place(random), place(random));
+      Point b = a + Point(unit(random) - 0.5, unit(random) - 0.5, i % 3 == 0 ? 0.0 : unit(random));
+      if (i % 5 == 0) b = a;
+      constexpr int kPieces = 200;
+      double least = std::numeric_limits<double>::infinity();
+      for (int k = 0; k <= kPieces; ++k)
+        least = std::min(
+            least, gap((a + (b - a) * k / kPieces) / 0.1, radius / 0.1, 0.5 * height / 0.1, cubes));
+      const double step = (b - a).norm() / 0.1 / kPieces;
+      if (least > step + 1e-6) {
+        EXPECT_TRUE(space.is_free(a, b, radius)) << i;
+        ++free;
+      } else if (least < -1e-6) {
+        EXPECT_FALSE(space.is_free(a, b, radius)) << i;
+        ++shut;
+      }
+    }
+  }
+  EXPECT_GT(free, 500);
+  EXPECT_GT(shut, 500);
+}
+
 TEST(Cylinder, TouchingIsNoCollision) {
   const OccupancyMap map = testing::make_map(0.1, {0, 0, 0}, {40, 20, 12}, [](const VoxelIndex& v) {
     const bool hull = v.x == 0 || v.y == 0 || v.z == 0 || v.x == 40 || v.y == 20 || v.z == 12;
