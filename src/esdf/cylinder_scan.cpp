@@ -37,6 +37,36 @@ bool is_clear_of(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radi
   return (a == b ? squared_distance(a, box) : squared_distance(a, b, box)) >= radius * radius;
 }
 
+/// And from the voxels of one layer. Heights count no more.
+bool is_clear_of_layer(const EsdfMap& esdf, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                       int layer, double radius) {
+  const Eigen::Vector3d a(from.x(), from.y(), 0.0), b(to.x(), to.y(), 0.0);
+  const Eigen::Vector3d reach(radius, radius, 0.0);
+  const VoxelIndex low = voxel_at(Eigen::Vector3d(a.cwiseMin(b) - reach), 1.0);
+  const VoxelIndex high = voxel_at(Eigen::Vector3d(a.cwiseMax(b) + reach), 1.0);
+  const BlockIndex first = block_of({low.x, low.y, layer}),
+                   last = block_of({high.x, high.y, layer});
+  for (int by = first.y; by <= last.y; ++by)
+    for (int bx = first.x; bx <= last.x; ++bx) {
+      const VoxelIndex corner = voxel_of({bx, by, first.z}, 0);
+      const std::uint32_t slot = esdf.layout.find_block({bx, by, first.z});
+      if (slot == BlockLayout::kNoBlock) {
+        if (esdf.is_obstacle(kNoVoxel) &&
+            !is_clear_of(a, b, radius, corner.x, corner.y, corner.x + kBlockSide,
+                         corner.y + kBlockSide))
+          return false;
+        continue;
+      }
+      std::uint64_t bits = esdf.obstacle.block(slot)[static_cast<std::size_t>(layer - corner.z)];
+      for (; bits != 0; bits &= bits - 1) {
+        const int i = std::countr_zero(bits), x = corner.x + i % 8, y = corner.y + i / 8;
+        const bool is_near = x >= low.x && x <= high.x && y >= low.y && y <= high.y;
+        if (is_near && !is_clear_of(a, b, radius, x, y, x + 1.0, y + 1.0)) return false;
+      }
+    }
+  return true;
+}
+
 /// A short piece of a segment that an upright cylinder moves along, in voxels.
 class CylinderPiece {
  public:
@@ -50,12 +80,16 @@ class CylinderPiece {
         bottom_(std::min(a.z(), b.z()) - half_height),
         top_(std::max(a.z(), b.z()) + half_height) {}
 
-  bool is_free() const { return is_free_in(floor_to_int(bottom_), floor_to_int(top_)); }
+  bool is_free() const {
+    constexpr double kSmall = 16.0;  // voxels: what is within reach is soon looked at
+    const int first = floor_to_int(bottom_), last = floor_to_int(top_);
+    return radius_ + half_height_ < kSmall ? looks_free_in(first, last) : is_free_in(first, last);
+  }
 
  private:
   /// What it passes through of some layers of voxels. The ball that the field keeps free around the
   /// middle of that may hold all of it, or what that ball touches may be in its way; where neither
-  /// tells, halves are asked, down to the layers of one block, which are looked at.
+  /// tells, halves are asked, down to the layers of one block.
   bool is_free_in(int first, int last) const {
     const double low = std::max<double>(first, bottom_), high = std::min(last + 1.0, top_);
     const Eigen::Vector3d middle(0.5 * (a_.x() + b_.x()), 0.5 * (a_.y() + b_.y()),
@@ -68,8 +102,7 @@ class CylinderPiece {
       if (0.25 * esdf_.known_squared(id).value >= reach * reach) return true;
       if (esdf_.squared[id] != kNoSite) {
         const SiteOffset o = esdf_.site[id];
-        const VoxelIndex site = voxel + VoxelIndex{o.x, o.y, o.z};
-        if (!is_clear_of_any(site.z, site.z, site.x, site.y, 1)) return false;
+        if (!is_clear_of_voxel(voxel + VoxelIndex{o.x, o.y, o.z})) return false;
       }
     }
     if (first >> kBlockBits == last >> kBlockBits) return looks_free_in(first, last);
@@ -77,51 +110,26 @@ class CylinderPiece {
     return is_free_in(first, between - 1) && is_free_in(between, last);
   }
 
-  /// The same of layers of one block, by a look at all voxels within reach.
+  /// The same by a look at all voxels within reach.
   bool looks_free_in(int first, int last) const {
-    const Eigen::Vector3d reach(radius_, radius_, 0.0);
-    const VoxelIndex low = voxel_at(Eigen::Vector3d(a_.cwiseMin(b_) - reach), 1.0);
-    const VoxelIndex high = voxel_at(Eigen::Vector3d(a_.cwiseMax(b_) + reach), 1.0);
-    const BlockIndex begin = block_of({low.x, low.y, first}),
-                     end = block_of({high.x, high.y, first});
-    for (int y = begin.y; y <= end.y; ++y)
-      for (int x = begin.x; x <= end.x; ++x)
-        if (!is_clear_of_block({x, y, begin.z}, first, last)) return false;
-    return true;
-  }
-
-  bool is_clear_of_block(const BlockIndex& index, int first, int last) const {
-    const VoxelIndex corner = voxel_of(index, 0);
-    const std::uint32_t slot = esdf_.layout.find_block(index);
-    if (slot == BlockLayout::kNoBlock)
-      return !esdf_.is_obstacle(kNoVoxel) ||
-             is_clear_of_any(first, last, corner.x, corner.y, kBlockSide);
-    const VoxelMask::Block& block = esdf_.obstacle.block(slot);
-    std::uint64_t any = 0;
-    for (int layer = first; layer <= last; ++layer)
-      any |= block[static_cast<std::size_t>(layer - corner.z)];
-    if (any == 0 || is_clear_of_any(first, last, corner.x, corner.y, kBlockSide)) return true;
-    for (int layer = first; layer <= last; ++layer)
-      for (std::uint64_t bits = block[static_cast<std::size_t>(layer - corner.z)]; bits != 0;
-           bits &= bits - 1) {
-        const int i = std::countr_zero(bits);
-        if (!is_clear_of_any(layer, layer, corner.x + i % 8, corner.y + i / 8, 1)) return false;
-      }
-    return true;
-  }
-
-  /// Whether it keeps its radius from a square of voxels in each of some layers.
-  bool is_clear_of_any(int first, int last, int x, int y, int side) const {
     for (int layer = first; layer <= last; ++layer) {
       const Part part = part_in_layer(a_.z(), b_.z(), layer, half_height_);
-      if (part.is_empty()) continue;
-      Eigen::Vector3d from = a_ + part.begin * (b_ - a_), to = a_ + part.end * (b_ - a_);
-      from.z() = to.z() = 0.0;  // heights count no more
-      if (!is_clear_of(from, to, radius_, x, y, x + side, y + side)) return false;
-      if (a_.z() == b_.z()) break;  // as in the other layers
+      if (!part.is_empty() &&
+          !is_clear_of_layer(esdf_, at(part.begin), at(part.end), layer, radius_))
+        return false;
     }
     return true;
   }
+
+  bool is_clear_of_voxel(const VoxelIndex& v) const {
+    const Part part = part_in_layer(a_.z(), b_.z(), v.z, half_height_);
+    if (part.is_empty()) return true;
+    Eigen::Vector3d from = at(part.begin), to = at(part.end);
+    from.z() = to.z() = 0.0;  // heights count no more
+    return is_clear_of(from, to, radius_, v.x, v.y, v.x + 1.0, v.y + 1.0);
+  }
+
+  Eigen::Vector3d at(double share) const { return a_ + share * (b_ - a_); }
 
   const EsdfMap& esdf_;
   const Eigen::Vector3d a_, b_;

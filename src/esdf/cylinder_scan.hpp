@@ -7,8 +7,8 @@
 namespace ridgeway::detail {
 
 /// Whether an upright cylinder can move along a segment: whether no obstacle cube shares volume
-/// with it on the way. Lengths in voxels. Looks at every obstacle around; the field knows nothing
-/// of cylinders.
+/// with it on the way. Lengths in voxels. The field knows nothing of cylinders: of small ones
+/// every obstacle around is looked at, of others what balls around their axis leave in doubt.
 bool cylinder_is_free(const EsdfMap& esdf, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                       double radius, double half_height);
 
