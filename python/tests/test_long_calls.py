@@ -147,8 +147,8 @@ def test_an_array_becomes_a_map_without_a_second_copy():
 
 @pytest.mark.skipif(bool(os.environ.get("RIDGEWAY_SANITIZED")), reason="sanitizers slow it down")
 def test_a_plan_from_python_costs_little_more(real):
-    """Beside the same queries in one call, whose loop is C++'s: two microseconds at most, of
-    processor time, at the median of alternating rounds."""
+    """Beside the same queries in one call, whose loop is C++'s: some two microseconds of 25. A share
+    of processor time, at the median of alternating rounds, as machines differ."""
     count = 3000
     start, goal = (1.3, -2.8, 1.2), (26.0, -0.1, 1.3)
     goals = np.tile(goal, (count, 1))
@@ -165,6 +165,6 @@ def test_a_plan_from_python_costs_little_more(real):
         work()
         return (time.process_time() - began) / count * 1e6
 
-    overheads = sorted(cost(one_by_one) - cost(at_once) for _ in range(15))
-    print(f"overhead {overheads[7]:.2f} us at the median")
-    assert overheads[7] < 2.0
+    ratios = sorted(cost(one_by_one) / cost(at_once) for _ in range(15))
+    print(f"{ratios[7]:.3f} times the cost at the median")
+    assert ratios[7] < 1.15
