@@ -3,7 +3,6 @@
 #include "ridgeway/planning/check.hpp"
 
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "arguments.hpp"
@@ -13,6 +12,7 @@
 #include "interruption.hpp"
 #include "json.hpp"
 #include "limit_options.hpp"
+#include "quality_option.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
 
 namespace ridgeway::cli {
@@ -23,8 +23,8 @@ using Json = nlohmann::ordered_json;
 constexpr int kMostQueries = 1000000;  // their paths are all kept
 
 struct CheckOptions {
-  std::string file, paths, quality = "default";
-  std::optional<double> within;  // in place of the quality
+  std::string file, paths;
+  QualityOption quality;
   CheckConfig check{.queries = 200};
   LimitOptions limits;
 };
@@ -89,9 +89,8 @@ int run(const CheckOptions& options, const Globals& globals) {
   if (!options.paths.empty()) require_extension(options.paths, "paths", {".json"});
   CheckConfig config = options.check;
   config.limits = limits_of(options.limits);
-  config.quick = options.quality == "quick";
-  if (options.quality == "best") config.within = PlanConfig::kBestWithin;
-  if (options.within) config.within = *options.within;
+  config.quick = options.quality.quick();
+  config.within = options.quality.within();
   const Roadmap roadmap = load_roadmap(options.file);
   ProgressBar bar(globals);
   CheckReport report;
@@ -119,9 +118,7 @@ void add_check_command(Command& program) {
   add_limit_options(command, options->limits);
   command.number("--robot-height", options->check.robot_height, kLengthsFromZero,
                  "Metres: the robot is an upright cylinder of this height; 0: it is a sphere");
-  command.choice_or_number("--quality", options->quality, {"quick", "default", "best"},
-                           options->within, {1.0, 1e6},
-                           "Of the roadmap's answers, as in `ridgeway plan`");
+  add_quality_option(command, options->quality, "Of the roadmap's answers, as in `ridgeway plan`");
   command.path("--paths", options->paths,
                "File to write the checked paths to, .json, for other checkers");
   command.footer(

@@ -221,8 +221,8 @@ void add_plan_command(Command& program) {
                  "a sphere");
   add_limit_options(command, options->limits);
   command.flag("--raw", options->raw, "Do not shorten the path");
-  command.choice_or_number(
-      "--quality", options->quality, {"quick", "default", "best"}, options->within, {1.0, 1e6},
+  add_quality_option(
+      command, options->quality,
       "quick: settle for nearly tight where the roadmap has learnt such a way; a number: go on "
       "until the path is at most so many times as long as the shortest can be, time is up, or "
       "all is searched that there is; best: 1.02");

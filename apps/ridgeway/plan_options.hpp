@@ -9,17 +9,18 @@
 
 #include "command.hpp"
 #include "limit_options.hpp"
+#include "quality_option.hpp"
 #include "ridgeway/sampling/plan_by_sampling.hpp"
 
 namespace ridgeway::cli {
 
 /// Options of `ridgeway plan`.
 struct PlanOptions {
-  std::string file, planner = "graph", quality = "default", output, queries;
+  std::string file, planner = "graph", output, queries;
   std::optional<Point> from, datum;  // datum: latitude, longitude, altitude; for missions
   std::vector<Point> to;
   std::optional<double> radius, time_limit, x_heading;
-  std::optional<double> within;  // in place of the quality
+  QualityOption quality;
   std::optional<std::size_t> alternatives;
   double prefer_clearance = 0.0, snap = 0.0, robot_height = 0.0;
   bool raw = false, escape = false, nearest = false;
@@ -37,14 +38,13 @@ inline PlanConfig plan_config(const PlanOptions& options, std::optional<double> 
   PlanConfig config{.planner = options.chosen(),
                     .radius = radius,
                     .shorten = !options.raw,
-                    .quick = options.quality == "quick",
-                    .within = options.quality == "best" ? PlanConfig::kBestWithin : 0.0,
+                    .quick = options.quality.quick(),
+                    .within = options.quality.within(),
                     .prefer_clearance = options.prefer_clearance,
                     .escape = options.escape,
                     .limits = limits_of(options.limits),
                     .snap = options.snap,
                     .robot_height = options.robot_height};
-  if (options.within) config.within = *options.within;
   if (options.time_limit) config.time_limit = *options.time_limit;
   return config;
 }

@@ -136,9 +136,7 @@ const Fields<PlanConfig>& plan_fields() {
           .add("planner", &PlanConfig::planner, "'graph', 'diagram', 'esdf' (A*) or 'theta'")
           .add("shorten", &PlanConfig::shorten, "pull the path tight")
           .add("quick", &PlanConfig::quick,
-               "settle for the first path that is not clearly too long: mostly a percent or two, "
-               "but it may "
-               "be a detour")
+               "settle for the first path that is not clearly too long, but may be a detour")
           .add("within", &PlanConfig::within,
                "go on until at most so many times the shortest; 0: as long as that pays")
           .add("time_limit", &PlanConfig::time_limit, "seconds")

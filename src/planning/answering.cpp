@@ -200,8 +200,8 @@ class Answering {
   void search_over_voxels(Route& known, std::size_t effort) {
     const GuidedEffort& guided = kPlanning.guided[effort];
     const double enough = effort == 0 ? kPlanning.doubtful : kPlanning.far;
-    if (is_quick()) return;
-    if (efforts_over_voxels_ != effort || over_expected(known) <= enough || deadline_.has_passed())
+    if (is_quick() || efforts_over_voxels_ != effort || over_expected(known) <= enough ||
+        deadline_.has_passed())
       return;
     ++efforts_over_voxels_;
     const double reach = kPlanning.voxel_reach * esdf_.voxel_size;

@@ -27,7 +27,7 @@ inline OccupancyMap pillars(unsigned seed, std::vector<Eigen::Vector2d>& axes,
   std::vector<double> radii;
   axes.clear();
   for (int tries = 0; tries < 12 && axes.size() < most; ++tries) {
-    Eigen::Vector2d axis;
+    Eigen::Vector2d axis = Eigen::Vector2d::Zero();  // or g++ takes it for unset
     if (first == DrawnFirst::kX) axis.x() = x(random);
     axis.y() = y(random);
     if (first == DrawnFirst::kY) axis.x() = x(random);
