@@ -12,7 +12,6 @@ namespace ridgeway::detail {
 namespace {
 
 constexpr double kPieceLength = 4.0;  // voxels of a segment at a time: its box stays small
-constexpr double kRounding = 1e-9;    // of the radius and the height: what touches does not collide
 
 /// The part of a segment, shares of it, at which the cylinder reaches into a layer of voxels.
 struct Part {
@@ -143,7 +142,7 @@ bool cylinder_is_free(const EsdfMap& esdf, const Eigen::Vector3d& a, const Eigen
   const double pieces = std::max(1.0, std::ceil((b - a).norm() / kPieceLength));
   for (double k = 0.0; k < pieces; ++k)
     if (!CylinderPiece(esdf, a + (b - a) * (k / pieces), a + (b - a) * ((k + 1.0) / pieces),
-                       radius * (1.0 - kRounding), half_height * (1.0 - kRounding))
+                       radius * (1.0 - kCylinderRounding), half_height * (1.0 - kCylinderRounding))
              .is_free())
       return false;
   return true;

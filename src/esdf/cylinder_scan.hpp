@@ -6,6 +6,10 @@
 
 namespace ridgeway::detail {
 
+/// Of the radius and the height of a cylinder, for what rounding does: what touches does not
+/// collide.
+inline constexpr double kCylinderRounding = 1e-9;
+
 /// Whether an upright cylinder can move along a segment: whether no obstacle cube shares volume
 /// with it on the way. Lengths in voxels. The field knows nothing of cylinders: of small ones
 /// every obstacle around is looked at, of others what balls around their axis leave in doubt.

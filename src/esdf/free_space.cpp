@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "cylinder_room.hpp"
 #include "cylinder_scan.hpp"
 #include "segment_march.hpp"
 
@@ -160,8 +161,13 @@ bool FreeSpace::cylinder_fits(VoxelId from, VoxelId to) const {
   const VoxelIndex a = esdf_.layout.index_of(from), b = esdf_.layout.index_of(to), o = b - a;
   const SquaredHalves bound = move_bound(esdf_.known_squared(from), esdf_.known_squared(to),
                                          o.x * o.x + o.y * o.y + o.z * o.z);
-  return bound >= least_clearance(outer_radius(radius_), s) ||
-         is_free(centre_of(a, s), centre_of(b, s), radius_);
+  if (bound >= least_clearance(outer_radius_, s)) return true;
+  if (room_ != nullptr) {
+    const detail::CylinderRoom::Answer answer = room_->ask(from, to);
+    if (answer != detail::CylinderRoom::Answer::kUnclear)
+      return answer == detail::CylinderRoom::Answer::kFree;
+  }
+  return is_free(centre_of(a, s), centre_of(b, s), radius_);
 }
 
 bool FreeSpace::touches_no_obstacle(VoxelId from, int direction) const {

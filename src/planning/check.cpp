@@ -10,6 +10,7 @@
 
 #include "common/number_text.hpp"
 #include "common/rounding.hpp"
+#include "esdf/cylinder_room.hpp"
 #include "mapping/memory_limit.hpp"
 #include "query.hpp"
 #include "ridgeway/common/error.hpp"
@@ -40,18 +41,20 @@ std::vector<Query> draw_queries(const Roadmap& roadmap, const CheckConfig& confi
   const bool is_sphere = config.robot_height == 0.0;
   const double largest = largest_radius(esdf);
   const FlightLimits limits = detail::limits_of(esdf, config.limits);
-  const FreeSpace space(esdf, limits, roadmap.min_clearance, config.robot_height);
+  detail::CylinderRoom room(esdf, roadmap.min_clearance / esdf.voxel_size,
+                            0.5 * config.robot_height / esdf.voxel_size);
+  const FreeSpace space(FreeSpace(esdf, limits, roadmap.min_clearance, config.robot_height), room);
+  std::vector<SquaredHalves> least;  // of the factors that count
+  for (const double factor : kRadiusFactors) {
+    const double radius = factor * roadmap.min_clearance;
+    if (!least.empty() && !(is_sphere && radius <= largest)) break;
+    least.push_back(least_clearance(space.inner_radius(radius), esdf.voxel_size));
+  }
   for (std::uint32_t order = 0; order < esdf.layout.voxel_count(); ++order) {
     const VoxelId id = esdf.layout.voxel_at_order(order);
     if (!esdf.is_open(id) || !space.is_within_limits(id)) continue;
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      const double radius = kRadiusFactors[k] * roadmap.min_clearance;
-      if ((k == 0 || (radius <= largest && is_sphere)) &&
-          (is_sphere ||
-           space.is_free(centre_of(esdf.layout.index_of(id), esdf.voxel_size), radius)) &&
-          esdf.squared[id] >= least_clearance(space.inner_radius(radius), esdf.voxel_size))
-        places[k].push_back(id);
-    }
+    for (std::size_t k = 0; k < least.size(); ++k)
+      if (space.move_is_free(id, id, kCentre, least[k])) places[k].push_back(id);
   }
   if (places[0].empty() && config.queries > 0)
     throw InputError("check", "finds no place within the limits where the robot fits",
@@ -65,10 +68,10 @@ std::vector<Query> draw_queries(const Roadmap& roadmap, const CheckConfig& confi
     if (k + 1 < places.size() && !places[k + 1].empty() && random() % 2 == 0)
       query.radius += static_cast<double>(random() % 1000) / 1000.0 *
                       (kRadiusFactors[k + 1] - kRadiusFactors[k]) * roadmap.min_clearance;
-    const SquaredHalves least = least_clearance(space.inner_radius(query.radius), esdf.voxel_size);
+    const SquaredHalves own = least_clearance(space.inner_radius(query.radius), esdf.voxel_size);
     for (Point* point : {&query.start, &query.goal}) {
       VoxelId place = places[k][random() % places[k].size()];
-      if (esdf.squared[place] < least) place = places[k + 1][random() % places[k + 1].size()];
+      if (esdf.squared[place] < own) place = places[k + 1][random() % places[k + 1].size()];
       const VoxelIndex v = esdf.layout.index_of(place);
       // Off the centre, where the robot fits there, and not out of the limits.
       const auto off = [&] { return 0.2 * (static_cast<double>(random() % 1001) / 1000.0 - 0.5); };

@@ -11,6 +11,7 @@
 #include "common/number_text.hpp"
 #include "endpoint.hpp"
 #include "escape.hpp"
+#include "esdf/cylinder_room.hpp"
 #include "paths/deadline.hpp"
 #include "query.hpp"
 #include "ridgeway/common/error.hpp"
@@ -117,7 +118,9 @@ PlanResult detail::plan_locally(const Roadmap& roadmap, const Point& start, cons
   require_height_counts(roadmap.esdf, config.robot_height);
   const Deadline deadline(config.time_limit);
   const FlightLimits limits = limits_of(roadmap.esdf, config.limits);
-  const FreeSpace space(roadmap.esdf, limits, radius, config.robot_height);
+  const double voxel_size = roadmap.esdf.voxel_size;
+  CylinderRoom room(roadmap.esdf, radius / voxel_size, 0.5 * config.robot_height / voxel_size);
+  const FreeSpace space(FreeSpace(roadmap.esdf, limits, radius, config.robot_height), room);
   const PlanBetween between = [&](const Point& from, const Point& to) {
     return config.escape ? plan_with_escapes(roadmap, space, from, to, radius, config, deadline)
                          : plan_between(roadmap, space, from, to, radius, config, deadline);

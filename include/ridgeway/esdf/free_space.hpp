@@ -12,6 +12,10 @@
 
 namespace ridgeway {
 
+namespace detail {
+class CylinderRoom;
+}
+
 /// The one predicate that decides everywhere what is free at a radius: D(x), the exact distance
 /// from a point to the closed obstacle cubes, and its minimum along straight segments. Trilinear
 /// interpolation can overestimate D and is never asked here.
@@ -39,7 +43,16 @@ class FreeSpace {
       : esdf_(esdf), limits_(limits.any() ? &limits : nullptr) {}
   /// For an upright cylinder of a radius and a height, metres; a sphere where the height is 0.
   FreeSpace(const EsdfMap& esdf, const FlightLimits& limits, double radius, double height)
-      : esdf_(esdf), limits_(limits.any() ? &limits : nullptr), radius_(radius), height_(height) {}
+      : esdf_(esdf),
+        limits_(limits.any() ? &limits : nullptr),
+        radius_(radius),
+        height_(height),
+        outer_radius_(std::hypot(radius, 0.5 * height)) {}
+  /// The same as another for one thread, which asks `room`, of the same cylinder, for moves between
+  /// voxels: quicker where there are many.
+  FreeSpace(const FreeSpace& space, detail::CylinderRoom& room) : FreeSpace(space) {
+    room_ = &room;
+  }
 
   /// The distances that it looks at.
   const EsdfMap& map() const { return esdf_; }
@@ -172,8 +185,9 @@ class FreeSpace {
   bool cylinder_fits(VoxelId from, VoxelId to) const;
 
   const EsdfMap& esdf_;
-  const FlightLimits* limits_;          // null where there are none
-  double radius_ = 0.0, height_ = 0.0;  // of a cylinder
+  const FlightLimits* limits_;                               // null where there are none
+  double radius_ = 0.0, height_ = 0.0, outer_radius_ = 0.0;  // of a cylinder
+  detail::CylinderRoom* room_ = nullptr;
 };
 
 }  // namespace ridgeway
