@@ -30,7 +30,7 @@ struct ExportOptions {
   std::string file, json_graph, picture, mesh, what = "graph", colour = "clearance";
   std::vector<std::string> outputs, paths;
   PictureConfig drawn;
-  std::vector<Option> of_pictures;
+  std::vector<Option> of_pictures, of_roadmaps;
 };
 
 bool is_page(const std::filesystem::path& file) { return file.extension() == ".html"; }
@@ -58,6 +58,14 @@ void require_format(const std::filesystem::path& file, const std::string& what) 
   if (is_page(file)) require_page_planner(file.string());
 }
 
+/// Of options that would say nothing where no picture is written.
+void refuse_picture_options(const ExportOptions& options) {
+  for (const Option& option : options.of_pictures)
+    if (option.is_given())
+      throw InputError(option.name(), "is of pictures, and none is written",
+                       "give --picture FILE too, or leave it out");
+}
+
 /// All that is to be written; problems are found before anything is.
 std::vector<std::filesystem::path> list_outputs(const ExportOptions& options) {
   std::vector<std::filesystem::path> files(options.outputs.begin(), options.outputs.end());
@@ -71,11 +79,7 @@ std::vector<std::filesystem::path> list_outputs(const ExportOptions& options) {
   if (files.empty())
     throw InputError("export", "nothing to write was asked for",
                      "give -o FILE, --json-graph FILE, --picture FILE or --mesh FILE");
-  if (std::none_of(files.begin(), files.end(), is_picture))
-    for (const Option& option : options.of_pictures)
-      if (option.is_given())
-        throw InputError(option.name(), "is of pictures, and none is written",
-                         "give --picture FILE too, or leave it out");
+  if (std::none_of(files.begin(), files.end(), is_picture)) refuse_picture_options(options);
   std::vector<std::filesystem::path> inputs = {options.file};
   inputs.insert(inputs.end(), options.paths.begin(), options.paths.end());
   require_writable(files, inputs);
@@ -133,11 +137,20 @@ int report(const std::vector<std::filesystem::path>& files, const Globals& globa
   return kExitDone;
 }
 
+/// Fused maps have neither graph nor pictures.
+void refuse_roadmap_options(const ExportOptions& options) {
+  refuse_picture_options(options);
+  for (const Option& option : options.of_roadmaps)
+    if (option.is_given())
+      throw InputError(option.name(), "is of roadmaps, and a fused map is written", "leave it out");
+}
+
 /// The surface of a fused map.
 int run_mesh(const ExportOptions& options, const Globals& globals) {
   if (!options.outputs.empty() || !options.json_graph.empty() || !options.picture.empty())
     throw InputError("--mesh", "shows a fused map, the other outputs show a roadmap",
                      "export the two one after the other");
+  refuse_roadmap_options(options);
   const std::filesystem::path file(options.mesh);
   if (file.extension() != ".ply")
     throw InputError(options.mesh, "names no format of meshes", "use .ply");
@@ -160,6 +173,7 @@ int run_fused(const ExportOptions& options, const Globals& globals) {
   if (!options.json_graph.empty() || !options.picture.empty())
     throw InputError(options.file, "is a fused map, which has no graph and no picture",
                      "build a roadmap of it, and export that");
+  refuse_roadmap_options(options);
   require_writable(files, {options.file});
   const TsdfMap map = load_tsdf(options.file);
   for (const auto& file : files) write_voxblox(map, file);
@@ -213,7 +227,8 @@ void add_export_command(Command& program) {
       "File to write, by its extension: .json, .graphml, .ply, .pb (voxblox sparse graph), "
       ".vxblx (voxblox ESDF and skeleton; TSDF of a fused map), .png, .svg, or .html, the "
       "page of view as one file that plans by itself; may be repeated");
-  command.choice("--what", options->what, {"graph", "diagram"}, "What a .ply file is to hold");
+  options->of_roadmaps = {
+      command.choice("--what", options->what, {"graph", "diagram"}, "What a .ply file is to hold")};
   command.path("--json-graph", options->json_graph, "Graph as JSON, for networkx");
   command.path("--picture", options->picture, "Map, graph and path from above, .png or .svg");
   add_picture_options(command, *options);

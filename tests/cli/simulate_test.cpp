@@ -104,6 +104,15 @@ TEST_F(CliSimulate, SurfaceOfAFusedMap) {
   expect_refused({"export", two_rooms(), "--mesh", path("out.ply")}, {"rooms.xyz"});
   expect_refused({"export", path("map.ridge"), "--mesh", path("out.obj")}, {"use .ply"});
   expect_refused({"export", path("map.ridge"), "--mesh", path("none/out.ply")}, {"none"});
+  for (const std::vector<std::string>& option : std::vector<std::vector<std::string>>{
+           {"--floors"}, {"--path", "none.json"}, {"--colour", "height"}, {"--what", "diagram"}})
+    for (const std::vector<std::string>& output : std::vector<std::vector<std::string>>{
+             {"--mesh", path("out.ply")}, {"-o", path("out.vxblx")}}) {
+      std::vector<std::string> words = {"export", path("map.ridge")};
+      words.insert(words.end(), output.begin(), output.end());
+      words.insert(words.end(), option.begin(), option.end());
+      expect_refused(words, {option.front(), "leave it out"});
+    }
   expect_refused({"export", path("map.ridge"), "--mesh", path("a.ply"), "-o", path("b.ply")},
                  {"--mesh"});
   expect_refused({"export", path("map.ridge"), "-o", path("graph.ply")},
