@@ -205,7 +205,8 @@ class SiteChecks {
   }
 
   static int has_site(const BlockSites& sites, std::size_t i) {
-    return (sites.distance[i] != 0) & (sites.distance[i] != kNone);
+    const int distance = sites.distance[i];
+    return (distance != 0) & (distance != kNone);
   }
 
   /// For voxels from `first` to before `end`: 1 if they have another site than the voxel before
