@@ -57,6 +57,7 @@ TrajectoryConfig trajectory_config(const TrajectoryOptions& options, double radi
   config.flight_limits = limits_of(options.limits);
   config.robot_height = options.robot_height;
   config.stop_and_go = options.stop_and_go;
+  config.via = options.via;
   config.validate();
   return config;
 }

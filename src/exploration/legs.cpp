@@ -32,6 +32,7 @@ TrajectoryConfig flight_from(const Roadmap& roadmap, const MotionLimits& limits,
   const auto within = [](const Point& vector, double most) -> Point {
     return vector.norm() > most ? Point(vector * (most * (1.0 - 1e-12) / vector.norm())) : vector;
   };
+  if (!is_moving(state)) return fly;
   fly.start_velocity = within(state.velocity, limits.max_speed);
   fly.start_acceleration = within(state.acceleration, limits.max_acceleration);
   return fly;

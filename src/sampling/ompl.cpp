@@ -6,6 +6,7 @@
 #include <ompl/base/spaces/SE3StateSpace.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "common/number_text.hpp"
@@ -16,6 +17,13 @@ namespace ridgeway {
 namespace {
 
 namespace ob = ompl::base;
+
+/// What flight_place knows of a map, which may be gone when a state is asked for.
+struct Frame {
+  double voxel_size;
+  VoxelIndex origin;
+  std::optional<double> height;  // of planar maps
+};
 
 double checked_radius(const EsdfMap& esdf, double radius) {
   if (!(radius >= 0.0) || radius > largest_radius(esdf))
@@ -28,20 +36,23 @@ double checked_radius(const EsdfMap& esdf, double radius) {
 }  // namespace
 
 PlaceOf place_in_world(const ob::StateSpacePtr& space, const EsdfMap& esdf) {
-  const struct {
-    double voxel_size;
-    VoxelIndex origin;
-  } frame{esdf.voxel_size, esdf.origin};
+  Frame frame{esdf.voxel_size, esdf.origin, {}};
+  if (esdf.planar) frame.height = flight_place(esdf, Point::Zero()).z();
+  const auto place = [frame](double x, double y, double z) {
+    Point local = to_local(frame, Point(x, y, z));
+    local.z() = frame.height.value_or(local.z());
+    return local;
+  };
   if (dynamic_cast<const ob::SE3StateSpace*>(space.get()) != nullptr)
-    return [frame](const ob::State* state) {
+    return [place](const ob::State* state) {
       const auto* pose = state->as<ob::SE3StateSpace::StateType>();
-      return to_local(frame, Point(pose->getX(), pose->getY(), pose->getZ()));
+      return place(pose->getX(), pose->getY(), pose->getZ());
     };
   if (dynamic_cast<const ob::RealVectorStateSpace*>(space.get()) != nullptr &&
       space->getDimension() >= 3)
-    return [frame](const ob::State* state) {
+    return [place](const ob::State* state) {
       const double* values = state->as<ob::RealVectorStateSpace::StateType>()->values;
-      return to_local(frame, Point(values[0], values[1], values[2]));
+      return place(values[0], values[1], values[2]);
     };
   throw InputError("state space '" + space->getName() + "'", "holds no place that is known here",
                    "use RealVectorStateSpace(3) or SE3StateSpace, or write a PlaceOf");

@@ -105,7 +105,7 @@ ob::RealVectorBounds sampling_bounds(const FreeSpace& free, double radius) {
     corner->assign(within.begin(), within.end());
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {  // OMPL takes no box without volume
-    constexpr double kOnTheFace = 1e-9;           // metres
+    constexpr double kOnTheFace = 2e-8;           // metres: more than limits allow for rounding
     bounds.low[axis] -= kOnTheFace;
     bounds.high[axis] += kOnTheFace;
   }

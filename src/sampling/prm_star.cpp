@@ -13,8 +13,11 @@ namespace ob = ompl::base;
 ob::PlannerStatus PrmStar::solve(const ob::PlannerTerminationCondition& stop) {
   checkValidity();
   bestCost_ = opt_->infiniteCost();
-  startM_.push_back(addMilestone(si_->cloneState(pis_.nextStart())));
-  goalM_.push_back(addMilestone(si_->cloneState(pis_.nextGoal())));
+  const ob::State *const start = pis_.nextStart(), *const goal = pis_.nextGoal();
+  if (start == nullptr) return ob::PlannerStatus::INVALID_START;  // out of the bounds, say
+  if (goal == nullptr) return ob::PlannerStatus::INVALID_GOAL;
+  startM_.push_back(addMilestone(si_->cloneState(start)));
+  goalM_.push_back(addMilestone(si_->cloneState(goal)));
   const ob::StateSamplerPtr sampler = si_->allocStateSampler();
   ob::ScopedState<> sample(si_);
   ob::PathPtr path;

@@ -19,7 +19,7 @@ class Flights {
     config.radius = radius;
     if (!whole_.trajectory.segments.empty()) {
       config.start_velocity = config.start_acceleration = Point::Zero();
-      if (config_.follow_yaw) config.start_yaw = whole_.trajectory.at(whole_.duration).yaw;
+      config.start_yaw = whole_.trajectory.at(whole_.duration).yaw;
     }
     const TrajectoryResult leg = plan_trajectory(esdf_, path, config);
     whole_.status = leg.status;

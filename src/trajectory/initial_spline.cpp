@@ -12,6 +12,10 @@ namespace {
 constexpr double kLeastPiece = 0.25;  // of the spacing: no knots closer, but for ends
 constexpr double kRestPiece = 0.15;   // of the piece next to a rest, cut off
 
+bool is_among(std::span<const Point> places, const Point& p) {
+  return std::find(places.begin(), places.end(), p) != places.end();
+}
+
 /// Speed at which a corner can be rounded within half of the shorter leg: the circle that touches
 /// both legs there has radius leg / 2 / tan(turn / 2).
 double corner_speed(const Point& before, const Point& corner, const Point& after,
@@ -52,7 +56,8 @@ double profile_duration(double length, double from, double to, const MotionLimit
 
 }  // namespace
 
-std::vector<Point> place_knots(std::span<const Point> path, double spacing) {
+std::vector<Point> place_knots(std::span<const Point> path, double spacing,
+                               std::span<const Point> kept) {
   std::vector<Point> knots{path.front()};
   Point farthest = path.front();  // of those that were passed over since the last knot
   for (std::size_t i = 1; i < path.size(); ++i) {
@@ -61,7 +66,7 @@ std::vector<Point> place_knots(std::span<const Point> path, double spacing) {
     if (is_goal && (path[i] - knots.back()).norm() < passed_over) knots.push_back(farthest);
     const Point from = knots.back(), along = path[i] - from;
     const double length = along.norm();
-    if (length < kLeastPiece * spacing && !is_goal) {
+    if (length < kLeastPiece * spacing && !is_goal && !is_among(kept, path[i])) {
       if (length > passed_over) farthest = path[i];
       continue;
     }
@@ -72,7 +77,8 @@ std::vector<Point> place_knots(std::span<const Point> path, double spacing) {
   }
   const std::size_t n = knots.size();
   const auto to_goal = [&](std::size_t i) { return (knots.back() - knots[i]).norm(); };
-  if (n > 2 && to_goal(n - 2) < kLeastPiece * spacing && to_goal(n - 2) < to_goal(n - 3))
+  if (n > 2 && to_goal(n - 2) < kLeastPiece * spacing && to_goal(n - 2) < to_goal(n - 3) &&
+      !is_among(kept, knots[n - 2]))
     knots.erase(knots.end() - 2);
   return knots;
 }
@@ -86,7 +92,7 @@ void add_knots_near_rest(bool starts_at_rest, double spacing, std::vector<Point>
 }
 
 SpaceSpline initial_spline(const std::vector<Point>& knots, const StartState& start,
-                           const SplineCostConfig& config) {
+                           const SplineCostConfig& config, std::span<const Point> kept) {
   const std::vector<double> speeds =
       knot_speeds(knots, std::min(start.velocity.norm(), config.limits.max_speed), config.limits);
   const int rows = knot_size(config.smoothness);
@@ -102,7 +108,7 @@ SpaceSpline initial_spline(const std::vector<Point>& knots, const StartState& st
   spline.fixed.assign(knots.size(), kPositionFixed);
   spline.fixed.front() = start.is_rest() ? kAllFixed : kStateFixed;
   spline.fixed.back() = kAllFixed;
-  spline.movable.assign(knots.size(), true);
+  for (const Point& knot : knots) spline.movable.push_back(!is_among(kept, knot));
   spline.movable.front() = spline.movable.back() = false;
   return spline;
 }

@@ -18,16 +18,18 @@ struct StartState {
 
 /// Knots along a path of straight segments (at least two points, no two after one another the
 /// same): at its ends, its corners and in between, no farther apart than `spacing`. Corners closer
-/// than a quarter of that to a knot are passed over.
-std::vector<Point> place_knots(std::span<const Point> path, double spacing);
+/// than a quarter of that to a knot are passed over, but for those among `kept`.
+std::vector<Point> place_knots(std::span<const Point> path, double spacing,
+                               std::span<const Point> kept);
 
 /// One more close to the goal, and to a start at rest. There all derivatives are 0, so that on a
 /// long piece the robot can but creep; on a short one its acceleration rises at once.
 void add_knots_near_rest(bool starts_at_rest, double spacing, std::vector<Point>& knots);
 
 /// A spline through knots (at least two, no two after one another the same), at rest at the last.
-/// Durations are those of a trapezoidal speed profile that slows down at corners.
+/// Durations are those of a trapezoidal speed profile that slows down at corners. Knots among
+/// `kept`, and both ends, are not to move.
 SpaceSpline initial_spline(const std::vector<Point>& knots, const StartState& start,
-                           const SplineCostConfig& config);
+                           const SplineCostConfig& config, std::span<const Point> kept);
 
 }  // namespace ridgeway::detail

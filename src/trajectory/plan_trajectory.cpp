@@ -63,7 +63,8 @@ void describe(const FreeSpace& space, const std::vector<Point>& path,
   detail::assign_yaw(trajectory, knot_size(config.smoothness), config.limits.max_yaw_rate,
                      config.start_yaw, config.follow_yaw);
   const int corners = static_cast<int>(path.size()) - 2;
-  if (corners > 0 && result.stops >= corners) result.step = TrajectoryStep::kStopAndGo;
+  const int at_corners = result.stops - (result.braked ? 1 : 0);
+  if (corners > 0 && at_corners >= corners) result.step = TrajectoryStep::kStopAndGo;
   result.duration = trajectory.duration();
   result.peaks = find_peaks(trajectory);
   result.clearance = std::max(clearance_of(space.map(), trajectory),
@@ -113,6 +114,8 @@ void TrajectoryConfig::validate() const {
                      "give three finite numbers each");
   if (start_yaw && !std::isfinite(*start_yaw))
     throw InputError("start_yaw", "is not finite", "give radians");
+  if (!std::all_of(via.begin(), via.end(), [](const Point& p) { return p.allFinite(); }))
+    throw InputError("via", "has a place that is not finite", "give three finite numbers each");
   if (most_evaluations < 1)
     throw InputError("most_evaluations", "is " + std::to_string(most_evaluations),
                      "give 1 or more");
@@ -179,6 +182,7 @@ TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> pat
   std::vector<Point> path_local;
   for (const Point& p : path) path_local.push_back(flight_place(esdf, p));
   TrajectoryConfig as_rounded = config;
+  for (Point& p : as_rounded.via) p = flight_place(esdf, p);
   const double share = rounding_of(path) / config.radius;
   if (share > kExact && share < 0.5) as_rounded.radius *= 1.0 - share;
   TrajectoryResult result = fly_locally(esdf, path_local, as_rounded);
@@ -193,9 +197,9 @@ Trajectory plain_spline(std::span<const Point> path, const TrajectoryConfig& con
   config.validate();
   const std::vector<Point> points = distinct_points(path);
   if (points.size() == 1) return {{standing_at(points.front())}};
-  SpaceSpline spline =
-      detail::initial_spline(detail::place_knots(points, detail::knot_spacing(config)), {},
-                             {.smoothness = config.smoothness, .limits = config.limits});
+  SpaceSpline spline = detail::initial_spline(
+      detail::place_knots(points, detail::knot_spacing(config), config.via), {},
+      {.smoothness = config.smoothness, .limits = config.limits}, config.via);
   MinimumSpline(config.smoothness, spline.durations, spline.fixed).solve(spline.derivatives);
   Trajectory trajectory = spline.trajectory(config.smoothness);
   detail::scale_to_limits(trajectory, config.limits);

@@ -111,7 +111,10 @@ std::optional<Trajectory> SmoothPath::run(std::span<const Point> path, const Sta
   }
   auto found = path.size() > 1 ? smooth_or_stop(path, start) : std::nullopt;
   if (!found && start.is_rest()) return Trajectory{};  // one point: it stands
-  if (!found) return brake_first(path, start);
+  if (!found) {
+    result_.stops = 0;  // of stretches behind one that cannot be flown
+    return brake_first(path, start);
+  }
   return start.is_rest() || !is_slow(*found, path, start) ? found
                                                           : brake_if_quicker(*found, path, start);
 }
@@ -155,9 +158,9 @@ SmoothPath::Attempt SmoothPath::smooth(std::span<const Point> path, const StartS
     SplineCostConfig cost = cost_;
     cost.collision_weight *= t.push;
     if (t.anew) {
-      std::vector<Point> knots = place_knots(path, t.spacing * spacing);
+      std::vector<Point> knots = place_knots(path, t.spacing * spacing, config_.via);
       add_knots_near_rest(start.is_rest(), t.spacing * spacing, knots);
-      spline = initial_spline(knots, start, cost);
+      spline = initial_spline(knots, start, cost, config_.via);
     }
     attempt = optimise(spline, cost);
     if (!attempt.holds()) continue;
@@ -182,7 +185,8 @@ void SmoothPath::quicken(std::span<const Point> path, const StartState& start,
 /// Whether a trajectory from a motion takes far longer than speeds at the corners make likely.
 bool SmoothPath::is_slow(const Trajectory& trajectory, std::span<const Point> path,
                          const StartState& start) const {
-  const SpaceSpline likely = initial_spline(place_knots(path, knot_spacing(config_)), start, cost_);
+  const SpaceSpline likely = initial_spline(place_knots(path, knot_spacing(config_), config_.via),
+                                            start, cost_, config_.via);
   const double seconds = std::accumulate(likely.durations.begin(), likely.durations.end(), 0.0);
   return trajectory.duration() > kSlow * seconds;
 }
@@ -233,6 +237,7 @@ std::optional<Trajectory> SmoothPath::brake_first(std::span<const Point> path,
   result_.braked = true;
   note(TrajectoryStep::kWithStops);
   ++result_.stops;
+  if (config_.stop_and_go) result_.stops += static_cast<int>(rest.size()) - 2;
   const Trajectory onward =
       config_.stop_and_go ? stop_and_go(rest) : smooth_or_stop(rest, {}).value();
   append(*braking, onward.segments);

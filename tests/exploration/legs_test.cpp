@@ -78,6 +78,19 @@ TEST(Legs, FromAMotionTheWayOnTakesNoLongerThanFromRest) {
   }
 }
 
+/// Where it stands too near to a wall, which it may leave if it rests.
+TEST(Legs, AMotionThatIsNoneIsRest) {
+  const Roadmap roadmap = room();
+  const Viewpoint stop = {{9.1, 3.1, 1.5}, 0.0};
+  FlightState state = {.position = {0.3, 3.1, 1.5}};
+  const auto at_rest = detail::fly_to_rest(roadmap, kLimits, stop, state);
+  state.velocity = {1e-12, 0.0, 0.0};
+  state.acceleration = {0.0, 1e-11, 0.0};
+  const auto hardly_moving = detail::fly_to_rest(roadmap, kLimits, stop, state);
+  ASSERT_TRUE(at_rest && hardly_moving);
+  EXPECT_EQ(at_rest->duration(), hardly_moving->duration());
+}
+
 TEST(RayWalk, UnknownSpaceIsAsDeepAsThereIs) {
   const Roadmap roadmap = room(true);
   FrontierPart part;

@@ -100,6 +100,19 @@ TEST(Ompl, PlansWithAPlannerOfTheCallersOwn) {
   EXPECT_GE(FreeSpace(roadmap.esdf).clearance(path), kRadius * (1.0 - 1e-6));
 }
 
+TEST(Ompl, InAPlaneHeightsPlayNoPart) {
+  Roadmap roadmap = rooms_at({});
+  const Point place(1.0, 1.0, 1.0);
+  const auto info = std::make_shared<ob::SpaceInformation>(space_around(roadmap));
+  const PlaceOf above = place_in_world(info->getStateSpace(), roadmap.esdf);
+  roadmap.esdf.planar = true;
+  const PlaceOf in_plane = place_in_world(info->getStateSpace(), roadmap.esdf);
+  const auto state = state_at(info->getStateSpace(), place);
+  EXPECT_EQ(above(state.get()), place);
+  EXPECT_EQ(in_plane(state.get()), flight_place(roadmap.esdf, place));
+  EXPECT_NE(in_plane(state.get()).z(), place.z());
+}
+
 TEST(Ompl, TakesPosesAndRefusesWhatItCannotPlace) {
   const Roadmap roadmap = rooms_at({});
   const auto poses = std::make_shared<ob::SE3StateSpace>();

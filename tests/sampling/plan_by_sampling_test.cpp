@@ -210,6 +210,20 @@ TEST(Sampling, ReachesTheOutermostPlacesOfTheMap) {
   EXPECT_GT(queries, 500);
 }
 
+/// Coordinates that rounding puts a little outside are inside the limits, for OMPL too.
+TEST(Sampling, StartsAndGoalsMayLieOnTheFacesOfTheLimits) {
+  const EsdfMap esdf = compute_esdf(two_rooms(false));
+  const Point outside(0.0, 0.0, 9e-9);
+  for (const Planner planner : kSamplers) {
+    SCOPED_TRACE(name_of(planner));
+    SamplingConfig config = limited(planner, iterations_of(planner, 20000));
+    config.limits.keep_in.max.z() = kLeft.z();
+    config.first_solution = true;
+    EXPECT_TRUE(plan_by_sampling(esdf, kLeft + outside, kRight, config).plan.ok());
+    EXPECT_TRUE(plan_by_sampling(esdf, kLeft, kRight + outside, config).plan.ok());
+  }
+}
+
 TEST(Sampling, SolvesTheTrivialQueries) {
   const EsdfMap esdf = compute_esdf(two_rooms(false));
   for (const Planner planner : kSamplers) {

@@ -267,6 +267,36 @@ TEST(PlanTrajectory, ThereAndBackGetsATrajectory) {
   }
 }
 
+/// How near a trajectory comes to a place.
+double nearest_to(const Trajectory& trajectory, const Point& place) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const TrajectoryState& state : trajectory.sample(1e-3))
+    nearest = std::min(nearest, (state.position - place).norm());
+  return nearest;
+}
+
+TEST(PlanTrajectory, PassesThePlacesThatItIsToPass) {
+  const std::vector<Point> path{{2, 5, 2}, {2.3, 5, 2}, {6, 5, 2}, {6, 7, 2}, {2, 5.5, 2}};
+  constexpr double kStep = 2e-3;  // metres between two samples
+  for (const Smoothness smoothness : {Smoothness::kSnap, Smoothness::kJerk})
+    for (const double speed : {1.0, 2.0, 5.0}) {
+      SCOPED_TRACE(speed);
+      TrajectoryConfig config;
+      config.smoothness = smoothness;
+      config.limits.max_speed = speed;
+      const TrajectoryResult rounded = plan_trajectory(esdf(), path, config);
+      EXPECT_GT(nearest_to(rounded.trajectory, path[2]), 0.1);
+      for (const std::vector<Point>& via :
+           {std::vector{path[2]}, std::vector{path[1], path[3]}, {path[1], path[2], path[3]}}) {
+        config.via = via;
+        const TrajectoryResult result = plan_trajectory(esdf(), path, config);
+        expect_flown(result, path, config);
+        for (const Point& place : via)
+          EXPECT_LT(nearest_to(result.trajectory, place), speed * kStep);
+      }
+    }
+}
+
 TEST(PlanTrajectory, ThousandWaypointsTakeSeconds) {
   std::vector<Point> spiral, dense;
   for (int i = 0; i < 1000; ++i) {
