@@ -147,7 +147,7 @@ void read_layers(std::string_view bytes) {
   if (!is_voxblox(bytes)) return;
   const auto layers = read_voxblox(bytes, kName);
   voxblox_bytes(layers);
-  map_of_layer(map_layer(layers, kName), kName, near_origin());
+  map_of_layer(map_layer(layers, kName), kName);
 }
 
 void read_graph(std::string_view bytes) {

@@ -161,19 +161,17 @@ OccupancyMap load_benchmark_map(std::string_view bytes, const LoadConfig& config
   return load_voxels(source, config, name, notes);
 }
 
-OccupancyMap load_fused_map(const std::filesystem::path& file, const LoadConfig& config,
-                            LoadNotes* notes) {
-  const OccupancyMap fused = occupancy_of(load_tsdf(file));
-  const std::string name = file.string();
+OccupancyMap load_known(const OccupancyMap& map, const LoadConfig& config, const std::string& name,
+                        LoadNotes* notes) {
   const VoxelSource source = {
-      fused.voxel_size, [&](const VoxelPlacement& placement) {
+      map.voxel_size, [&](const VoxelPlacement& placement) {
         OccupancyBuilder builder(
-            fused.voxel_size,
+            map.voxel_size,
             {.clip = placement.clip, .bytes_per_voxel = placement.bytes_per_voxel, .name = name});
-        for (VoxelId id = 0; id < fused.layout.voxel_count(); ++id) {
-          const VoxelIndex voxel = fused.origin + fused.layout.index_of(id);
-          if (fused.state[id] != VoxelState::kUnknown)
-            builder.set(placement.motion({voxel, voxel}).min, fused.state[id]);
+        for (VoxelId id = 0; id < map.layout.voxel_count(); ++id) {
+          const VoxelIndex voxel = map.origin + map.layout.index_of(id);
+          if (map.state[id] != VoxelState::kUnknown)
+            builder.set(placement.motion({voxel, voxel}).min, map.state[id]);
         }
         return std::move(builder).finish();
       }};
@@ -186,10 +184,7 @@ OccupancyMap load_voxblox(std::string_view bytes, const LoadConfig& config, cons
   const VoxbloxLayer& layer = map_layer(layers, name);
   if (layers.size() > 1)
     tell(notes, "of " + std::to_string(layers.size()) + " layers the " + layer.type + " is taken");
-  const VoxelSource source = {layer.voxel_size, [&](const VoxelPlacement& placement) {
-                                return map_of_layer(layer, name, placement);
-                              }};
-  return load_voxels(source, config, name, notes);
+  return load_known(map_of_layer(layer, name), config, name, notes);
 }
 
 /// Text that begins with a number, or with column names, after comments.
@@ -253,7 +248,8 @@ OccupancyMap load_map(const std::filesystem::path& file, const LoadConfig& confi
   if (std::error_code error; std::filesystem::is_directory(file, error))
     throw InputError(file.string(), "is a folder",
                      "give a file; recordings of cameras and scans are fused to one first");
-  if (is_tsdf_file(file)) return load_fused_map(file, config, notes);
+  if (is_tsdf_file(file))
+    return load_known(occupancy_of(load_tsdf(file)), config, file.string(), notes);
   const std::string bytes = read_file(file), name = file.string();
   if (bytes.starts_with("RIDGEWAY"))
     throw InputError(name, "is a roadmap already", "give the map that it was built from");

@@ -13,6 +13,7 @@
 #include "files/byte_reader.hpp"
 #include "files/text.hpp"
 #include "mapping/memory_limit.hpp"
+#include "mapping/thin_surfaces.hpp"
 #include "protobuf.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
 
@@ -202,6 +203,22 @@ std::optional<VoxelState> state_of(std::string_view type, const std::uint32_t* w
   return is_free ? VoxelState::kFree : VoxelState::kOccupied;
 }
 
+/// Calls visit(voxel of the lattice, its words, number of its block) for all that have words.
+template <typename Visit>
+void for_each_voxel(const VoxbloxLayer& layer, const Visit& visit) {
+  const auto words = static_cast<std::size_t>(words_per_voxel(layer.type));
+  const int n = layer.side;
+  for (std::size_t b = 0; b < layer.blocks.size(); ++b) {
+    const VoxbloxBlock& block = layer.blocks[b];
+    for (std::size_t i = 0; i * words < block.words.size(); ++i) {
+      const int at = static_cast<int>(i);
+      visit(VoxelIndex{block.index.x * n + at % n, block.index.y * n + at / n % n,
+                       block.index.z * n + at / (n * n)},
+            &block.words[i * words], b);
+    }
+  }
+}
+
 bool has_seen_voxels(const VoxbloxLayer& layer) {
   const auto words = static_cast<std::size_t>(words_per_voxel(layer.type));
   for (const VoxbloxBlock& block : layer.blocks)
@@ -272,30 +289,27 @@ const VoxbloxLayer& map_layer(const std::vector<VoxbloxLayer>& layers, const std
                    "save a TSDF, ESDF or occupancy layer of a map");
 }
 
-OccupancyMap map_of_layer(const VoxbloxLayer& layer, const std::string& name,
-                          const VoxelPlacement& placement) {
-  const auto words = static_cast<std::size_t>(words_per_voxel(layer.type));
+OccupancyMap map_of_layer(const VoxbloxLayer& layer, const std::string& name) {
   OccupancyBuilder builder(
-      layer.voxel_size,
-      {.clip = placement.clip, .bytes_per_voxel = placement.bytes_per_voxel, .name = name});
-  const int n = layer.side;
-  for (std::size_t b = 0; b < layer.blocks.size(); ++b) {
-    const VoxbloxBlock& block = layer.blocks[b];
-    for (std::size_t i = 0; i * words < block.words.size(); ++i) {
-      const auto state = state_of(layer.type, &block.words[i * words]);
-      if (!state)
-        throw InputError(name,
-                         "has a voxel whose value is no number, in block " + std::to_string(b + 1) +
-                             " of its layer " + layer.type,
-                         kLayerDamaged);
-      if (*state == VoxelState::kUnknown) continue;
-      const int at = static_cast<int>(i);
-      const VoxelIndex voxel = {block.index.x * n + at % n, block.index.y * n + at / n % n,
-                                block.index.z * n + at / (n * n)};
-      builder.set(placement.motion({voxel, voxel}).min, *state);
-    }
-  }
-  return std::move(builder).finish();
+      layer.voxel_size, {.bytes_per_voxel = kMapBytesPerVoxel + int{sizeof(float)}, .name = name});
+  for_each_voxel(layer, [&](const VoxelIndex& voxel, const std::uint32_t* words, std::size_t b) {
+    const auto state = state_of(layer.type, words);
+    if (!state)
+      throw InputError(name,
+                       "has a voxel whose value is no number, in block " + std::to_string(b + 1) +
+                           " of its layer " + layer.type,
+                       kLayerDamaged);
+    builder.set(voxel, *state);
+  });
+  OccupancyMap map = std::move(builder).finish();
+  if (layer.type != "tsdf" && layer.type != "esdf") return map;
+  VoxelField<float> distance(map.layout);
+  for_each_voxel(layer, [&](const VoxelIndex& voxel, const std::uint32_t* words, std::size_t) {
+    const VoxelId id = map.layout.find(voxel - map.origin);
+    if (id != kNoVoxel) distance[id] = std::bit_cast<float>(words[0]);
+  });
+  detail::occupy_thin_surfaces(distance, map);
+  return map;
 }
 
 }  // namespace ridgeway

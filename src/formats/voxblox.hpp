@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "ridgeway/mapping/occupancy_map.hpp"
-#include "voxel_placement.hpp"
 
 namespace ridgeway {
 
@@ -46,8 +45,8 @@ const VoxbloxLayer& map_layer(const std::vector<VoxbloxLayer>& layers, const std
 
 /// Its voxels: free where the stored distance is above 0 (the odds of being occupied below one),
 /// else occupied; those not observed are unknown, and so are those of an ESDF that were only
-/// supposed. Distances and parents are not kept: they are found again from the states.
-OccupancyMap map_of_layer(const VoxbloxLayer& layer, const std::string& name,
-                          const VoxelPlacement& placement);
+/// supposed. What is thinner than a voxel is occupied as `occupancy_of` does it, where there are
+/// distances. Distances and parents are not kept: they are found again from the states.
+OccupancyMap map_of_layer(const VoxbloxLayer& layer, const std::string& name);
 
 }  // namespace ridgeway

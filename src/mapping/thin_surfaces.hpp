@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "ridgeway/mapping/occupancy_map.hpp"
 #include "ridgeway/voxel/voxel_mask.hpp"
 #include "voxel/cube_gather.hpp"
 
@@ -48,5 +49,9 @@ VoxelMask::Block thin_surfaces(const VoxelMask::Block& near, const VoxelMask::Bl
   for (std::size_t z = 0; z < kBlockSide; ++z) thin[z] &= inner[z];
   return thin;
 }
+
+/// Occupies those of a map. `distance`: of its voxels to the nearest surface that was measured,
+/// metres, on the same layout; what it holds of voxels that are not free plays no part.
+void occupy_thin_surfaces(const VoxelField<float>& distance, OccupancyMap& map);
 
 }  // namespace ridgeway::detail

@@ -83,40 +83,6 @@ void clear_sphere(const Point& centre, double radius, TsdfMap& map) {
   });
 }
 
-/// Of free voxels.
-void occupy_thin_surfaces(const TsdfMap& tsdf, OccupancyMap& map) {
-  const BlockLayout& layout = map.layout;
-  const auto limit = static_cast<float>(detail::kNearSurface * map.voxel_size);
-  VoxelMask free(layout);
-  parallel_for_each_index(
-      layout.block_count(),
-      [&](std::size_t i) {
-        const auto slot = static_cast<std::uint32_t>(i);
-        const VoxelState* state = map.state.block(slot);
-        free.block(slot) = block_where([&](int v) { return state[v] == VoxelState::kFree; });
-      },
-      64);
-  const VoxelMask& all_free = free;
-  parallel_for_each_index(
-      layout.block_count(),
-      [&](std::size_t i) {
-        const auto slot = static_cast<std::uint32_t>(i);
-        const float* distance = tsdf.distance.block(slot);
-        VoxelMask::Block near = block_where([&](int v) { return distance[v] < limit; });
-        for (std::size_t z = 0; z < kBlockSide; ++z) near[z] &= all_free.block(slot)[z];
-        const VoxelMask::Block thin =
-            detail::thin_surfaces(near, all_free.block(slot), [&](int direction) {
-              const std::uint32_t n = layout.neighbour_block(slot, direction);
-              return n == BlockLayout::kNoBlock ? nullptr : &all_free.block(n);
-            });
-        for (std::size_t z = 0; z < kBlockSide; ++z)
-          for (std::uint64_t bits = thin[z]; bits != 0; bits &= bits - 1)
-            map.state.block(slot)[64 * z + static_cast<std::size_t>(std::countr_zero(bits))] =
-                VoxelState::kOccupied;
-      },
-      16);
-}
-
 }  // namespace
 
 void FusionConfig::validate() const {
@@ -331,7 +297,7 @@ OccupancyMap occupancy_of(const TsdfMap& tsdf) {
   for (VoxelId id = 0; id < tsdf.layout.voxel_count(); ++id)
     if (tsdf.weight[id] > 0.0f)
       map.state[id] = tsdf.distance[id] > 0.0f ? VoxelState::kFree : VoxelState::kOccupied;
-  occupy_thin_surfaces(tsdf, map);
+  detail::occupy_thin_surfaces(tsdf.distance, map);
   return normalised(std::move(map));
 }
 

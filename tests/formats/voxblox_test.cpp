@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
+#include <cstdlib>
+#include <numbers>
 
 #include "common/random.hpp"
 #include "formats/protobuf.hpp"
@@ -12,6 +15,8 @@
 #include "mapping/random_map.hpp"
 #include "ridgeway/formats/graph_export.hpp"
 #include "ridgeway/formats/load_map.hpp"
+#include "ridgeway/mapping/tsdf_fusion.hpp"
+#include "ridgeway/ridge/ridge_file.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "support/refusal.hpp"
 #include "support/temporary_folder.hpp"
@@ -86,8 +91,49 @@ TEST(Voxblox, PackedWordsAreTakenToo) {
   file.message(head.bytes());
   file.message(block.bytes());
   const auto layers = read_voxblox(file.bytes(), "packed");
-  const OccupancyMap map = map_of_layer(map_layer(layers, "packed"), "packed", {});
+  const OccupancyMap map = map_of_layer(map_layer(layers, "packed"), "packed");
   EXPECT_EQ(count_voxels(map).free, 1u);
+}
+
+/// Of sheets thinner than a voxel, some of them with a voxel's centre behind their surface.
+TsdfMap thin_sheets(std::uint64_t seed) {
+  Random random(seed, 2);
+  TsdfMap tsdf;
+  tsdf.voxel_size = 0.1;
+  tsdf.origin = {-21, 3, 40};
+  tsdf.truncation = 0.4;
+  tsdf.layout = BlockLayout({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}});
+  tsdf.distance = VoxelField<float>(tsdf.layout);
+  tsdf.weight = VoxelField<float>(tsdf.layout);
+  for (VoxelId id = 0; id < tsdf.layout.voxel_count(); ++id) {
+    const int beside = std::abs(tsdf.layout.index_of(id).x % 8 - 4);
+    tsdf.distance[id] =
+        static_cast<float>(std::min(0.4, random.uniform(-0.001, 0.1) + 0.1 * beside));
+    tsdf.weight[id] = random.uniform(0.0, 1.0) < 0.98 ? 1.0f : 0.0f;
+  }
+  return tsdf;
+}
+
+TEST(Voxblox, WhatIsThinnerThanAVoxelIsOccupiedAsInTheFusedMap) {
+  const TemporaryFolder folder;
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const TsdfMap tsdf = thin_sheets(seed);
+    save_tsdf(tsdf, "sheets", folder / "fused.ridge");
+    write_voxblox(tsdf, folder / "fused.vxblx");
+    LoadConfig turned;
+    turned.transform = Eigen::Translation3d(0.3, -0.2, 0.1) *
+                       Eigen::AngleAxisd(std::numbers::pi / 2.0, Eigen::Vector3d::UnitZ());
+    LoadConfig cropped;
+    cropped.bounds = Box{{-1.8, 0.4, 4.1}, {-0.7, 1.1, 5.3}};
+    for (const LoadConfig& config : {LoadConfig{}, turned, cropped})
+      EXPECT_TRUE(testing::same_voxels(load_map(folder / "fused.vxblx", config),
+                                       load_map(folder / "fused.ridge", config)));
+    const OccupancyMap map = occupancy_of(tsdf);
+    std::size_t behind = 0;
+    for (VoxelId id = 0; id < tsdf.layout.voxel_count(); ++id)
+      behind += tsdf.weight[id] > 0.0f && tsdf.distance[id] <= 0.0f;
+    EXPECT_GT(count_voxels(map).occupied, behind + 20);
+  }
 }
 
 TEST(Voxblox, ARoadmapIsWrittenAndItsFieldGivesTheSameMap) {
