@@ -132,13 +132,30 @@ const CellGuide::Met& CellGuide::parts_of(CellId cell) {
   if (met.first != kNoPart) return met;
   met.first = static_cast<PartId>(parts_.size());
   const Place first = corner_of(around_.lattice.first_voxel(cell));
-  for (CellMask left = fitting_voxels(around_.space, cell, around_.threshold); left != 0;) {
+  for (CellMask left = voxels_for_robot(cell); left != 0;) {
     const CellMask part = left == ~CellMask{0} ? left : flood(left & (~left + 1), left);
     parts_.push_back({cell, part, first + middle_of(part)});
     left &= ~part;
   }
   met.last = static_cast<PartId>(parts_.size());
   return met;
+}
+
+/// Moves across faces between voxels that hold the robot are free for cylinders as for spheres: the
+/// obstacle voxel that is nearest on the way is as near to one of its ends.
+CellMask CellGuide::voxels_for_robot(CellId cell) const {
+  const FreeSpace& space = around_.space;
+  CellMask fitting = fitting_voxels(space, cell, around_.threshold);
+  if (!space.is_narrowed()) return fitting;
+  const BlockLayout& layout = around_.esdf.layout;
+  const VoxelId first = layout.slot_at(cell / CellGraph::kPerBlock) * kBlockVoxels;
+  for (CellMask left = fitting; left != 0; left &= left - 1) {
+    const auto place = static_cast<std::uint32_t>(std::countr_zero(left));
+    const VoxelId id = first + local_voxel(cell, place);
+    if (!space.is_within_limits(id) || !space.move_is_free(id, id, kCentre, around_.threshold))
+      fitting &= ~(CellMask{1} << place);
+  }
+  return fitting;
 }
 
 CellGuide::PartId CellGuide::part_with(const VoxelIndex& voxel) {

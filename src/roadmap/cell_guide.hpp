@@ -63,6 +63,7 @@ class CellGuide {
 
   PartId part_with(const VoxelIndex& voxel);
   const Met& parts_of(CellId cell);
+  CellMask voxels_for_robot(CellId cell) const;
   void expand(PartId id);
   bool leads(const Part& from, const Part& to, int step) const;
   bool leads(const Part& from, const Part& to, int step, int move) const;

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <set>
 
@@ -227,6 +228,37 @@ TEST(Cylinder, GoesWhereNoSphereOfItsRadiusGoes) {
       PlanStatus::kNoRoute);
   EXPECT_EQ(plan(tall, start, goal, {.radius = 0.24, .robot_height = 1.6}).status,
             PlanStatus::kStartInCollision);  // it would stand in the floor
+}
+
+/// A hall 8 x 8 x 2 m with thin walls that hang or stand, of which spheres pass each, above or
+/// below.
+Roadmap hall_of_low_walls(unsigned seed) {
+  std::mt19937 random(seed);
+  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  std::vector<VoxelRange> walls;
+  for (int i = 0; i < 16; ++i) {
+    const int x = 1 + below(75), y = 1 + below(75);
+    const VoxelIndex low = {x, y, i % 4 == 0 ? 1 : 9};
+    walls.push_back({low, low + (i % 2 == 0 ? VoxelIndex{1, 20, 11} : VoxelIndex{20, 1, 11})});
+  }
+  const OccupancyMap map =
+      testing::make_map(0.1, {0, 0, 0}, {81, 81, 21}, [&](const VoxelIndex& v) {
+        const bool hull = v.x == 0 || v.y == 0 || v.z == 0 || v.x == 81 || v.y == 81 || v.z == 21;
+        const bool wall = std::any_of(walls.begin(), walls.end(),
+                                      [&](const VoxelRange& range) { return range.contains(v); });
+        return hull || wall ? VoxelState::kOccupied : VoxelState::kFree;
+      });
+  return build_roadmap(map, {.min_clearance = 0.3}).roadmap;
+}
+
+TEST(Cylinder, PathsAreNearShortestWhereSpheresPassBelow) {
+  for (const unsigned seed : {1u, 4u, 7u, 10u}) {
+    const CheckReport report =
+        check_roadmap(hall_of_low_walls(seed), {.queries = 150, .seed = seed, .robot_height = 1.4});
+    EXPECT_TRUE(report.is_clean());
+    EXPECT_GT(report.graph_ok, 50u) << seed;
+    EXPECT_LE(report.length_ratio.max, 1.15) << seed;
+  }
 }
 
 TEST(Cylinder, ChecksAlternativesAndBadHeights) {
