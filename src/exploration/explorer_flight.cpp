@@ -13,6 +13,11 @@
 #include "shaped_trajectory.hpp"
 
 namespace ridgeway {
+namespace {
+
+constexpr double kRounding = 1e-3;  // voxels
+
+}  // namespace
 
 /// To a stop, and to rest there.
 bool Explorer::State::fly_to(const Point& goal_local, double yaw, const FlightState& state,
@@ -37,13 +42,26 @@ bool Explorer::State::leaves_time_for_home(const FlightState& state,
   return back && rest.time + back->duration() <= config.until;
 }
 
-/// Whether the rest of what is flown is free no longer, for all that is known now.
+/// Whether the rest of what is flown is free no longer, for all that is known now. Where the robot
+/// is nearer to something than it has to keep, as it leaves such a place, it comes no nearer until
+/// it is out.
 bool Explorer::State::is_in_doubt(const FlightState& state) const {
+  constexpr double kStep = 0.02;  // seconds
+  const FreeSpace space(roadmap->esdf);
   const double radius =
       config.kept_clearance > 0.0 ? config.kept_clearance : roadmap->min_clearance;
   const Trajectory rest = detail::moved(detail::tail_of(flying, state.time - flying_since),
                                         to_local(roadmap->esdf, Point::Zero()));
-  return !find_doubts(roadmap->esdf, rest, radius).empty();
+  const auto room_at = [&](double time) { return space.distance(rest.at(time).position); };
+  const double room = room_at(0.0);
+  if (room >= radius) return !find_doubts(space, rest, radius).empty();
+  const double kept = room - kRounding * roadmap->esdf.voxel_size;
+  if (kept <= 0.0) return true;
+  double out = kStep;
+  while (out < rest.duration() && room_at(out) < radius) out += kStep;
+  out = std::min(out, rest.duration());
+  return !find_doubts(space, detail::head_of(rest, out), kept).empty() ||
+         !find_doubts(space, detail::tail_of(rest, out), radius).empty();
 }
 
 /// Where what is flown leads to in so many metres, from a time of the state's clock on.

@@ -72,6 +72,22 @@ TEST(Explorer, GoesOnFromWhereItDoesNotFitAnyMore) {
   }
 }
 
+/// It is in doubt of its way out only where something turns up there.
+TEST(Explorer, TheWayOutOfWhereItDoesNotFitIsFlownToItsEnd) {
+  LiveRoadmap live = live_for_explorers();
+  live.set_voxels(room_behind_a_wall());
+  Explorer explorer({});
+  const ExplorationStep out = explorer.decide(live.snapshot(), {.position = {0.3, 3.1, 1.5}});
+  ASSERT_EQ(out.status, ExplorationStatus::kFly);
+  for (const double time : {0.1, 0.2, 0.4, 0.6}) {
+    const ExplorationStep next = explorer.decide(live.snapshot(), state_at(out.trajectory, time));
+    EXPECT_FALSE(next.was_in_doubt) << time;
+    EXPECT_EQ(next.status, ExplorationStatus::kKeep) << time << ", " << name_of(next.status);
+  }
+  live.set_voxels(layer(7, 30, VoxelState::kOccupied));
+  EXPECT_TRUE(explorer.decide(live.snapshot(), state_at(out.trajectory, 0.8)).was_in_doubt);
+}
+
 /// On its way home a robot meets a wall that leaves no room to brake along its way.
 TEST(Explorer, OnItsWayHomeItIsNotStuckWhileItFlies) {
   LiveRoadmap live = live_for_explorers();
