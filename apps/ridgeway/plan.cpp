@@ -44,20 +44,17 @@ SamplingConfig sampling_config(const PlanOptions& options, double radius) {
 
 /// Found before the file is loaded.
 void validate(const PlanOptions& options) {
-  if (is_sampling(options.chosen()) &&
-      (options.prefer_clearance != 0.0 || options.escape || options.snap != 0.0))
-    throw InputError(options.escape        ? "--escape"
-                     : options.snap != 0.0 ? "--snap"
-                                           : "--prefer-clearance",
-                     "is of planners that do not sample",
-                     "leave it out with --planner " + options.planner);
-  if (is_sampling(options.chosen()))
+  const auto refuse_given = [&](const std::vector<Option>& refused, const char* problem) {
+    for (const Option& option : refused)
+      if (option.is_given())
+        throw InputError(option.name(), problem, "leave it out with --planner " + options.planner);
+  };
+  if (is_sampling(options.chosen())) {
+    refuse_given(options.exact_options, "is of planners that do not sample");
     return sampling_config(options, options.radius.value_or(1.0)).validate();
+  }
   plan_config(options, options.radius).validate();
-  for (const Option& option : options.sampling_options)
-    if (option.is_given())
-      throw InputError(option.name(), "is of planners that sample",
-                       "leave it out with --planner " + options.planner);
+  refuse_given(options.sampling_options, "is of planners that sample");
 }
 
 /// Plans once; the seed of a further run is the next one.
@@ -177,6 +174,23 @@ int run(const PlanOptions& options, const Globals& globals) {
                                : run_one(options, roadmap, globals);
 }
 
+void add_exact_options(Command& command, const Option& raw, PlanOptions& options) {
+  options.exact_options = {
+      command.number("--prefer-clearance", options.prefer_clearance, {0.0, 1e6},
+                     "What distance d from walls is worth: a metre costs 1 + it * (radius / d)^2"),
+      command.flag("--escape", options.escape,
+                   "Start and goal may be too close to an obstacle: leave it the short way first"),
+      command.number("--snap", options.snap, kLengthsFromZero,
+                     "Start and goal that cannot be used are moved to the nearest place that can, "
+                     "by so many metres at most"),
+      add_quality_option(
+          command, options.quality,
+          "quick: settle for nearly tight where the roadmap has learnt such a way; a number: go on "
+          "until the path is at most so many times as long as the shortest can be, time is up, or "
+          "all is searched that there is; best: 1.02")
+          .excludes(raw)};
+}
+
 void add_sampling_options(Command& command, PlanOptions& options) {
   options.sampling_options = {
       command.seed(options.sampling.seed, "Of a planner that samples"),
@@ -209,23 +223,12 @@ void add_plan_command(Command& program) {
                  "angle); or by sampling: the others");
   command.number("--radius", options->radius, kLengths,
                  "Robot radius, metres (default: the smallest the roadmap is for)");
-  command.number("--prefer-clearance", options->prefer_clearance, {0.0, 1e6},
-                 "What distance d from walls is worth: a metre costs 1 + it * (radius / d)^2");
-  command.flag("--escape", options->escape,
-               "Start and goal may be too close to an obstacle: leave it the short way first");
-  command.number("--snap", options->snap, kLengthsFromZero,
-                 "Start and goal that cannot be used are moved to the nearest place that can, by "
-                 "so many metres at most");
   command.number("--robot-height", options->robot_height, kLengthsFromZero,
                  "Metres: the robot is an upright cylinder of this height and the radius; 0: it is "
                  "a sphere");
   add_limit_options(command, options->limits);
-  command.flag("--raw", options->raw, "Do not shorten the path");
-  add_quality_option(
-      command, options->quality,
-      "quick: settle for nearly tight where the roadmap has learnt such a way; a number: go on "
-      "until the path is at most so many times as long as the shortest can be, time is up, or "
-      "all is searched that there is; best: 1.02");
+  const Option raw = command.flag("--raw", options->raw, "Do not shorten the path");
+  add_exact_options(command, raw, *options);
   command.number("--time-limit", options->time_limit, kTimeLimits,
                  "Seconds (default: no limit, 10 where the planner samples)");
   add_sampling_options(command, *options);

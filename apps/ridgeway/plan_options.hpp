@@ -30,6 +30,7 @@ struct PlanOptions {
   std::optional<std::size_t> iteration_limit;
   std::optional<double> range;
   std::vector<Option> sampling_options;  // those that the three above come from
+  std::vector<Option> exact_options;     // of planners that do not sample
 
   Planner chosen() const { return planner_named(planner).value_or(Planner::kGraph); }
 };

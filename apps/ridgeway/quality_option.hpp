@@ -20,9 +20,10 @@ struct QualityOption {
   double within() const { return factor.value_or(word == "best" ? PlanConfig::kBestWithin : 0.0); }
 };
 
-inline void add_quality_option(Command& command, QualityOption& quality, const std::string& text) {
-  command.choice_or_number("--quality", quality.word, {"quick", "default", "best"}, quality.factor,
-                           {1.0, 1e6}, text);
+inline Option add_quality_option(Command& command, QualityOption& quality,
+                                 const std::string& text) {
+  return command.choice_or_number("--quality", quality.word, {"quick", "default", "best"},
+                                  quality.factor, {1.0, 1e6}, text);
 }
 
 }  // namespace ridgeway::cli

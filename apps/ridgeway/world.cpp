@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "console.hpp"
 #include "json.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/world_file.hpp"
 #include "sensing/world_generators.hpp"
 
@@ -17,10 +19,14 @@ namespace {
 struct WorldOptions {
   std::string kind, output;
   std::uint64_t seed = 1;
+  std::vector<Option> of_random_worlds;
 };
 
 int run(const WorldOptions& options, const Globals& globals) {
   require_extension(options.output, "a world", {".yaml", ".yml"});
+  for (const Option& option : options.of_random_worlds)
+    if (option.is_given() && options.kind == "house")
+      throw InputError(option.name(), "is of mazes and halls: there is one house", "leave it out");
   require_writable({options.output}, {});
   const World world = options.kind == "maze"   ? make_maze({.seed = options.seed})
                       : options.kind == "hall" ? make_hall({.seed = options.seed})
@@ -41,13 +47,14 @@ int run(const WorldOptions& options, const Globals& globals) {
 
 void add_world_command(Command& program) {
   const auto options = std::make_shared<WorldOptions>();
-  Command command = program.add("world", "Make a simulated world from a seed");
+  Command command = program.add("world", "Make a simulated world: the house, or one from a seed");
   command
       .choice("kind", options->kind, {"maze", "hall", "house"},
               "A maze of 30 x 30 m, a machine hall of 20 x 22 m, or the house of 15 x 10 m")
       .required();
   command.path("-o,--output", options->output, "World to write, .yaml").required();
-  command.seed(options->seed, "Another seed, another world");
+  options->of_random_worlds = {
+      command.seed(options->seed, "Of mazes and halls: another seed, another world")};
   command.footer(
       "Example:\n"
       "  ridgeway world maze --seed 7 -o maze.yaml");

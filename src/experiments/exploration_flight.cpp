@@ -234,9 +234,7 @@ class ExplorationRun {
     flight_.seconds = flight_.samples.back().state.time;
     flight_.coverage = flight_.samples.back().mapped;
     flight_.is_complete = flight_.end == ExplorationStatus::kComplete;
-    if (config_.planner == ExplorationPlanner::kRidgeway ||
-        config_.planner == ExplorationPlanner::kFrontier)
-      flight_.unseen = explorer_.unseen();
+    if (config_.is_by_explorer()) flight_.unseen = explorer_.unseen();
     flight_.map = live_.map();
     flight_.roadmap = live_.settled();
   }
@@ -279,6 +277,8 @@ void ExplorationFlightConfig::validate() const {
     sensor.validate();
   require(max_range() >= 2.0 * voxel_size, "max_range", max_range(), "give at least two voxels");
   explorer.limits.validate();
+  require(!std::isfinite(budget) || is_by_explorer(), "budget", budget,
+          "leave it out, or take the planner ridgeway or frontier: no other comes back in time");
   const double turn = 2.0 * std::numbers::pi / explorer.limits.max_yaw_rate;
   require(budget >= turn, "budget", budget,
           "give at least the time that the drone takes to turn once around");

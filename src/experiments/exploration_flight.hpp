@@ -50,6 +50,10 @@ struct ExplorationFlightConfig {
   ExplorerConfig explorer;  ///< limits, sizes; what follows from the rest is set by the flight
   std::uint64_t seed = 1;   ///< of the sensor's noise, and of planners that sample
 
+  /// Whether Explorer decides: no other planner keeps a budget.
+  bool is_by_explorer() const {
+    return planner == ExplorationPlanner::kRidgeway || planner == ExplorationPlanner::kFrontier;
+  }
   double clearance() const { return radius + (margin > 0.0 ? margin : voxel_size); }
   double free_radius() const;
   double min_range() const { return lidar ? lidar->min_range : sensor.min_range; }

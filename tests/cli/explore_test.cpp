@@ -84,6 +84,9 @@ TEST_F(CliExplore, RefusesBeforeTheFlight) {
   std::vector<std::string> hasty = words("1.3,1.3,1.2");
   hasty.insert(hasty.end(), {"--budget", "1"});
   expect_refused(hasty, {"budget"});
+  std::vector<std::string> greedy = words("1.3,1.3,1.2");
+  greedy.insert(greedy.end(), {"--budget", "20", "--planner", "nbvp"});
+  expect_refused(greedy, {"budget", "no other comes back"});
   std::vector<std::string> slow = words("1.3,1.3,1.2");
   slow.insert(slow.end(), {"--budget", "6", "--scan-rate", "0.1"});
   expect_refused(slow, {"budget", "between two images"});

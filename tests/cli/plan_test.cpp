@@ -285,6 +285,16 @@ TEST_F(CliPlan, KeepsFromWallsWhenAskedTo) {
   expect_refused(sampled, {"--prefer-clearance", "rrtstar"});
 }
 
+TEST_F(CliPlan, QualityIsOfShortenedPathsOfPlannersThatDoNotSample) {
+  std::vector<std::string> query = {"plan", rooms(),   "--from",    "-2,1.5,1",
+                                    "--to", "2,1.5,1", "--quality", "best"};
+  EXPECT_EQ(run(query).code, 0);
+  query.emplace_back("--raw");
+  expect_refused(query, {"--quality", "--raw"});
+  query.back() = "--planner=rrtstar";
+  expect_refused(query, {"--quality", "leave it out", "rrtstar"});
+}
+
 TEST_F(CliPlan, EscapesFromPlacesTooCloseToAWall) {
   const std::string map = rooms();  // the wall is 0.1 m off, the radius 0.3 m
   const std::vector<std::string> query = {"plan", map, "--from", "-2,1.9,1", "--to", "2,1.5,1"};

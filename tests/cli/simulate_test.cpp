@@ -53,6 +53,14 @@ TEST_F(CliSimulate, WorldsFromSeeds) {
   }
 }
 
+TEST_F(CliSimulate, ThereIsOneHouse) {
+  const std::vector<std::string> house = {"world", "house", "-o", path("house.yaml")};
+  EXPECT_EQ(run(house).code, 0);
+  std::vector<std::string> another = house;
+  another.insert(another.end(), {"--seed", "9"});
+  expect_refused(another, {"--seed", "one house"});
+}
+
 TEST_F(CliSimulate, RecordingToMapToRoadmap) {
   ASSERT_EQ(
       run({"simulate", house(), "-o", path("run"), "--frames", "60", "--volume", "1,1,1,14,9,4"})
