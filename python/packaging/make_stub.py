@@ -37,7 +37,7 @@ __version__: str
 PARAMETERS = {
     "start goal origin start_velocity start_acceleration": "_Point",
     "points path waypoints starts goals places transform T_world_camera T_world_sensor image states "
-    "voxels": "ArrayLike",
+    "voxels via": "ArrayLike",
     "bounds keep_in": "Optional[_Box]",
     "boxes keep_out exclude": "Iterable[_Box]",
     "voxel_size free_below occupied_above low high deepest step max_range range_sigma fx fy cx cy "

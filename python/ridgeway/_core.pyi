@@ -335,6 +335,7 @@ class Roadmap:
         flight_limits: Optional[FlightLimits] = ...,
         robot_height: float = ...,
         stop_and_go: bool = ...,
+        via: ArrayLike = ...,
         most_evaluations: int = ...,
     ) -> Trajectory: ...
     def draw(
@@ -365,6 +366,11 @@ class Roadmap:
         queries: int = ...,
         seed: int = ...,
         progress: _Progress = ...,
+        *,
+        limits: Optional[FlightLimits] = ...,
+        robot_height: float = ...,
+        quick: bool = ...,
+        within: float = ...,
     ) -> Dict[str, Any]: ...
     def __repr__(self) -> str: ...
 

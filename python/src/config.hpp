@@ -170,6 +170,7 @@ const Fields<GraphConfig>& graph_fields();
 const Fields<SimplifyConfig>& simplify_fields();
 const Fields<BuildConfig>& build_fields();
 const Fields<PlanConfig>& plan_fields();
+const Fields<CheckConfig>& check_fields();
 const Fields<TrajectoryConfig>& trajectory_fields();
 const Fields<FusionConfig>& fusion_fields();
 const Fields<LiveConfig>& live_fields();

@@ -56,6 +56,7 @@ struct PlanFace : PlanResult {
     PlanConfig config;
   };
   std::shared_ptr<const Question> question;
+  std::vector<Point> via = {};  // places between start and goal that it is to pass, world
 };
 
 /// The configuration as a roadmap keeps it, JSON text.

@@ -151,6 +151,16 @@ const Fields<PlanConfig>& plan_fields() {
   return fields;
 }
 
+const Fields<CheckConfig>& check_fields() {
+  static const Fields<CheckConfig> fields =
+      Fields<CheckConfig>()
+          .add("limits", &CheckConfig::limits, "FlightLimits of all flights, or None")
+          .add("robot_height", &CheckConfig::robot_height, "as in plan(), metres")
+          .add("quick", &CheckConfig::quick, "as in plan(), of the roadmap's answers")
+          .add("within", &CheckConfig::within, "as in plan(), of the roadmap's answers");
+  return fields;
+}
+
 const Fields<TrajectoryConfig>& trajectory_fields() {
   using Config = TrajectoryConfig;
   static const Fields<Config> fields =
@@ -168,6 +178,8 @@ const Fields<TrajectoryConfig>& trajectory_fields() {
           .add("flight_limits", &Config::flight_limits, "FlightLimits, or None")
           .add("robot_height", &Config::robot_height, "as in plan(), metres")
           .add("stop_and_go", &Config::stop_and_go, "straight from corner to corner")
+          .add("via", &Config::via,
+               "corners of the path that are passed as they are (N, 3), metres; others are rounded")
           .add("most_evaluations", &Config::most_evaluations,
                "of the cost, each time that a stretch is optimised");
   return fields;

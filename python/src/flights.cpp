@@ -40,7 +40,9 @@ FlightFace fly(const RoadmapFace& face, py::handle path, py::handle radius,
   FlightFace flight;
   const bool is_plan = py::isinstance<PlanFace>(path);
   if (is_plan) {
-    flight.path = static_cast<const PlanResult&>(path.cast<const PlanFace&>());
+    const auto& plan = path.cast<const PlanFace&>();
+    flight.path = static_cast<const PlanResult&>(plan);
+    config.via.insert(config.via.end(), plan.via.begin(), plan.via.end());
     if (!flight.path.ok())
       throw InputError("path", "is no path: " + std::string(name_of(flight.path.status)),
                        "give a plan that is ok");

@@ -189,7 +189,9 @@ py::tuple plan_over(const RoadmapFace& face, py::handle places, const py::kwargs
     via = plan_via(*face.roadmap, points, config);
   }
   const py::object leg = via.plan.ok() ? py::none() : py::cast(via.leg);
-  return py::make_tuple(py::cast(PlanFace{std::move(via.plan), nullptr}), leg);
+  return py::make_tuple(
+      py::cast(PlanFace{std::move(via.plan), nullptr, {points.begin() + 1, points.end() - 1}}),
+      leg);
 }
 
 Alternatives alternatives(const RoadmapFace& face, py::handle start, py::handle goal,
@@ -370,7 +372,7 @@ void add_queries(py::class_<RoadmapFace>& type) {
   type.def("plan_via", &plan_over, py::arg("places"),
            ("plan_via(self, places" + keywords +
             ")\n--\n\nA path over places (N, 3): a PlanResult, and the leg that has none, or "
-            "None.\n" +
+            "None. Its `trajectory` passes\nthem.\n" +
             docs)
                .c_str());
   type.def(

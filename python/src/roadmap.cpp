@@ -142,9 +142,18 @@ py::dict describe_point(const RoadmapFace& face, py::handle point) {
   return dict;
 }
 
+py::dict dict_of(const Spread& spread) {
+  py::dict dict;
+  dict["median"] = spread.median;
+  dict["p95"] = spread.p95;
+  dict["p99"] = spread.p99;
+  dict["max"] = spread.max;
+  return dict;
+}
+
 py::dict check(const RoadmapFace& face, py::handle queries, py::handle seed,
-               const py::object& progress) {
-  CheckConfig config;
+               const py::object& progress, const py::kwargs& keywords) {
+  CheckConfig config = check_fields().read_all(keywords);
   read(queries, "queries", config.queries);
   config.seed = static_cast<std::uint64_t>(whole_from(seed, "seed"));
   const CheckReport report = run_long(progress, 0, [&](const Progress& go_on) {
@@ -159,6 +168,8 @@ py::dict check(const RoadmapFace& face, py::handle queries, py::handle seed,
   dict["disagreements"] = report.disagreements;
   dict["paths_below_clearance"] = report.paths_below_clearance;
   dict["fallbacks"] = report.fallbacks;
+  dict["length_ratio"] = dict_of(report.length_ratio);
+  dict["microseconds"] = dict_of(report.microseconds);
   dict["clean"] = report.is_clean();
   return dict;
 }
@@ -262,9 +273,13 @@ void add_roadmap(py::module_& module) {
            "widest (place)\nand clearance (there, metres). Takes about as long as a build's half.")
       .def("check", &check, py::arg("queries") = 0, py::arg("seed") = 1,
            py::arg("progress") = py::none(),
-           "check(self, queries=0, seed=1, progress=None)\n--\n\n"
-           "Verifies every edge, and random queries against A* through the distance field: a dict "
-           "of counts;\n`clean` says that nothing was wrong.")
+           ("check(self, queries=0, seed=1, progress=None, *, " +
+            check_fields().signature().substr(2) +
+            ")\n--\n\nVerifies every edge, and random queries against A* through the distance "
+            "field: a dict of counts, of\nlengths over the shorter of both, and of the roadmap's "
+            "times; `clean` says that nothing was wrong.\n" +
+            check_fields().docs())
+               .c_str())
       .def("__repr__", &roadmap_repr);
 
   const std::string parameters =

@@ -304,6 +304,15 @@ def test_graphs_are_arrays_and_networkx(real, tmp_path):
 def test_a_roadmap_checks_itself(roadmap):
     report = roadmap.check(queries=20, seed=3)
     assert report["clean"] and report["queries"] == 20
+    assert 1.0 <= report["length_ratio"]["median"] <= report["length_ratio"]["max"] < 1.2
+    assert report == {**roadmap.check(queries=20, seed=3), "microseconds": report["microseconds"]}
+    low = ridgeway.FlightLimits(keep_in=((-100, -100, 0), (100, 100, 1.2)))
+    for options in ({"limits": low}, {"robot_height": 0.8}, {"quick": True}, {"within": 1.05}):
+        assert roadmap.check(queries=20, **options)["clean"]
+    with pytest.raises(ridgeway.InputError, match="robot_height"):
+        roadmap.check(queries=1, robot_height=0.1)
+    with pytest.raises(TypeError, match="robot_height"):
+        roadmap.check(robot_hight=1.0)
     assert len(roadmap.components()) == roadmap.report["traversable_components"]
 
 
@@ -320,6 +329,11 @@ def test_trajectories_hold_their_limits(roadmap, tmp_path):
     assert roadmap.trajectory(plan.waypoints).ok
     flight.save(tmp_path / "flight.csv")
     assert (tmp_path / "flight.csv").read_text().startswith("t,x,y,z")
+    via = (2.6, 2.2, 1.4)
+    for path, more in ((roadmap.plan_via([START, via, GOAL])[0], {}),
+                       (roadmap.plan_via([START, via, GOAL])[0].waypoints, {"via": [via]})):
+        passing = roadmap.trajectory(path, **more).sample(0.005).position
+        assert np.linalg.norm(passing - via, axis=1).min() < 0.01
     refused = roadmap.trajectory([START, (5.6, 0.8, 1.0)])
     assert not refused and refused.status == "path_not_free"
 

@@ -155,29 +155,36 @@ void check_edges(const Roadmap& roadmap, const Progress& progress, CheckReport& 
 }
 
 PlanConfig answers_of(const CheckConfig& config) {
-  return {.quick = config.quick, .within = config.within};
+  return {.quick = config.quick,
+          .within = config.within,
+          .limits = config.limits,
+          .robot_height = config.robot_height};
 }
 
 /// Answers the queries batch by batch into outcomes.
 void ask_all(const Roadmap& roadmap, const CheckConfig& config, const std::vector<Query>& queries,
              const Progress& progress, std::vector<Outcome>& outcomes) {
+  const PlanConfig own = answers_of(config);
+  PlanConfig esdf = own;
+  esdf.quick = false;
+  esdf.within = 0.0;
+  PlanConfig raw = esdf;
+  esdf.planner = Planner::kEsdf;
+  raw.shorten = false;
   const auto ask = [&](const Query& q, PlanConfig plan) {
     plan.radius = q.radius;
-    plan.limits = config.limits;
-    plan.robot_height = config.robot_height;
     return detail::plan_locally(roadmap, q.start, q.goal, plan);
   };
   for (std::size_t first = 0; first < queries.size(); first += kBatch) {
     report_progress(progress, first, queries.size());
     std::vector<Outcome> batch(std::min(kBatch, queries.size() - first));
     parallel_for_each_index(batch.size(), [&](std::size_t k) {
-      batch[k].roadmap = ask(queries[first + k], answers_of(config));
-      batch[k].raw = ask(queries[first + k], {.shorten = false});
+      batch[k].roadmap = ask(queries[first + k], own);
+      batch[k].raw = ask(queries[first + k], raw);
     });
     // Apart, so that its sweep through the map does not slow down the queries that are timed.
-    parallel_for_each_index(batch.size(), [&](std::size_t k) {
-      batch[k].esdf = ask(queries[first + k], {.planner = Planner::kEsdf});
-    });
+    parallel_for_each_index(batch.size(),
+                            [&](std::size_t k) { batch[k].esdf = ask(queries[first + k], esdf); });
     std::move(batch.begin(), batch.end(), std::back_inserter(outcomes));
   }
 }
@@ -194,6 +201,8 @@ void require_room_for_balls(const Roadmap& roadmap, const CheckConfig& config) {
 
 }  // namespace
 
+void CheckConfig::validate() const { answers_of(*this).validate(); }
+
 CheckReport check_roadmap(const Roadmap& roadmap, const CheckConfig& config,
                           const Progress& progress) {
   CheckReport report;
@@ -204,17 +213,19 @@ CheckReport check_roadmap(const Roadmap& roadmap, const CheckConfig& config,
 void check_roadmap(const Roadmap& roadmap, const CheckConfig& config, const Progress& progress,
                    CheckReport& report) {
   report = {};
-  detail::validate_robot_height(config.robot_height);
-  answers_of(config).validate();
+  config.validate();
   constexpr double kBytesPerQuery = 1000.0;  // with what was answered
   require_memory(static_cast<double>(config.queries) * kBytesPerQuery, "queries",
                  "ask for fewer at a time");
   require_room_for_balls(roadmap, config);
-  check_edges(roadmap, progress, report);
-  const std::vector<Query> queries = draw_queries(roadmap, config);
+  std::vector<Query> queries;
   std::vector<Outcome> outcomes;
   try {
-    ask_all(roadmap, config, queries, progress, outcomes);
+    with_progress(progress, "check", [&](const Progress& go_on) {
+      check_edges(roadmap, go_on, report);
+      queries = draw_queries(roadmap, config);
+      ask_all(roadmap, config, queries, go_on, outcomes);
+    });
   } catch (const Cancelled&) {
     summarise(roadmap, config, queries, outcomes, report);
     throw;

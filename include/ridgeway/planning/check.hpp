@@ -42,6 +42,9 @@ struct CheckConfig {
   /// As in PlanConfig, of the roadmap's answers; what A* finds is made as short as by default.
   bool quick = false;
   double within = 0.0;  ///< the same
+
+  /// Throws InputError naming the bad field.
+  void validate() const;
 };
 
 /// One query of a check and the path that the roadmap answered with, for independent checkers.
