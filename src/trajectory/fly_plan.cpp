@@ -36,8 +36,11 @@ class Flights {
  private:
   void append(const TrajectoryResult& leg, bool counts) {
     auto& segments = whole_.trajectory.segments;
-    whole_.stops += leg.stops + (segments.empty() ? 0 : 1);
-    segments.insert(segments.end(), leg.trajectory.segments.begin(), leg.trajectory.segments.end());
+    if (leg.duration > 0.0) {  // else both escapes end at one place
+      whole_.stops += leg.stops + (segments.empty() ? 0 : 1);
+      segments.insert(segments.end(), leg.trajectory.segments.begin(),
+                      leg.trajectory.segments.end());
+    }
     whole_.duration += leg.duration;
     whole_.stop_and_go_duration += leg.stop_and_go_duration;
     whole_.step = std::max(whole_.step, leg.step);

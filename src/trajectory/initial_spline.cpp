@@ -27,7 +27,7 @@ double corner_speed(const Point& before, const Point& corner, const Point& after
   return std::min(limits.max_speed, std::sqrt(limits.max_acceleration * radius));
 }
 
-std::vector<double> knot_speeds(const std::vector<Point>& knots, double start_speed,
+std::vector<double> knot_speeds(std::span<const Point> knots, double start_speed,
                                 const MotionLimits& limits) {
   std::vector<double> speeds(knots.size(), 0.0);
   for (std::size_t i = 1; i + 1 < knots.size(); ++i)
@@ -45,16 +45,29 @@ std::vector<double> knot_speeds(const std::vector<Point>& knots, double start_sp
 }
 
 /// Of a trapezoidal speed profile between two speeds.
-double profile_duration(double length, double from, double to, const MotionLimits& limits) {
+double profile_peak(double length, double from, double to, const MotionLimits& limits) {
   const double v = limits.max_speed, a = limits.max_acceleration;
-  const double peak =
-      std::max({std::min(std::sqrt(0.5 * (from * from + to * to) + a * length), v), from, to});
+  return std::max({std::min(std::sqrt(0.5 * (from * from + to * to) + a * length), v), from, to});
+}
+double profile_duration(double length, double from, double to, const MotionLimits& limits) {
+  const double a = limits.max_acceleration, peak = profile_peak(length, from, to, limits);
   const double changing = (2.0 * peak * peak - from * from - to * to) / (2.0 * a);
   const double cruise = std::max(length - changing, 0.0) / peak;
   return (2.0 * peak - from - to) / a + cruise;
 }
 
 }  // namespace
+
+MotionLimits limits_along(std::span<const Point> path, double start_speed,
+                          const MotionLimits& limits) {
+  const std::vector<double> speeds = knot_speeds(path, start_speed, limits);
+  MotionLimits along = limits;
+  along.max_speed = start_speed;
+  for (std::size_t i = 1; i < path.size(); ++i)
+    along.max_speed = std::max(along.max_speed, profile_peak((path[i] - path[i - 1]).norm(),
+                                                             speeds[i - 1], speeds[i], limits));
+  return along;
+}
 
 std::vector<Point> place_knots(std::span<const Point> path, double spacing,
                                std::span<const Point> kept) {

@@ -16,6 +16,12 @@ struct StartState {
   bool is_rest() const { return velocity.isZero(0.0) && acceleration.isZero(0.0); }
 };
 
+/// The limits with no more speed than is reached along a path of straight segments (at least two
+/// points, no two after one another the same) that is slowed down for at its corners: how far apart
+/// knots are to be, and what is fast, follows from that.
+MotionLimits limits_along(std::span<const Point> path, double start_speed,
+                          const MotionLimits& limits);
+
 /// Knots along a path of straight segments (at least two points, no two after one another the
 /// same): at its ends, its corners and in between, no farther apart than `spacing`. Corners closer
 /// than a quarter of that to a knot are passed over, but for those among `kept`.

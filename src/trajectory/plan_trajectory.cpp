@@ -49,6 +49,32 @@ bool is_free(const FreeSpace& space, const std::vector<Point>& path, double radi
   return true;
 }
 
+/// Without points that are no corners, as they lie on the straight way on, but for those to keep.
+std::vector<Point> corners_of(std::span<const Point> path, double radius,
+                              std::span<const Point> kept) {
+  constexpr double kStraight = 1e-6;  // radii
+  std::vector<Point> corners;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (i > 0 && i + 1 < path.size() &&
+        std::find(kept.begin(), kept.end(), path[i]) == kept.end()) {
+      const Point in = path[i] - corners.back(), whole = path[i + 1] - corners.back();
+      const double along = in.dot(whole), length = whole.norm();
+      const bool is_on = along > 0.0 && along < length * length;
+      if (is_on && in.cross(whole).norm() <= kStraight * radius * length) continue;
+    }
+    corners.push_back(path[i]);
+  }
+  return corners;
+}
+
+/// The corners of a free path; where the way is straight all along the ends alone.
+std::vector<Point> corners_to_fly(const FreeSpace& space, const std::vector<Point>& path,
+                                  const TrajectoryConfig& config) {
+  std::vector<Point> corners = corners_of(path, config.radius, {});
+  if (corners.size() > 2) corners = corners_of(path, config.radius, config.via);
+  return is_free(space, corners, config.radius) ? corners : path;
+}
+
 TrajectorySegment standing_at(const Point& p) {
   TrajectorySegment segment;
   segment.coefficients.col(0).head<3>() = p;
@@ -92,12 +118,15 @@ std::string_view name_of(TrajectoryStep step) {
 }
 
 void MotionLimits::validate() const {
-  const char* const remedy = "give a limit above 0";
-  const auto is_finite_limit = [](double limit) { return limit > 0.0 && std::isfinite(limit); };
-  detail::require(is_finite_limit(max_speed), "max_speed", max_speed, remedy);
-  detail::require(is_finite_limit(max_acceleration), "max_acceleration", max_acceleration, remedy);
-  detail::require(max_jerk > 0.0, "max_jerk", max_jerk, remedy);
-  detail::require(max_yaw_rate > 0.0, "max_yaw_rate", max_yaw_rate, remedy);
+  constexpr double kLeast = 1e-9, kMost = 1e9;  // beyond, products of them are 0 or infinite
+  const auto require_limit = [](double limit, const char* name, bool may_be_endless) {
+    detail::require(limit >= kLeast && (may_be_endless || limit <= kMost), name, limit,
+                    may_be_endless ? "give 1e-9 or more" : "give 1e-9 to 1e9");
+  };
+  require_limit(max_speed, "max_speed", false);
+  require_limit(max_acceleration, "max_acceleration", false);
+  require_limit(max_jerk, "max_jerk", true);
+  require_limit(max_yaw_rate, "max_yaw_rate", true);
 }
 
 void TrajectoryConfig::validate() const {
@@ -133,7 +162,7 @@ TrajectoryResult fly_locally(const EsdfMap& esdf, std::span<const Point> path,
     throw InputError("radius " + number_text(config.radius),
                      "is beyond the distances that the map holds",
                      "build the map with a larger max_distance, or without one");
-  const std::vector<Point> points = distinct_points(path);
+  std::vector<Point> points = distinct_points(path);
   const double began = detail::seconds_now();
   TrajectoryResult result;
   const auto finish = [&](TrajectoryStatus status) {
@@ -145,6 +174,7 @@ TrajectoryResult fly_locally(const EsdfMap& esdf, std::span<const Point> path,
   const FlightLimits limits = both_of(esdf.limits, limits_in_local(esdf, config.flight_limits));
   const FreeSpace space(esdf, limits, config.radius, config.robot_height);
   if (!is_free(space, points, config.radius)) return finish(TrajectoryStatus::kPathNotFree);
+  if (!config.stop_and_go) points = corners_to_fly(space, points, config);
 
   const StartState start{config.start_velocity, config.start_acceleration};
   SmoothPath smooth(space, config, result);
@@ -197,9 +227,10 @@ Trajectory plain_spline(std::span<const Point> path, const TrajectoryConfig& con
   config.validate();
   const std::vector<Point> points = distinct_points(path);
   if (points.size() == 1) return {{standing_at(points.front())}};
+  const MotionLimits along = detail::limits_along(points, 0.0, config.limits);
   SpaceSpline spline = detail::initial_spline(
-      detail::place_knots(points, detail::knot_spacing(config), config.via), {},
-      {.smoothness = config.smoothness, .limits = config.limits}, config.via);
+      detail::place_knots(points, detail::knot_spacing(points, along, config.radius), config.via),
+      {}, {.smoothness = config.smoothness, .limits = along}, config.via);
   MinimumSpline(config.smoothness, spline.durations, spline.fixed).solve(spline.derivatives);
   Trajectory trajectory = spline.trajectory(config.smoothness);
   detail::scale_to_limits(trajectory, config.limits);

@@ -21,9 +21,11 @@ namespace {
 
 constexpr double kSpacing = 0.75;            // of v^2 / a: between knots, at most
 constexpr double kLeastSpacing = 2.0;        // radii
+constexpr double kMostPieces = 2000.0;       // of a path, as long ones of tiny robots are cut off
 constexpr double kMarginOfRadius = 1.0 / 3;  // in which the collision cost pushes,
 constexpr double kLeastMargin = 2.0;         // at least voxels
 
+constexpr double kSlower = 0.6;  // of the speed that may be reached: where no try at that holds
 constexpr double kSlow = 1.25;  // times the likely duration: a trajectory that is worth another try
 constexpr int kMostTries = 3;   // at a quicker one
 
@@ -72,10 +74,9 @@ std::vector<std::size_t> nearest_corners(std::span<const Point> path,
 
 }  // namespace
 
-double knot_spacing(const TrajectoryConfig& config) {
-  const MotionLimits& limits = config.limits;
-  return std::max(kSpacing * limits.max_speed * limits.max_speed / limits.max_acceleration,
-                  kLeastSpacing * config.radius);
+double knot_spacing(std::span<const Point> path, const MotionLimits& limits, double radius) {
+  return std::max({kSpacing * limits.max_speed * limits.max_speed / limits.max_acceleration,
+                   kLeastSpacing * radius, length_of(path) / kMostPieces});
 }
 
 SmoothPath::SmoothPath(const FreeSpace& space, const TrajectoryConfig& config,
@@ -124,7 +125,12 @@ std::optional<Trajectory> SmoothPath::smooth_or_stop(std::span<const Point> path
                                                      const StartState& start) {
   const Trajectory halting = stop_and_go(path);
   if (start.is_rest() && path.size() == 2) return halting;  // straight is smooth
-  Attempt attempt = smooth(path, start);
+  Attempt attempt = smooth(path, start, 1.0);
+  if (!attempt.holds()) {
+    Attempt slower = smooth(path, start, kSlower);
+    const bool is_quicker = !start.is_rest() || slower.trajectory.duration() <= halting.duration();
+    if (slower.holds() && is_quicker) attempt = std::move(slower);
+  }
   if (attempt.holds()) {
     if (!start.is_rest() || attempt.trajectory.duration() <= halting.duration())
       return std::move(attempt.trajectory);
@@ -149,13 +155,25 @@ std::optional<Trajectory> SmoothPath::smooth_or_stop(std::span<const Point> path
   return whole;
 }
 
-/// Tries at a trajectory without stops; the last of them where none holds.
-SmoothPath::Attempt SmoothPath::smooth(std::span<const Point> path, const StartState& start) {
-  const double spacing = knot_spacing(config_);
+SplineCostConfig SmoothPath::cost_along(std::span<const Point> path, const StartState& start,
+                                        double share) const {
+  SplineCostConfig cost = cost_;
+  const double start_speed = start.velocity.norm();
+  cost.limits = limits_along(path, start_speed, config_.limits);
+  cost.limits.max_speed = std::max(share * cost.limits.max_speed, start_speed);
+  return cost;
+}
+
+/// Tries at a trajectory without stops, at a share of the speed that may be reached; the last of
+/// them where none holds.
+SmoothPath::Attempt SmoothPath::smooth(std::span<const Point> path, const StartState& start,
+                                       double share) {
+  const SplineCostConfig along = cost_along(path, start, share);
+  const double spacing = knot_spacing(path, along.limits, config_.radius);
   SpaceSpline spline;
   Attempt attempt;
   for (const Try& t : kTries) {
-    SplineCostConfig cost = cost_;
+    SplineCostConfig cost = along;
     cost.collision_weight *= t.push;
     if (t.anew) {
       std::vector<Point> knots = place_knots(path, t.spacing * spacing, config_.via);
@@ -185,8 +203,10 @@ void SmoothPath::quicken(std::span<const Point> path, const StartState& start,
 /// Whether a trajectory from a motion takes far longer than speeds at the corners make likely.
 bool SmoothPath::is_slow(const Trajectory& trajectory, std::span<const Point> path,
                          const StartState& start) const {
-  const SpaceSpline likely = initial_spline(place_knots(path, knot_spacing(config_), config_.via),
-                                            start, cost_, config_.via);
+  const SplineCostConfig along = cost_along(path, start, 1.0);
+  const double spacing = knot_spacing(path, along.limits, config_.radius);
+  const SpaceSpline likely =
+      initial_spline(place_knots(path, spacing, config_.via), start, along, config_.via);
   const double seconds = std::accumulate(likely.durations.begin(), likely.durations.end(), 0.0);
   return trajectory.duration() > kSlow * seconds;
 }

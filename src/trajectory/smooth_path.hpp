@@ -12,8 +12,8 @@
 
 namespace ridgeway::detail {
 
-/// Metres between the knots of the first try, at most.
-double knot_spacing(const TrajectoryConfig& config);
+/// Metres between the knots of the first try along a path, at most.
+double knot_spacing(std::span<const Point> path, const MotionLimits& limits, double radius);
 
 /// The steps from a free path to a trajectory (without yaw) that holds; reports what it took into
 /// the result as it goes.
@@ -39,7 +39,9 @@ class SmoothPath {
   };
 
   std::optional<Trajectory> smooth_or_stop(std::span<const Point> path, const StartState& start);
-  Attempt smooth(std::span<const Point> path, const StartState& start);
+  SplineCostConfig cost_along(std::span<const Point> path, const StartState& start,
+                              double share) const;
+  Attempt smooth(std::span<const Point> path, const StartState& start, double share);
   Attempt optimise(SpaceSpline& spline, const SplineCostConfig& cost);
   void quicken(std::span<const Point> path, const StartState& start, const SplineCostConfig& cost,
                SpaceSpline& spline, Attempt& attempt);

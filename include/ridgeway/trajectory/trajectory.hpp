@@ -77,7 +77,7 @@ struct MotionLimits {
   double max_jerk = std::numeric_limits<double>::infinity();  ///< m/s^3
   double max_yaw_rate = 0.5 * std::numbers::pi;               ///< rad/s
 
-  /// Throws InputError naming the field that is not above 0 (only the last two may be infinite).
+  /// Throws InputError naming the field that is not from 1e-9 to 1e9; the last two may be more.
   void validate() const;
 
   /// Whether a motion with such peaks keeps every limit.

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "trajectory/pillar_room.hpp"
+
+namespace ridgeway {
+namespace {
+
+using testing::esdf;
+using testing::expect_flown;
+
+TEST(PlanTrajectory, StartsFromAMotion) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> part(-1.0, 1.0);
+  int braked = 0;
+  for (int i = 0; i < 40; ++i) {
+    SCOPED_TRACE(i);
+    TrajectoryConfig config;
+    config.start_velocity = 1.8 * Point(part(random), part(random), 0.3 * part(random)) / 1.5;
+    config.start_acceleration = Point(part(random), part(random), 0.0);
+    const std::vector<Point> path{{4, 6, 2}, {7, 6.5, 2}, {8, 12, 1}};
+    const TrajectoryResult result = plan_trajectory(esdf(), path, config);
+    expect_flown(result, path, config);
+    const TrajectoryState start = result.trajectory.at(0.0);
+    EXPECT_LE((start.velocity - config.start_velocity).norm(), 1e-9);
+    EXPECT_LE((start.acceleration - config.start_acceleration).norm(), 1e-9);
+    braked += result.braked;
+  }
+  EXPECT_LT(braked, 10);
+}
+
+/// Stretching every piece of a long way for one that is beyond the limits would have the robot
+/// crawl all along.
+TEST(PlanTrajectory, DoesNotCrawlFromAMotion) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> part(-1.0, 1.0);
+  const std::vector<Point> path{{4, 6, 2},   {7, 6.5, 2}, {8, 12, 1}, {12, 17, 2},
+                                {16, 16, 2}, {17, 10, 2}, {14, 4, 2}, {17, 2, 1}};
+  TrajectoryConfig config;
+  config.most_evaluations = 30;
+  const double from_rest = plan_trajectory(esdf(), path, config).duration;
+  double slowest = 0.0;
+  for (int i = 0; i < 60; ++i) {
+    SCOPED_TRACE(i);
+    const double yaw = 3.14 * part(random);
+    config.start_velocity = (1.6 + 0.38 * part(random)) * Point(std::cos(yaw), std::sin(yaw), 0.0);
+    const TrajectoryResult result = plan_trajectory(esdf(), path, config);
+    expect_flown(result, path, config);
+    slowest = std::max(slowest, result.duration / from_rest);
+  }
+  EXPECT_LT(slowest, 1.3);
+}
+
+TEST(PlanTrajectory, BrakesWhereItCannotFollowAndSaysWhereItCannotStop) {
+  TrajectoryConfig config;
+  config.start_velocity = {2.0, 0.0, 0.0};
+  config.stop_and_go = true;  // straight legs cannot be joined in motion
+  const std::vector<Point> away{{3, 6, 2}, {3, 9, 2}};
+  const TrajectoryResult result = plan_trajectory(esdf(), away, config);
+  expect_flown(result, away, config);
+  const std::vector<Point> at_the_wall{{19.3, 6, 2}, {19.3, 9, 2}};
+  const TrajectoryResult too_late = plan_trajectory(esdf(), at_the_wall, config);
+  EXPECT_EQ(too_late.status, TrajectoryStatus::kCannotStopInTime);
+  EXPECT_TRUE(too_late.trajectory.segments.empty());
+}
+
+}  // namespace
+}  // namespace ridgeway
