@@ -123,6 +123,8 @@ void draw_raster(Canvas& canvas, const FloorRaster& raster, const MapFrame& fram
   cairo_restore(cairo);
 }
 
+namespace {
+
 /// One stroke for each of 24 colours: small and fast in SVG too.
 void draw_diagram(Canvas& canvas, const MapMarks& marks, double voxel_size, const MapFrame& frame) {
   constexpr std::size_t kColours = kComponentColours;
@@ -183,6 +185,19 @@ void draw_graph(Canvas& canvas, const Roadmap& roadmap, const MapMarks& marks,
   for (const Point& p : places)
     if (frame.shows(p)) add_dot(canvas, frame.x(p), frame.y(p));
   stroke(ink::kGraph, dot, 1.0);
+}
+
+}  // namespace
+
+void draw_skeleton(Canvas& canvas, const Roadmap& roadmap, const MapMarks& marks, bool graph,
+                   const MapFrame& frame) {
+  cairo_t* cairo = canvas.cairo();
+  cairo_save(cairo);
+  cairo_rectangle(cairo, frame.left, frame.top, frame.width, frame.height);
+  cairo_clip(cairo);
+  draw_diagram(canvas, marks, roadmap.esdf.voxel_size, frame);
+  if (graph) draw_graph(canvas, roadmap, marks, frame);
+  cairo_restore(cairo);
 }
 
 void draw_limits(Canvas& canvas, const FlightLimits& limits, const MapFrame& frame) {

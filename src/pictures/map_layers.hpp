@@ -40,10 +40,10 @@ MapMarks marks_of(const Roadmap& roadmap, const PictureConfig& config);
 /// Free space, walls and unknown space.
 void draw_raster(Canvas& canvas, const FloorRaster& raster, const MapFrame& frame);
 
-void draw_diagram(Canvas& canvas, const MapMarks& marks, double voxel_size, const MapFrame& frame);
-
-void draw_graph(Canvas& canvas, const Roadmap& roadmap, const MapMarks& marks,
-                const MapFrame& frame);
+/// The diagram and, if asked for, the graph, as far as they lie within the frame: where unknown
+/// space is free they go on beyond what is known.
+void draw_skeleton(Canvas& canvas, const Roadmap& roadmap, const MapMarks& marks, bool graph,
+                   const MapFrame& frame);
 
 /// Boxes that nobody may fly through, and the border of the one that flights stay in.
 void draw_limits(Canvas& canvas, const FlightLimits& limits, const MapFrame& frame);

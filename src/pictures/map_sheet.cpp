@@ -48,8 +48,7 @@ void draw_map_sheet(std::span<const SheetMap> maps, int columns, const std::stri
     frame.unit = 0.7 * u;
     draw_raster(canvas, rasters[i], frame);
     const MapMarks marks = marks_of(roadmap, config);
-    draw_diagram(canvas, marks, s, frame);
-    if (config.graph) draw_graph(canvas, roadmap, marks, frame);
+    draw_skeleton(canvas, roadmap, marks, config.graph, frame);
     canvas.set_colour(ink::kText);
     canvas.set_font(17.0 * u);
     canvas.draw_text(frame.left, frame.top - 10.0 * u, canvas.fitted(maps[i].caption, cell));

@@ -228,8 +228,7 @@ void draw_floor_plan(const Roadmap& roadmap, std::span<const Point> path,
     const MapFrame& frame = panel.frame;
     draw_raster(canvas, panel.raster, frame);
     draw_limits(canvas, marks.limits, frame);
-    draw_diagram(canvas, marks, voxel_size, frame);
-    if (config.graph) draw_graph(canvas, roadmap, marks, frame);
+    draw_skeleton(canvas, roadmap, marks, config.graph, frame);
     draw_border(canvas, frame);
     draw_paths(canvas, layers, frame);
     draw_narrow_places(canvas, marks, frame);

@@ -324,6 +324,24 @@ TEST(Picture, BoxesWithoutFlightsAreNoWalls) {
   EXPECT_LT(draw(roadmap, {}, config, kMagenta).pixels, plan.pixels * 3 / 2);  // not in the lower
 }
 
+/// As where unknown space is free: the legend's pixels are left.
+TEST(Picture, NothingOfTheGraphIsBeyondTheFrame) {
+  const TemporaryFolder folder;
+  Roadmap roadmap = synthetic_roadmap();
+  roadmap.graph.edges.clear();
+  roadmap.graph.vertices.resize(1);
+  const Point inside = roadmap.graph.vertices[0].position;
+  const auto pixels_with = [&](const Point& place) {
+    roadmap.graph.vertices[0].position = place;
+    draw_floor_plan(roadmap, {}, folder / "plan.png");
+    return count_pixels(open_png(folder / "plan.png").get(), 0x295c94);
+  };
+  const std::size_t legend = pixels_with(Point(1000.0, 1000.0, inside.z()));
+  EXPECT_GT(pixels_with(inside), legend);
+  const double beside = 0.1 * -13 - 0.2;  // metres, of the map's first voxel
+  EXPECT_EQ(pixels_with(Point(beside, inside.y(), inside.z())), legend);
+}
+
 TEST(Picture, BadRequestsAreRefused) {
   const TemporaryFolder folder;
   const Roadmap roadmap = synthetic_roadmap();
