@@ -7,8 +7,10 @@
 #include <limits>
 
 #include "memory_limit.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
+#include "touched_voxels.hpp"
 
 namespace ridgeway {
 namespace {
@@ -31,19 +33,15 @@ class Cube {
     const Vector gap = away(cylinder.centre, {0.0, 0.0, 0.5 * cylinder.height});
     return gap.z() == 0.0 && gap.head<2>().norm() <= cylinder.radius;
   }
-  bool touches(const PlacedMesh& placed) const {
-    const Point p = placed.T_world_mesh.inverse() * centre_ / placed.scale;
-    return placed.mesh->distance(p).distance * placed.scale <= std::sqrt(3.0) * half_;
-  }
-
   template <typename Solids>
   bool touches_any(const Solids& solids) const {
     return std::any_of(solids.begin(), solids.end(),
                        [&](const auto& solid) { return touches(solid); });
   }
-  bool touches(const World& world) const {
+  /// All but the meshes.
+  bool touches_solids(const World& world) const {
     return touches_any(world.planes) || touches_any(world.boxes) || touches_any(world.spheres) ||
-           touches_any(world.cylinders) || touches_any(world.meshes);
+           touches_any(world.cylinders);
   }
 
  private:
@@ -79,6 +77,71 @@ Box box_of_solids(const World& world) {
     include(moved.min(), moved.max(), box);
   }
   return box;
+}
+
+/// The triangles of a mesh in voxels from `origin`.
+VoxelTriangles in_voxels(const PlacedMesh& placed, const OccupancyMap& map,
+                         const std::string& name) {
+  constexpr double kFarthest = 4e9;  // voxels
+  const TriangleTree& tree = placed.mesh->tree();
+  VoxelTriangles local;
+  local.triangles.assign(tree.triangles().begin(), tree.triangles().end());
+  const Point origin(map.origin.x, map.origin.y, map.origin.z);
+  double farthest = 0.0;
+  for (const Point& vertex : tree.vertices()) {
+    const Point v = placed.T_world_mesh * (placed.scale * vertex) / map.voxel_size;
+    farthest = std::max({farthest, v.cwiseAbs().maxCoeff(), origin.cwiseAbs().maxCoeff()});
+    local.vertices.push_back(v - origin);
+  }
+  if (!(farthest <= kFarthest))
+    throw InputError(name, "has a mesh that reaches farther than 4e9 voxels from zero",
+                     "check its scale, or give a larger voxel_size");
+  local.slack = 32.0 * std::numeric_limits<double>::epsilon() * farthest;
+  return local;
+}
+
+/// Which voxels of a block lie within a closed mesh, of those that its surface does not touch:
+/// neighbours of them are on the same side.
+VoxelMask::Block inside_of(const PlacedMesh& placed, const OccupancyMap& map, std::uint32_t slot,
+                           const VoxelMask::Block& surface) {
+  const Eigen::Isometry3d T_mesh_world = placed.T_world_mesh.inverse();
+  const auto is_inside = [&](VoxelId id) {
+    const Point centre = to_world(map, centre_of(map.layout.index_of(id), map.voxel_size));
+    return placed.mesh->distance(T_mesh_world * centre / placed.scale).distance < 0.0;
+  };
+  const VoxelId first = slot * kBlockVoxels;
+  VoxelMask::Block inside{};
+  if (std::all_of(surface.begin(), surface.end(), [](std::uint64_t z) { return z == 0; })) {
+    if (is_inside(first)) inside.fill(~std::uint64_t{0});
+    return inside;
+  }
+  bool is_known = false, last = false;
+  for (VoxelId local = 0; local < kBlockVoxels; ++local) {
+    const std::uint64_t bit = std::uint64_t{1} << (local & 63);
+    const bool is_surface = (surface[local >> 6] & bit) != 0;
+    is_known &= !is_surface && local % kBlockSide != 0;
+    if (is_surface) continue;
+    if (!is_known) last = is_inside(first + local);
+    is_known = true;
+    if (last) inside[local >> 6] |= bit;
+  }
+  return inside;
+}
+
+/// Adds the voxels that a mesh touches or encloses. The map's voxels begin at its origin.
+void add_mesh(const PlacedMesh& placed, const OccupancyMap& map, const VoxelIndex& size,
+              const std::string& name, VoxelMask& solid) {
+  const BlockMasks touched = touched_voxels(in_voxels(placed, map, name), size, name);
+  VoxelMask surface(map.layout);
+  for (std::size_t i = 0; i < touched.blocks.size(); ++i)
+    surface.block(map.layout.find_block(touched.blocks[i])) = touched.voxels[i];
+  parallel_for_each_index(map.layout.block_count(), [&](std::size_t i) {
+    const auto slot = static_cast<std::uint32_t>(i);
+    const VoxelMask::Block& own = surface.block(slot);
+    const VoxelMask::Block inside =
+        placed.mesh->is_closed() ? inside_of(placed, map, slot, own) : VoxelMask::Block{};
+    for (std::size_t z = 0; z < kBlockSide; ++z) solid.block(slot)[z] |= own[z] | inside[z];
+  });
 }
 
 }  // namespace
@@ -118,6 +181,9 @@ OccupancyMap touched_by(const World& world, double voxel_size, const Box& bounds
       for (int x = 0; x <= last.x; ++x) blocks.push_back({x, y, z});
   map.layout = BlockLayout(std::move(blocks));
   map.state = VoxelField<VoxelState>(map.layout);
+  VoxelMask meshes(map.layout);
+  for (const PlacedMesh& placed : world.meshes)
+    add_mesh(placed, map, range.max - range.min + VoxelIndex{1, 1, 1}, name, meshes);
   parallel_for_each_index(map.layout.block_count(), [&](std::size_t slot) {
     const auto first = static_cast<VoxelId>(slot * kBlockVoxels);
     // Where nothing touches the block as a whole, nothing touches its voxels.
@@ -125,13 +191,14 @@ OccupancyMap touched_by(const World& world, double voxel_size, const Box& bounds
     const double side = kBlockSide * voxel_size;
     const Point middle =
         Point(corner.x, corner.y, corner.z) * voxel_size + Vector::Constant(0.5 * side);
-    const bool is_empty = !Cube(middle, side).touches(world);
+    const bool is_empty = !Cube(middle, side).touches_solids(world);
     for (VoxelId id = first; id < first + kBlockVoxels; ++id) {
       const VoxelIndex voxel = map.origin + map.layout.index_of(id);
       if (!range.contains(voxel)) continue;
-      const bool is_free =
-          is_empty || !Cube(centre_of(voxel, voxel_size), voxel_size).touches(world);
-      map.state[id] = is_free ? VoxelState::kFree : VoxelState::kOccupied;
+      const bool is_solid =
+          meshes.test(id) ||
+          (!is_empty && Cube(centre_of(voxel, voxel_size), voxel_size).touches_solids(world));
+      map.state[id] = is_solid ? VoxelState::kOccupied : VoxelState::kFree;
     }
   });
   return map;

@@ -15,9 +15,9 @@ namespace ridgeway {
 std::optional<Box> extent_of(const World& world);
 
 /// A world as a map that loses no obstacle, as occupancy_of(world, ...) with its centres of voxels
-/// does: voxels whose closed cube shares a point with a solid are occupied; with a mesh, those that
-/// come near it by half a voxel's diagonal. The others are free; known in `bounds` (finite) and a
-/// voxel around. Throws InputError, naming `name`, where memory would not do.
+/// does: voxels whose closed cube shares a point with a solid are occupied, or with the surface or
+/// the inside of a mesh. The others are free; known in `bounds` (finite) and a voxel around. Throws
+/// InputError, naming `name`, where memory would not do, or a mesh is 4e9 voxels from zero.
 OccupancyMap touched_by(const World& world, double voxel_size, const Box& bounds,
                         const std::string& name);
 

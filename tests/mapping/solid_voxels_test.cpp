@@ -65,6 +65,56 @@ TEST(SolidVoxels, NoWayBetweenFreeVoxelsLeadsThroughAMeshOfThinWalls) {
   }
 }
 
+/// Whether a cube shares a point with a segment, to rounding.
+bool touches(const Point& centre, double side, const Point& a, const Point& b) {
+  double first = 0.0, last = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double from = a[axis] - centre[axis], way = b[axis] - a[axis];
+    const double low = (-0.5 * side - from) / way, high = (0.5 * side - from) / way;
+    first = std::max(first, std::min(low, high));
+    last = std::min(last, std::max(low, high));
+  }
+  return first <= last;
+}
+
+/// A tetrahedron that is turned and scaled: what its surface cuts is known by its edges, and by
+/// edges of voxels, which meet it.
+TEST(SolidVoxels, AMeshTakesTheVoxelsThatItTouchesOrEncloses) {
+  const std::vector<Point> corners = {{0, 0, 0}, {1, 0.1, 0.2}, {0.2, 1.1, 0.1}, {0.3, 0.2, 1.2}};
+  const std::vector<Triangle> triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  World world;
+  Eigen::Isometry3d placed(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, -2.0, 0.5).normalized()));
+  placed.translation() = Point(0.4, -0.3, 0.2);
+  world.meshes.push_back({std::make_shared<SolidMesh>(corners, triangles), 2.0, placed, ""});
+  ASSERT_TRUE(world.meshes[0].mesh->is_closed());
+  const double s = 0.11;
+  const OccupancyMap map = touched_by(world, s, *extent_of(world), "world");
+  std::size_t enclosed = 0, touched = 0;
+  for (VoxelId id = 0; id < map.layout.voxel_count(); ++id) {
+    if (map.state[id] == VoxelState::kUnknown) continue;
+    const Point centre = to_world(map, centre_of(map.layout.index_of(id), s));
+    bool expected = surface_distance(world, centre).distance <= 0.5 * s;  // inside, or in its ball
+    enclosed += expected;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double u : {-0.5 * s, 0.5 * s})
+        for (const double v : {-0.5 * s, 0.5 * s}) {
+          Point from = centre;
+          from[axis] -= 0.5 * s;
+          from[(axis + 1) % 3] += u;
+          from[(axis + 2) % 3] += v;
+          expected |= cast_ray(world, from, Eigen::Vector3d::Unit(axis)) <= s;
+        }
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < i; ++j)
+        expected |= touches(centre, s, placed * (2.0 * corners[static_cast<std::size_t>(i)]),
+                            placed * (2.0 * corners[static_cast<std::size_t>(j)]));
+    touched += expected;
+    ASSERT_EQ(map.state[id] == VoxelState::kOccupied, expected) << centre.transpose();
+  }
+  EXPECT_GT(enclosed, 300u);
+  EXPECT_GT(touched, enclosed + 100);
+}
+
 TEST(SolidVoxels, AWorldWithoutAnEndHasNoExtent) {
   World world;
   EXPECT_FALSE(extent_of(world));

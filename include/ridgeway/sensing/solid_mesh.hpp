@@ -89,6 +89,7 @@ class SolidMesh {
   std::size_t triangle_count() const { return tree_.triangles().size(); }
   const Point& low() const { return tree_.low(); }    ///< of the box around it
   const Point& high() const { return tree_.high(); }  ///< of the box around it
+  const TriangleTree& tree() const { return tree_; }  ///< of all triangles that are left
 
   /// Exact distance to the triangles: of a closed mesh negative inside, else never.
   SurfaceDistance distance(const Point& p) const;
