@@ -9,6 +9,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
+#include <string>
+#include <string_view>
 
 #include "interruption.hpp"
 #include "json.hpp"
@@ -165,6 +168,11 @@ Progress ProgressBar::callback() {
 }
 
 std::uint64_t peak_memory_bytes() {
+  // What getrusage tells is not less than what the program that started this one had.
+  constexpr std::string_view kPeak = "VmHWM:";
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with(kPeak)) return std::stoull(line.substr(kPeak.size())) * 1024;
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB

@@ -72,6 +72,7 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
+/// Resident, of this program.
 std::uint64_t peak_memory_bytes();
 
 }  // namespace ridgeway::cli

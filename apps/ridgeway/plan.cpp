@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@
 #include "plan_several.hpp"
 #include "query_file.hpp"
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/common/parallel.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
 #include "ridgeway/sampling/plan_by_sampling.hpp"
 #include "roadmap_facts.hpp"
@@ -28,6 +30,8 @@ namespace ridgeway::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kBatch = 64;  // queries that are planned before their answers are printed
 
 SamplingConfig sampling_config(const PlanOptions& options, double radius) {
   SamplingConfig config = options.sampling;
@@ -84,12 +88,27 @@ Answer plan_repeatedly(const Roadmap& roadmap, const Query& query, const PlanOpt
   return answer;
 }
 
+/// One by one where times are to be compared, or a sampler has all threads to itself.
+std::vector<Answer> answer_all(const Roadmap& roadmap, std::span<const Query> queries,
+                               const PlanOptions& options) {
+  std::vector<Answer> answers(queries.size());
+  const auto answer = [&](std::size_t i) {
+    stop_if_interrupted();
+    answers[i] = plan_repeatedly(roadmap, queries[i], options);
+  };
+  if (options.repeat == 1 && !is_sampling(options.chosen()))
+    parallel_for_each_index(queries.size(), answer);
+  else
+    for (std::size_t i = 0; i < queries.size(); ++i) answer(i);
+  return answers;
+}
+
 int run_one(const PlanOptions& options, const Roadmap& roadmap, const Globals& globals) {
   const Query query = {*options.from, options.to[0],
                        options.radius.value_or(roadmap.min_clearance)};
   const Answer answer = plan_repeatedly(roadmap, query, options);
   const PlanResult& result = answer.plan;
-  AnswerFacts facts(roadmap, options.escape, limits_of(options.limits), options.robot_height);
+  AnswerFacts facts(roadmap, plan_config(options, options.radius));
   const bool write = result.ok() && !options.output.empty();
   if (write)
     write_output(options, result, options.output);
@@ -111,18 +130,20 @@ int run_batch(const PlanOptions& options, const Roadmap& roadmap, const Globals&
   const std::vector<Query> queries =
       read_queries(options.queries, options.radius.value_or(roadmap.min_clearance),
                    largest_radius(roadmap.esdf));
-  AnswerFacts facts(roadmap, options.escape, limits_of(options.limits), options.robot_height);
+  AnswerFacts facts(roadmap, plan_config(options, options.radius));
   Json results = Json::array();
   std::size_t solved = 0;
-  for (const Query& query : queries) {
-    stop_if_interrupted();
-    const Answer answer = plan_repeatedly(roadmap, query, options);
-    const PlanResult& result = answer.plan;
-    solved += result.ok();
-    if (globals.json)
-      results.push_back(json_of(facts, answer, query));
-    else
-      print_line(result, facts.reason(as_planned(query, result), result.status));
+  for (std::size_t first = 0; first < queries.size(); first += kBatch) {
+    const auto batch = std::span(queries).subspan(first, std::min(kBatch, queries.size() - first));
+    const std::vector<Answer> answers = answer_all(roadmap, batch, options);
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      const PlanResult& result = answers[i].plan;
+      solved += result.ok();
+      if (globals.json)
+        results.push_back(json_of(facts, answers[i], batch[i]));
+      else
+        print_line(result, facts.reason(as_planned(batch[i], result), result.status));
+    }
   }
   if (globals.json)
     print_json({{"queries", queries.size()}, {"solved", solved}, {"results", results}});
@@ -242,8 +263,10 @@ void add_plan_command(Command& program) {
                  "Compass heading of the map's x axis, for missions, degrees (default: 90, so that "
                  "x is east and y north)");
   command
-      .path("--queries", options->queries,
-            "File of queries instead, a line each: x,y,z,x,y,z[,radius]")
+      .path(
+          "--queries", options->queries,
+          "File of queries instead, a line each: x,y,z,x,y,z[,radius]; on all threads: to compare "
+          "times give --threads 1")
       .excludes(output);
   command.whole("--repeat", options->repeat, {1, 1'000'000},
                 "Plan this many times and report the medians of the times");

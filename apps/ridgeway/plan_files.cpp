@@ -32,7 +32,8 @@ void require_outputs(const PlanOptions& options) {
     if (options.datum || options.x_heading)
       throw InputError(options.datum ? "--datum" : "--x-heading", "places missions on the Earth",
                        "write one with -o mission.plan, or leave it out");
-    if (!options.output.empty()) require_path_format(options.output);
+    if (!options.output.empty())
+      require_extension(options.output, "a path", {".csv", ".json", ".plan"});
     return;
   }
   if (!options.datum)

@@ -41,7 +41,7 @@ int run_alternatives(const PlanOptions& options, const Roadmap& roadmap, const G
   const Query query = {*options.from, options.to[0], radius_of(options, roadmap)};
   const Alternatives found = plan_alternatives(
       roadmap, query.start, query.goal, *options.alternatives, plan_config(options, query.radius));
-  AnswerFacts facts(roadmap, options.escape, limits_of(options.limits), options.robot_height);
+  AnswerFacts facts(roadmap, plan_config(options, options.radius));
   // Where there are no routes, planning once more tells where the ends were moved to.
   const Query planned = found.ok() ? query
                                    : as_planned(query, plan(roadmap, query.start, query.goal,
@@ -81,7 +81,7 @@ int run_goals(const PlanOptions& options, const Roadmap& roadmap, const Globals&
   const double radius = radius_of(options, roadmap);
   const std::vector<GoalPlan> plans =
       plan_to_many(roadmap, start, goals, plan_config(options, radius));
-  AnswerFacts facts(roadmap, options.escape, limits_of(options.limits), options.robot_height);
+  AnswerFacts facts(roadmap, plan_config(options, options.radius));
   Json results = Json::array();
   std::size_t solved = 0;
   for (std::size_t i = 0; i < goals.size(); ++i) {
@@ -109,7 +109,7 @@ int run_nearest(const PlanOptions& options, const Roadmap& roadmap, const Global
   const NearestGoal nearest = plan_to_nearest(roadmap, start, goals, plan_config(options, radius));
   const Query query = {start, goals[nearest.goal.value_or(0)], radius};
   const PlanResult& plan = nearest.plan;
-  AnswerFacts facts(roadmap, options.escape, limits_of(options.limits), options.robot_height);
+  AnswerFacts facts(roadmap, plan_config(options, options.radius));
   const bool write = plan.ok() && !options.output.empty();
   if (write)
     write_output(options, plan, options.output);

@@ -12,6 +12,8 @@ namespace ridgeway::cli {
 struct Query {
   Point start, goal;
   double radius = 0.0;  ///< metres
+
+  friend bool operator==(const Query&, const Query&) = default;
 };
 
 /// Queries of a text file, x,y,z,x,y,z[,radius] a line; empty lines, comments after # and one line

@@ -62,30 +62,34 @@ PlanResult given_path(const Roadmap& roadmap, std::vector<Point> waypoints,
   }
 }
 
+std::string AnswerFacts::or_snap(bool is_movable) const {
+  if (!is_movable) return "";
+  return asked_.snap > 0.0 ? ", or give a larger --snap" : ", or let --snap do so";
+}
+
 std::string AnswerFacts::explain_collision(const Query& query, const Point& place,
                                            bool is_movable) const {
   const double distance = FreeSpace(roadmap_.esdf).distance(flight_place(roadmap_.esdf, place));
-  const std::string or_snap = is_movable ? ", or let --snap do so" : "";
   if (distance <= 0.0) {
     std::string inside = "it lies in an obstacle: move it to where the map is free";
     if (!is_movable) return inside;
     // Farther away it is hardly the place that was meant.
-    const std::optional<double> snap =
-        smallest_snap(roadmap_, query.start, query.goal, 16.0 * query.radius,
-                      {.radius = query.radius, .limits = limits_, .robot_height = robot_height_});
+    const std::optional<double> snap = smallest_snap(
+        roadmap_, query.start, query.goal, 16.0 * query.radius,
+        {.radius = query.radius, .limits = asked_.limits, .robot_height = asked_.robot_height});
     return snap ? inside + ", or let --snap " + text_of(rounded_up(*snap)) + " do so" : inside;
   }
   std::string text = "it is " + metres(distance) + " from the nearest obstacle";
-  if (robot_height_ > 0.0)
-    return text + ", and " + robot_text(query) + " does not fit there: move it" + or_snap +
-           ", or give a smaller --radius or --robot-height";
+  if (asked_.robot_height > 0.0)
+    return text + ", and " + robot_text(query) + " does not fit there: move it" +
+           or_snap(is_movable) + ", or give a smaller --radius or --robot-height";
   if (distance >= query.radius)
     return text + ", but no voxel beside it can be reached at a radius of " + metres(query.radius) +
-           ": move it a little" + or_snap;
-  text += ", less than the radius of " + metres(query.radius) + ": move it" + or_snap;
+           ": move it a little" + or_snap(is_movable);
+  text += ", less than the radius of " + metres(query.radius) + ": move it" + or_snap(is_movable);
   if (is_movable)
-    text += escapes_ ? " (there is no straight way to where the robot fits)"
-                     : ", or give --escape to begin or end there";
+    text += asked_.escape ? " (there is no straight way to where the robot fits)"
+                          : ", or give --escape to begin or end there";
   if (distance >= roadmap_.min_clearance)
     return text + ", or give a --radius of at most " + metres_at_most(distance);
   return text + ", or build the map for a smaller robot with --min-clearance";
@@ -110,7 +114,7 @@ std::string AnswerFacts::explain_endpoint(const Query& query, PlanStatus status,
     case PlanStatus::kStartUnknown:
     case PlanStatus::kGoalUnknown:
       return text + "is in space that the map does not know: move it to where the map is free" +
-             (is_movable ? ", or let --snap do so" : "");
+             or_snap(is_movable);
     case PlanStatus::kStartOutsideLimits:
     case PlanStatus::kGoalOutsideLimits:
       return text + "is outside the limits of the flight: move it, or give wider limits";
@@ -121,11 +125,11 @@ std::string AnswerFacts::explain_endpoint(const Query& query, PlanStatus status,
 
 std::string AnswerFacts::robot_text(const Query& query) const {
   return "a robot with a radius of " + metres(query.radius) + " and a height of " +
-         metres(robot_height_);
+         metres(asked_.robot_height);
 }
 
 std::string AnswerFacts::explain_no_route(const Query& query) {
-  const bool is_upright = robot_height_ > 0.0;
+  const bool is_upright = asked_.robot_height > 0.0;
   std::string text =
       "start and goal are not connected " +
       (is_upright ? "for " + robot_text(query) : "at a radius of " + metres(query.radius));
@@ -137,7 +141,7 @@ std::string AnswerFacts::explain_no_route(const Query& query) {
            (is_upright ? "a ball of that radius is" : "they are") + " without: give wider limits" +
            or_lower;
   if (is_upright) text += ", nor for a ball of that radius";
-  if (limits_.any()) text += ", whatever the limits of the flight";
+  if (asked_.limits.any()) text += ", whatever the limits of the flight";
   const std::string parts = " (the start is in component " + part_text(*blocked, true) +
                             ", the goal in component " + part_text(*blocked, false) + ")";
   const char* what = blocked->by == Blocker::kUnknown ? "unknown space" : "an obstacle";
@@ -149,7 +153,7 @@ std::string AnswerFacts::explain_no_route(const Query& query) {
           (detail::is_as_wide(rounded_down(blocked->radius), roadmap_.min_clearance)
                ? ": give that --radius"
                : ": build the map with that --min-clearance");
-  return limits_.any() ? text + ", if the limits leave room for it" : text;
+  return asked_.limits.any() ? text + ", if the limits leave room for it" : text;
 }
 
 std::string AnswerFacts::reason(const Query& query, PlanStatus status, OnTheWay on_the_way) {
@@ -159,7 +163,7 @@ std::string AnswerFacts::reason(const Query& query, PlanStatus status, OnTheWay 
     case PlanStatus::kNoRoute:
       return explain_no_route(query);
     case PlanStatus::kRadiusTooSmall:
-      if (const double inner = 0.5 * robot_height_; inner > 0.0 && inner < query.radius)
+      if (const double inner = 0.5 * asked_.robot_height; inner > 0.0 && inner < query.radius)
         return "the largest ball in a robot of that height has a radius of " + metres(inner) +
                ", and the map was built for " + metres(roadmap_.min_clearance) +
                " and more: build it with --min-clearance " + number_text(inner);
@@ -177,10 +181,12 @@ std::string AnswerFacts::reason(const Query& query, PlanStatus status, OnTheWay 
 std::optional<BlockedRoute> AnswerFacts::blocked(const Query& query, PlanStatus status) {
   if (status != PlanStatus::kNoRoute) return std::nullopt;
   if (!blocks_) blocks_.emplace(roadmap_);
-  auto blocked = blocks_->between(query.start, query.goal, query.radius, limits_);
+  if (!last_ || last_->first != query)
+    last_.emplace(query, blocks_->between(query.start, query.goal, query.radius, asked_.limits));
+  const std::optional<BlockedRoute>& blocked = last_->second;
   // What is known is of balls. Where one gets through that is as wide as the robot, its height is
   // what does not fit.
-  if (robot_height_ > 0.0 && blocked && blocked->by != Blocker::kLimits &&
+  if (asked_.robot_height > 0.0 && blocked && blocked->by != Blocker::kLimits &&
       detail::is_as_wide(blocked->radius, query.radius))
     return std::nullopt;
   return blocked;

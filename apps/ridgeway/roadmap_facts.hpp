@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "query_file.hpp"
@@ -34,14 +35,15 @@ struct OnTheWay {
 /// there is none. What that takes of the whole map is made once, when it is first asked for.
 class AnswerFacts {
  public:
-  /// The roadmap must outlive it. `escapes`: plans were asked for with --escape; `limits`: those
-  /// of the flights (world); `robot_height`: as in PlanConfig.
-  AnswerFacts(const Roadmap& roadmap, bool escapes, FlightLimits limits = {},
-              double robot_height = 0.0)
-      : roadmap_(roadmap),
-        escapes_(escapes),
-        limits_(std::move(limits)),
-        robot_height_(robot_height) {}
+  /// The roadmap must outlive it. `asked`: as the plans were asked for.
+  explicit AnswerFacts(const Roadmap& roadmap, PlanConfig asked = {})
+      : roadmap_(roadmap), asked_(std::move(asked)) {}
+
+  /// From now on plans are asked for so.
+  void are_asked(PlanConfig asked) {
+    asked_ = std::move(asked);
+    last_.reset();
+  }
 
   // Of a query as it was planned:
 
@@ -58,12 +60,12 @@ class AnswerFacts {
   std::string explain_endpoint(const Query& query, PlanStatus status, OnTheWay on_the_way) const;
   std::string explain_collision(const Query& query, const Point& place, bool is_movable) const;
   std::string robot_text(const Query& query) const;
+  std::string or_snap(bool is_movable) const;
 
   const Roadmap& roadmap_;
-  const bool escapes_;
-  const FlightLimits limits_;
-  const double robot_height_;
+  PlanConfig asked_;
   std::optional<RouteBlocks> blocks_;
+  std::optional<std::pair<Query, std::optional<BlockedRoute>>> last_;  // asked of blocks_
   std::optional<Surroundings> around_;
 };
 

@@ -207,9 +207,8 @@ int run(const TrajectoryOptions& options, const Globals& globals) {
   if (!path.ok())
     return report_none(
         options, std::string(name_of(path.status)),
-        course.leg +
-            AnswerFacts(roadmap, options.escape, config.flight_limits, options.robot_height)
-                .reason(as_planned(course.query, path), path.status, course.on_the_way),
+        course.leg + AnswerFacts(roadmap, plan_config(options, radius))
+                         .reason(as_planned(course.query, path), path.status, course.on_the_way),
         Json::parse(plan_json(path)), globals);
   const TrajectoryResult flown = fly_plan(roadmap.esdf, path, config);
   if (!flown.ok())

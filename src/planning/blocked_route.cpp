@@ -51,7 +51,7 @@ std::optional<BlockedRoute> RouteBlocks::between(const Point& start, const Point
                         detail::place_in_local(esdf_, goal, radius), radius);
   if (ends.status != PlanStatus::kOk) return std::nullopt;
   BlockedRoute blocked;
-  const ComponentReport report = parts_.report(radius, {ends.from, ends.to});
+  const ComponentReport report = parts_.parts(radius, {ends.from, ends.to});
   blocked.start_number = report.asked[0];
   blocked.goal_number = report.asked[1];
   blocked.start_component = report.components[blocked.start_number];

@@ -74,6 +74,25 @@ std::vector<Component> count_components(const EsdfMap& esdf, const VoxelMask& tr
   return components;
 }
 
+/// Space as it falls into parts at a radius.
+struct Parts {
+  SinkingLevel level;
+  std::vector<std::size_t> component_of;  // by set
+  ComponentReport report;                 // without joins
+};
+Parts parts_at(const EsdfMap& esdf, const Basins& basins, bool within_limits, double radius,
+               const std::vector<VoxelId>& asked) {
+  detail::require(radius > 0.0 && std::isfinite(radius), "radius", radius,
+                  "give the robot's radius in metres, above 0");
+  Parts parts{SinkingLevel(basins), std::vector(basins.peaks.size(), kNoComponent), {}};
+  parts.level.sink_to(least_clearance(radius, esdf.voxel_size));
+  parts.report.components = count_components(esdf, traversable_voxels(esdf, radius, within_limits),
+                                             parts.level, parts.component_of);
+  for (const VoxelId id : asked)
+    parts.report.asked.push_back(parts.component_of[parts.level.set_of(id)]);
+  return parts;
+}
+
 }  // namespace
 
 std::string_view name_of(Blocker blocker) {
@@ -89,16 +108,12 @@ SpaceParts::SpaceParts(const EsdfMap& esdf, bool within_limits)
                           traversable_voxels(esdf, kSmallest * esdf.voxel_size, within_limits),
                           kSmallest * esdf.voxel_size)) {}
 
+ComponentReport SpaceParts::parts(double radius, const std::vector<VoxelId>& asked) const {
+  return parts_at(esdf_, basins_, within_limits_, radius, asked).report;
+}
+
 ComponentReport SpaceParts::report(double radius, const std::vector<VoxelId>& asked) const {
-  detail::require(radius > 0.0 && std::isfinite(radius), "radius", radius,
-                  "give the robot's radius in metres, above 0");
-  SinkingLevel level(basins_);
-  level.sink_to(least_clearance(radius, esdf_.voxel_size));
-  std::vector<std::size_t> component_of(basins_.peaks.size(), kNoComponent);  // by set
-  ComponentReport report;
-  report.components = count_components(esdf_, traversable_voxels(esdf_, radius, within_limits_),
-                                       level, component_of);
-  for (const VoxelId id : asked) report.asked.push_back(component_of[level.set_of(id)]);
+  auto [level, component_of, report] = parts_at(esdf_, basins_, within_limits_, radius, asked);
   while (const Pass* pass = level.next_pass()) {
     const std::size_t a = component_of[level.set_of(pass->from)];
     const std::size_t b = component_of[level.set_of(pass->to)];

@@ -7,6 +7,17 @@ namespace {
 
 using CliBuild = Program;
 
+TEST_F(CliBuild, PeakMemoryIsItsOwnNotThatOfWhoStartedIt) {
+  constexpr std::uint64_t kMany = 600'000'000;
+  const auto peak = [&](const std::string& name) {
+    return build_rooms(name, {"--json"}).json()["peak_memory_bytes"].get<std::uint64_t>();
+  };
+  const std::uint64_t before = peak("a.ridge");
+  const std::vector<char> held(kMany, 1);
+  EXPECT_LT(peak("b.ridge"), before + kMany / 2);
+  EXPECT_EQ(held.back(), 1);
+}
+
 TEST_F(CliBuild, JsonHasTheKeysThatScriptsRelyOn) {
   const Outcome built = build_rooms("rooms.ridge", {"--json"});
   ASSERT_EQ(built.code, 0) << built.err;

@@ -156,11 +156,7 @@ Reply json_reply(int status, const Json& json) {
 }
 
 MapAnswers::MapAnswers(const Roadmap& roadmap, const std::string& name)
-    : roadmap_(roadmap), name_(printable(name)) {
-  for (const bool escapes : {false, true})
-    facts_.emplace(std::piecewise_construct, std::forward_as_tuple(escapes),
-                   std::forward_as_tuple(roadmap, escapes));
-}
+    : roadmap_(roadmap), name_(printable(name)), facts_(roadmap) {}
 
 Reply MapAnswers::kept(Kept& kept, const char* type, const std::function<std::string()>& make) {
   std::call_once(kept.once, [&] { kept.body = std::make_shared<const std::string>(make()); });
@@ -225,14 +221,14 @@ std::string MapAnswers::narrow_places() {
   return json.dump();
 }
 
-void MapAnswers::explain(const Question& question, const Query& query, PlanStatus status,
-                         Json& json) {
+void MapAnswers::explain(const Question& question, const PlanConfig& asked, const Query& query,
+                         PlanStatus status, Json& json) {
   json["radius"] = query.radius;
   if (!is_set(question, "explain", true) || status == PlanStatus::kOk) return;
   const std::lock_guard<std::mutex> lock(facts_mutex_);
-  AnswerFacts& facts = facts_.at(is_set(question, "escape", false));
-  json["reason"] = facts.reason(query, status);
-  if (const auto blocked = facts.blocked(query, status)) json.update(cli::json_of(*blocked));
+  facts_.are_asked(asked);
+  json["reason"] = facts_.reason(query, status);
+  if (const auto blocked = facts_.blocked(query, status)) json.update(cli::json_of(*blocked));
 }
 
 Json MapAnswers::plan(const Question& question) {
@@ -241,7 +237,7 @@ Json MapAnswers::plan(const Question& question) {
   if (!find(question, "alternatives")) {
     const PlanResult result = ridgeway::plan(roadmap_, query.start, query.goal, config);
     Json json = Json::parse(plan_json(result));
-    explain(question, as_planned(query, result), result.status, json);
+    explain(question, config, as_planned(query, result), result.status, json);
     return json;
   }
   const auto count = parse_whole(get(question, "alternatives"), {1, 20}, "alternatives");
@@ -253,7 +249,7 @@ Json MapAnswers::plan(const Question& question) {
   for (const PlanResult& route : found.routes)
     json["routes"].push_back(Json::parse(plan_json(route)));
   const bool is_asked_why = !found.ok() && is_set(question, "explain", true);
-  explain(question,
+  explain(question, config,
           is_asked_why  // planning once more tells where the ends were moved to
               ? as_planned(query, ridgeway::plan(roadmap_, query.start, query.goal, config))
               : query,
@@ -281,7 +277,7 @@ Json MapAnswers::trajectory(const Question& question) {
                                 : ridgeway::plan(roadmap_, query.start, query.goal, config);
   if (!path.ok()) {
     Json json = Json::parse(plan_json(path));
-    explain(question, as_planned(query, path), path.status, json);
+    explain(question, config, as_planned(query, path), path.status, json);
     return json;
   }
   const TrajectoryResult flown = fly_plan(roadmap_.esdf, path, flight);

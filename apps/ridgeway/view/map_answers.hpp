@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -55,8 +54,8 @@ class MapAnswers {
   nlohmann::ordered_json trajectory(const Question& question);
   nlohmann::ordered_json place(const Question& question);
   /// Adds why there is no route to an answer, if the question wants to know.
-  void explain(const Question& question, const Query& query, PlanStatus status,
-               nlohmann::ordered_json& json);
+  void explain(const Question& question, const PlanConfig& asked, const Query& query,
+               PlanStatus status, nlohmann::ordered_json& json);
 
   const Roadmap& roadmap_;
   const std::string name_;
@@ -65,7 +64,7 @@ class MapAnswers {
   std::once_flag components_once_;
   ComponentReport components_;  // `asked`: of the diagram's voxels, then of the vertices
   std::mutex facts_mutex_;
-  std::map<bool, AnswerFacts> facts_;  // by whether escapes were asked for
+  AnswerFacts facts_;
 };
 
 }  // namespace ridgeway::cli
