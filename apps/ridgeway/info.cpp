@@ -126,6 +126,26 @@ Json roadmap_json(const InfoOptions& options, const Roadmap& roadmap, const Ridg
   return json;
 }
 
+/// Of a part of space: in the plane its area.
+std::string size_text(double volume, const EsdfMap& esdf) {
+  return esdf.planar ? text_of(volume / esdf.voxel_size) + " m2" : text_of(volume) + " m3";
+}
+
+std::string limits_text(const EsdfMap& esdf) {
+  const FlightLimits limits = limits_in_world(esdf);
+  std::string text;
+  for (int axis = 0; axis < (esdf.planar ? 2 : 3); ++axis) {
+    const double low = limits.keep_in.min[axis], high = limits.keep_in.max[axis];
+    if (std::isinf(low) && std::isinf(high)) continue;
+    text += std::string(text.empty() ? "" : ", ") + "xyz"[axis] +
+            (std::isfinite(low) ? " from " + text_of(low) : "") +
+            (std::isfinite(high) ? " to " + text_of(high) : "");
+  }
+  for (const Box& box : limits.keep_out)
+    text += (text.empty() ? "out of " : ", out of ") + box_text(box);
+  return text;
+}
+
 double rest_volume(const ComponentReport& report, std::size_t shown) {
   double volume = 0.0;
   for (std::size_t i = shown; i < report.components.size(); ++i)
@@ -137,17 +157,17 @@ std::string blocker_text(Blocker by) {
   return by == Blocker::kUnknown ? "unknown space" : "obstacles";
 }
 
-void print_components(const ComponentReport& report) {
+void print_components(const EsdfMap& esdf, const ComponentReport& report) {
   const std::size_t shown = std::min(report.components.size(), kShownComponents);
   for (std::size_t i = 0; i < shown; ++i) {
     const Component& c = report.components[i];
     print_row("component " + std::to_string(i + 1),
-              text_of(c.volume) + " m3, " + count_text(c.voxels) + " voxels, widest " +
+              size_text(c.volume, esdf) + ", " + count_text(c.voxels) + " voxels, widest " +
                   text_of(c.clearance) + " m at " + point_text(c.widest));
   }
   if (shown < report.components.size())
     print_row("", "and " + count_text(report.components.size() - shown) + " smaller ones, " +
-                      text_of(rest_volume(report, shown)) + " m3 in all");
+                      size_text(rest_volume(report, shown), esdf) + " in all");
   std::size_t left_out = 0;
   for (const ComponentJoin& j : report.joins) {
     if (j.a >= shown || j.b >= shown) {
@@ -163,7 +183,7 @@ void print_components(const ComponentReport& report) {
     print_row("", "and " + count_text(left_out) + " joins of smaller components (see --json)");
 }
 
-void print_roadmap(const Json& json) {
+void print_roadmap(const EsdfMap& esdf, const Json& json) {
   print_row("roadmap", json["file"].get<std::string>() + ", version " +
                            std::to_string(json["version"].get<unsigned>()) + ", " +
                            bytes_text(json["file_bytes"].get<std::uint64_t>()));
@@ -172,7 +192,10 @@ void print_roadmap(const Json& json) {
   print_row("built for",
             "a radius of " + text_of(json["min_clearance"].get<double>()) +
                 " m and more; unknown space: " + json["unknown_policy"].get<std::string>());
-  if (json.contains("limits")) print_row("limits", json["limits"].dump());
+  if (esdf.planar)
+    print_row("planar", "one layer, in which robots stay at a height of " +
+                            text_of(to_world(esdf, flight_place(esdf, Point::Zero())).z()) + " m");
+  if (const std::string limits = limits_text(esdf); !limits.empty()) print_row("limits", limits);
   if (json.contains("bounds")) print_row("bounds", bounds_text(json["bounds"]));
   print_row("voxels", count_text(json["voxels"]["free"].get<std::uint64_t>()) + " free, " +
                           count_text(json["voxels"]["occupied"].get<std::uint64_t>()) +
@@ -205,7 +228,7 @@ Json json_of(const PlaceFacts& facts, const Point& at) {
   return json;
 }
 
-void print_place(const PlaceFacts& facts, const Point& at) {
+void print_place(const EsdfMap& esdf, const PlaceFacts& facts, const Point& at) {
   constexpr const char* kStates[] = {"unknown", "free", "occupied"};
   print_row("place", point_text(at) + ", in a voxel that is " +
                          kStates[static_cast<int>(facts.state)] + ", clearance " +
@@ -213,12 +236,12 @@ void print_place(const PlaceFacts& facts, const Point& at) {
   if (facts.status != PlanStatus::kOk) return print_row("not usable", reason_of(facts));
   const std::vector<Component>& all = facts.report.components;
   print_row("component", std::to_string(facts.component + 1) + " of " + count_text(all.size()) +
-                             ", " + text_of(all[facts.component].volume) + " m3");
+                             ", " + size_text(all[facts.component].volume, esdf));
   std::size_t shown = 0;
   for (const ComponentJoin& way : facts.ways) {
     if (++shown > kShownComponents) break;
     print_row("to component " + std::to_string(way.b + 1),
-              text_of(all[way.b].volume) + " m3, at a radius of " +
+              size_text(all[way.b].volume, esdf) + ", at a radius of " +
                   text_of(rounded_down(way.radius)) + " m, narrowest at " + point_text(way.place) +
                   ", between " + blocker_text(way.by));
   }
@@ -234,7 +257,7 @@ int run_place(const InfoOptions& options, const Globals& globals) {
   if (globals.json)
     print_json(json_of(facts, *options.at));
   else
-    print_place(facts, *options.at);
+    print_place(roadmap.esdf, facts, *options.at);
   return kExitDone;
 }
 
@@ -267,8 +290,8 @@ int run_roadmap(const InfoOptions& options, const Globals& globals) {
     json.update(json_of(report));
     print_json(json);
   } else {
-    print_roadmap(json);
-    print_components(report);
+    print_roadmap(roadmap.esdf, json);
+    print_components(roadmap.esdf, report);
     if (json.contains("example"))
       print_row("for example", "ridgeway plan " + word_text(options.file) + " --from " +
                                    exact_text(json["example"]["from"]) + " --to " +

@@ -75,6 +75,7 @@ TEST_F(CliLimits, OfABuildAreKeptInItsFile) {
             Json({nullptr, nullptr, 0.9, nullptr, nullptr, 1.1}));
   EXPECT_EQ(info["limits"]["keep_in"], Json({nullptr, nullptr, 0.9, nullptr, nullptr, 1.1}));
   EXPECT_GT(info["graph"]["edges"].get<int>(), 0);
+  EXPECT_NE(run({"info", path("band.ridge")}).out.find("z from 0.9 to 1.1"), std::string::npos);
   const Json json = run(plan(path("band.ridge"), {})).json();
   EXPECT_EQ(json["answered_by"], "graph");
   for (const Json& p : json["waypoints"]) EXPECT_NEAR(p[2].get<double>(), 1.0, 0.1 + 1e-7);
@@ -179,6 +180,10 @@ TEST_F(CliLimits, PlanarMapsAreBuiltSavedAndChecked) {
   EXPECT_TRUE(info["planar"].get<bool>());
   EXPECT_EQ(info["config"]["planar"], Json({0.5, 1.5}));
   EXPECT_EQ(info["voxels"]["free"].get<int>() + info["voxels"]["occupied"].get<int>(), 60 * 40);
+  const std::string told = run({"info", map}).out;
+  for (const char* words : {"at a height of 1.05 m", " m2, "})
+    EXPECT_NE(told.find(words), std::string::npos) << words << told;
+  EXPECT_EQ(told.find("limits"), std::string::npos) << told;
   const Json json = run(plan(map, {})).json();
   EXPECT_EQ(json["answered_by"], "graph");
   for (const Json& p : json["waypoints"]) EXPECT_NEAR(p[2].get<double>(), 1.05, 1e-9);
