@@ -31,8 +31,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kBatch = 64;  // queries that are planned before their answers are printed
-
 SamplingConfig sampling_config(const PlanOptions& options, double radius) {
   SamplingConfig config = options.sampling;
   config.planner = options.chosen();
@@ -88,18 +86,21 @@ Answer plan_repeatedly(const Roadmap& roadmap, const Query& query, const PlanOpt
   return answer;
 }
 
-/// One by one where times are to be compared, or a sampler has all threads to itself.
+/// Queries that are planned at once before their answers are printed: one where times are to be
+/// compared, or a sampler may have more than one thread; else some for each thread.
+std::size_t batch_of(const PlanOptions& options) {
+  constexpr std::size_t kEach = 8;
+  if (options.repeat > 1 || is_sampling(options.chosen())) return 1;
+  return kEach * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+}
+
 std::vector<Answer> answer_all(const Roadmap& roadmap, std::span<const Query> queries,
                                const PlanOptions& options) {
   std::vector<Answer> answers(queries.size());
-  const auto answer = [&](std::size_t i) {
+  parallel_for_each_index(queries.size(), [&](std::size_t i) {
     stop_if_interrupted();
     answers[i] = plan_repeatedly(roadmap, queries[i], options);
-  };
-  if (options.repeat == 1 && !is_sampling(options.chosen()))
-    parallel_for_each_index(queries.size(), answer);
-  else
-    for (std::size_t i = 0; i < queries.size(); ++i) answer(i);
+  });
   return answers;
 }
 
@@ -133,8 +134,9 @@ int run_batch(const PlanOptions& options, const Roadmap& roadmap, const Globals&
   AnswerFacts facts(roadmap, plan_config(options, options.radius));
   Json results = Json::array();
   std::size_t solved = 0;
-  for (std::size_t first = 0; first < queries.size(); first += kBatch) {
-    const auto batch = std::span(queries).subspan(first, std::min(kBatch, queries.size() - first));
+  const std::size_t most = batch_of(options);
+  for (std::size_t first = 0; first < queries.size(); first += most) {
+    const auto batch = std::span(queries).subspan(first, std::min(most, queries.size() - first));
     const std::vector<Answer> answers = answer_all(roadmap, batch, options);
     for (std::size_t i = 0; i < batch.size(); ++i) {
       const PlanResult& result = answers[i].plan;
@@ -263,10 +265,9 @@ void add_plan_command(Command& program) {
                  "Compass heading of the map's x axis, for missions, degrees (default: 90, so that "
                  "x is east and y north)");
   command
-      .path(
-          "--queries", options->queries,
-          "File of queries instead, a line each: x,y,z,x,y,z[,radius]; on all threads: to compare "
-          "times give --threads 1")
+      .path("--queries", options->queries,
+            "File of queries instead, a line each: x,y,z,x,y,z[,radius]; on all threads but with "
+            "--repeat and samplers: to compare times give --threads 1")
       .excludes(output);
   command.whole("--repeat", options->repeat, {1, 1'000'000},
                 "Plan this many times and report the medians of the times");

@@ -40,7 +40,7 @@ class AnswerFacts {
       : roadmap_(roadmap), asked_(std::move(asked)) {}
 
   /// From now on plans are asked for so.
-  void are_asked(PlanConfig asked) {
+  void set_asked(PlanConfig asked) {
     asked_ = std::move(asked);
     last_.reset();
   }

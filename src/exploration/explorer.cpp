@@ -231,10 +231,7 @@ ExplorationStep Explorer::State::decide(std::shared_ptr<const Roadmap> now,
     step.status = ExplorationStatus::kFly;
     step.is_braking = true;
   }
-  if (!step.trajectory.segments.empty()) {
-    flying = step.trajectory;
-    flying_since = state.time;
-  }
+  if (!step.trajectory.segments.empty()) take_off(step.trajectory, state.time);
   step.seconds.total = detail::thread_seconds_now() - began;
   return step;
 }

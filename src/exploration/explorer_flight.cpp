@@ -13,11 +13,6 @@
 #include "shaped_trajectory.hpp"
 
 namespace ridgeway {
-namespace {
-
-constexpr double kRounding = 1e-3;  // voxels
-
-}  // namespace
 
 /// To a stop, and to rest there.
 bool Explorer::State::fly_to(const Point& goal_local, double yaw, const FlightState& state,
@@ -42,26 +37,38 @@ bool Explorer::State::leaves_time_for_home(const FlightState& state,
   return back && rest.time + back->duration() <= config.until;
 }
 
-/// Whether the rest of what is flown is free no longer, for all that is known now. Where the robot
-/// is nearer to something than it has to keep, as it leaves such a place, it comes no nearer until
-/// it is out.
-bool Explorer::State::is_in_doubt(const FlightState& state) const {
-  constexpr double kStep = 0.02;  // seconds
+/// What has to be kept from obstacles, metres.
+double Explorer::State::kept_clearance() const {
+  return config.kept_clearance > 0.0 ? config.kept_clearance : roadmap->min_clearance;
+}
+
+/// A trajectory is flown from now on. Where the robot does not fit at its beginning it leaves that
+/// place first, and comes no nearer to anything until it is out.
+void Explorer::State::take_off(Trajectory trajectory, double time) {
+  constexpr double kStep = 0.02;  // seconds: a few centimetres, as it begins at rest
+  flying = std::move(trajectory);
+  flying_since = time;
   const FreeSpace space(roadmap->esdf);
-  const double radius =
-      config.kept_clearance > 0.0 ? config.kept_clearance : roadmap->min_clearance;
-  const Trajectory rest = detail::moved(detail::tail_of(flying, state.time - flying_since),
-                                        to_local(roadmap->esdf, Point::Zero()));
-  const auto room_at = [&](double time) { return space.distance(rest.at(time).position); };
-  const double room = room_at(0.0);
-  if (room >= radius) return !find_doubts(space, rest, radius).empty();
-  const double kept = room - kRounding * roadmap->esdf.voxel_size;
-  if (kept <= 0.0) return true;
-  double out = kStep;
-  while (out < rest.duration() && room_at(out) < radius) out += kStep;
-  out = std::min(out, rest.duration());
-  return !find_doubts(space, detail::head_of(rest, out), kept).empty() ||
-         !find_doubts(space, detail::tail_of(rest, out), radius).empty();
+  const auto room_at = [&](double seconds) {
+    return space.distance(to_local(roadmap->esdf, flying.at(seconds).position));
+  };
+  room_at_first = room_at(0.0);
+  out_after = 0.0;
+  if (room_at_first >= kept_clearance()) return;
+  while (out_after < flying.duration() && room_at(out_after) < kept_clearance()) out_after += kStep;
+}
+
+/// Whether the rest of what is flown is free no longer, for all that is known now.
+bool Explorer::State::is_in_doubt(const FlightState& state) const {
+  constexpr double kRounding = 1e-3;  // voxels
+  const FreeSpace space(roadmap->esdf);
+  const double flown = state.time - flying_since, left = out_after - flown;
+  const Trajectory rest =
+      detail::moved(detail::tail_of(flying, flown), to_local(roadmap->esdf, Point::Zero()));
+  if (left <= 0.0) return !find_doubts(space, rest, kept_clearance()).empty();
+  const double least = room_at_first - kRounding * roadmap->esdf.voxel_size;
+  return least <= 0.0 || !find_doubts(space, detail::head_of(rest, left), least).empty() ||
+         !find_doubts(space, detail::tail_of(rest, left), kept_clearance()).empty();
 }
 
 /// Where what is flown leads to in so many metres, from a time of the state's clock on.

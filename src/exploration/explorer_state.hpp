@@ -54,6 +54,8 @@ struct Explorer::State {
   Trajectory flying;  ///< world
   // Seconds of the state's clock.
   double flying_since = -std::numeric_limits<double>::infinity();
+  double room_at_first = 0.0;  ///< metres from obstacles where it began, as that was known
+  double out_after = 0.0;      ///< seconds after which it has left a place where it did not fit
   double asked_last = -std::numeric_limits<double>::infinity();
   double last_tour = -std::numeric_limits<double>::infinity();
   /// At rest, and not done yet with what was begun: it goes on with the next scan.
@@ -83,6 +85,8 @@ struct Explorer::State {
               ExplorationStep& step) const;
   void go_home(const FlightState& state, bool arrived, ExplorationStep& step);
   bool leaves_time_for_home(const FlightState& state, const Trajectory& trajectory) const;
+  double kept_clearance() const;
+  void take_off(Trajectory trajectory, double time);
   bool is_in_doubt(const FlightState& state) const;
   bool brake(const FlightState& state, ExplorationStep& step) const;
   Point ahead(double seconds, double length) const;

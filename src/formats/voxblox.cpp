@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -303,10 +304,11 @@ OccupancyMap map_of_layer(const VoxbloxLayer& layer, const std::string& name) {
   });
   OccupancyMap map = std::move(builder).finish();
   if (layer.type != "tsdf" && layer.type != "esdf") return map;
-  VoxelField<float> distance(map.layout);
+  VoxelField<float> distance(map.layout, std::numeric_limits<float>::infinity());
   for_each_voxel(layer, [&](const VoxelIndex& voxel, const std::uint32_t* words, std::size_t) {
-    const VoxelId id = map.layout.find(voxel - map.origin);
-    if (id != kNoVoxel) distance[id] = std::bit_cast<float>(words[0]);
+    if (state_of(layer.type, words) == VoxelState::kUnknown) return;
+    float& least = distance[map.layout.find(voxel - map.origin)];
+    least = std::min(least, std::bit_cast<float>(words[0]));  // a block may be there twice
   });
   detail::occupy_thin_surfaces(distance, map);
   return map;

@@ -87,12 +87,13 @@ VoxelTriangles in_voxels(const PlacedMesh& placed, const OccupancyMap& map,
   VoxelTriangles local;
   local.triangles.assign(tree.triangles().begin(), tree.triangles().end());
   const Point origin(map.origin.x, map.origin.y, map.origin.z);
-  double farthest = 0.0;
-  for (const Point& vertex : tree.vertices()) {
-    const Point v = placed.T_world_mesh * (placed.scale * vertex) / map.voxel_size;
-    farthest = std::max({farthest, v.cwiseAbs().maxCoeff(), origin.cwiseAbs().maxCoeff()});
-    local.vertices.push_back(v - origin);
-  }
+  for (const Point& vertex : tree.vertices())
+    local.vertices.push_back(placed.T_world_mesh * (placed.scale * vertex) / map.voxel_size -
+                             origin);
+  double farthest = origin.cwiseAbs().maxCoeff();  // of what triangles use
+  for (const Triangle& triangle : tree.triangles())
+    for (const std::uint32_t corner : triangle)
+      farthest = std::max(farthest, (local.vertices[corner] + origin).cwiseAbs().maxCoeff());
   if (!(farthest <= kFarthest))
     throw InputError(name, "has a mesh that reaches farther than 4e9 voxels from zero",
                      "check its scale, or give a larger voxel_size");
@@ -100,8 +101,11 @@ VoxelTriangles in_voxels(const PlacedMesh& placed, const OccupancyMap& map,
   return local;
 }
 
-/// Which voxels of a block lie within a closed mesh, of those that its surface does not touch:
-/// neighbours of them are on the same side.
+/// Which voxels of a block lie within a closed mesh, of those that its surface does not touch.
+/// Neighbours of them are on the same side, so one is asked for each run of them. Where a mesh cuts
+/// through itself, or lies within itself with both fronts outwards, which side that is may differ
+/// from place to place inside of it, as SolidMesh::distance says what the nearest triangle says:
+/// pockets in there may be free, shut off by the surface all around.
 VoxelMask::Block inside_of(const PlacedMesh& placed, const OccupancyMap& map, std::uint32_t slot,
                            const VoxelMask::Block& surface) {
   const Eigen::Isometry3d T_mesh_world = placed.T_world_mesh.inverse();

@@ -44,11 +44,13 @@ std::vector<double> knot_speeds(std::span<const Point> knots, double start_speed
   return speeds;
 }
 
-/// Of a trapezoidal speed profile between two speeds.
+// Of a trapezoidal speed profile between two speeds: how fast it becomes, and how long it takes.
+
 double profile_peak(double length, double from, double to, const MotionLimits& limits) {
   const double v = limits.max_speed, a = limits.max_acceleration;
   return std::max({std::min(std::sqrt(0.5 * (from * from + to * to) + a * length), v), from, to});
 }
+
 double profile_duration(double length, double from, double to, const MotionLimits& limits) {
   const double a = limits.max_acceleration, peak = profile_peak(length, from, to, limits);
   const double changing = (2.0 * peak * peak - from * from - to * to) / (2.0 * a);

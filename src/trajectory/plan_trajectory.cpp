@@ -67,11 +67,11 @@ std::vector<Point> corners_of(std::span<const Point> path, double radius,
   return corners;
 }
 
-/// The corners of a free path; where the way is straight all along the ends alone.
+/// The corners of a free path; from rest, where the way is straight all along, the ends alone.
 std::vector<Point> corners_to_fly(const FreeSpace& space, const std::vector<Point>& path,
-                                  const TrajectoryConfig& config) {
+                                  const TrajectoryConfig& config, const StartState& start) {
   std::vector<Point> corners = corners_of(path, config.radius, {});
-  if (corners.size() > 2) corners = corners_of(path, config.radius, config.via);
+  if (corners.size() > 2 || !start.is_rest()) corners = corners_of(path, config.radius, config.via);
   return is_free(space, corners, config.radius) ? corners : path;
 }
 
@@ -120,8 +120,9 @@ std::string_view name_of(TrajectoryStep step) {
 void MotionLimits::validate() const {
   constexpr double kLeast = 1e-9, kMost = 1e9;  // beyond, products of them are 0 or infinite
   const auto require_limit = [](double limit, const char* name, bool may_be_endless) {
-    detail::require(limit >= kLeast && (may_be_endless || limit <= kMost), name, limit,
-                    may_be_endless ? "give 1e-9 or more" : "give 1e-9 to 1e9");
+    detail::require(
+        limit >= kLeast && (may_be_endless || limit <= kMost), name, limit,
+        may_be_endless ? "give a limit of 1e-9 or more" : "give a limit from 1e-9 to 1e9");
   };
   require_limit(max_speed, "max_speed", false);
   require_limit(max_acceleration, "max_acceleration", false);
@@ -174,9 +175,9 @@ TrajectoryResult fly_locally(const EsdfMap& esdf, std::span<const Point> path,
   const FlightLimits limits = both_of(esdf.limits, limits_in_local(esdf, config.flight_limits));
   const FreeSpace space(esdf, limits, config.radius, config.robot_height);
   if (!is_free(space, points, config.radius)) return finish(TrajectoryStatus::kPathNotFree);
-  if (!config.stop_and_go) points = corners_to_fly(space, points, config);
 
   const StartState start{config.start_velocity, config.start_acceleration};
+  if (!config.stop_and_go) points = corners_to_fly(space, points, config, start);
   SmoothPath smooth(space, config, result);
   auto found = smooth.run(points, start);
   if (!found) return finish(TrajectoryStatus::kCannotStopInTime);

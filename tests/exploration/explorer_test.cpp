@@ -88,6 +88,22 @@ TEST(Explorer, TheWayOutOfWhereItDoesNotFitIsFlownToItsEnd) {
   EXPECT_TRUE(explorer.decide(live.snapshot(), state_at(out.trajectory, 0.8)).was_in_doubt);
 }
 
+/// It is not leaving a place, so what turns up beside it is as bad as what turns up before it.
+TEST(Explorer, ItIsInDoubtWhereSomethingTurnsUpBesideIt) {
+  LiveRoadmap live = live_for_explorers();
+  live.set_voxels(closed_room());
+  ExplorerConfig config;
+  config.home = Point(1.1, 3.1, 1.5);
+  Explorer explorer(config);
+  const ExplorationStep home = explorer.decide(live.snapshot(), {.position = {10.1, 3.1, 1.5}});
+  ASSERT_EQ(home.status, ExplorationStatus::kReturn) << name_of(home.status);
+  const FlightState flying = state_at(home.trajectory, 2.0);
+  const VoxelIndex here = voxel_at(flying.position, kExplorerVoxel);
+  EXPECT_FALSE(explorer.decide(live.snapshot(), flying).was_in_doubt);
+  live.set_voxels(std::vector<VoxelChange>{{here + VoxelIndex{0, 2, 0}, VoxelState::kOccupied}});
+  EXPECT_TRUE(explorer.decide(live.snapshot(), flying).was_in_doubt);
+}
+
 /// On its way home a robot meets a wall that leaves no room to brake along its way.
 TEST(Explorer, OnItsWayHomeItIsNotStuckWhileItFlies) {
   LiveRoadmap live = live_for_explorers();

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -66,6 +67,19 @@ TEST(PlanTrajectory, BrakesWhereItCannotFollowAndSaysWhereItCannotStop) {
   const TrajectoryResult too_late = plan_trajectory(esdf(), at_the_wall, config);
   EXPECT_EQ(too_late.status, TrajectoryStatus::kCannotStopInTime);
   EXPECT_TRUE(too_late.trajectory.segments.empty());
+}
+
+TEST(PlanTrajectory, PassesPlacesOnAStraightWayFromAMotionAside) {
+  const std::vector<Point> path{{2, 5, 2}, {3.2, 5, 2}, {8, 5, 2}};
+  TrajectoryConfig config;
+  config.via = {path[1]};
+  config.start_velocity = {0.0, 1.5, 0.0};
+  const TrajectoryResult result = plan_trajectory(esdf(), path, config);
+  expect_flown(result, path, config);
+  double nearest = 1e9;
+  for (const TrajectoryState& state : result.trajectory.sample(1e-3))
+    nearest = std::min(nearest, (state.position - path[1]).norm());
+  EXPECT_LT(nearest, 2e-3);
 }
 
 }  // namespace

@@ -226,7 +226,7 @@ void MapAnswers::explain(const Question& question, const PlanConfig& asked, cons
   json["radius"] = query.radius;
   if (!is_set(question, "explain", true) || status == PlanStatus::kOk) return;
   const std::lock_guard<std::mutex> lock(facts_mutex_);
-  facts_.are_asked(asked);
+  facts_.set_asked(asked);
   json["reason"] = facts_.reason(query, status);
   if (const auto blocked = facts_.blocked(query, status)) json.update(cli::json_of(*blocked));
 }
