@@ -88,8 +88,8 @@ VoxelTriangles in_voxels(const PlacedMesh& placed, const OccupancyMap& map,
   local.triangles.assign(tree.triangles().begin(), tree.triangles().end());
   const Point origin(map.origin.x, map.origin.y, map.origin.z);
   for (const Point& vertex : tree.vertices())
-    local.vertices.push_back(placed.T_world_mesh * (placed.scale * vertex) / map.voxel_size -
-                             origin);
+    local.vertices.emplace_back(placed.T_world_mesh * (placed.scale * vertex) / map.voxel_size -
+                                origin);
   double farthest = origin.cwiseAbs().maxCoeff();  // of what triangles use
   for (const Triangle& triangle : tree.triangles())
     for (const std::uint32_t corner : triangle)
