@@ -26,7 +26,7 @@ constexpr double kMarginOfRadius = 1.0 / 3;  // in which the collision cost push
 constexpr double kLeastMargin = 2.0;         // at least voxels
 
 /// Of the speed that is reached: what is tried next where nothing holds at that, as the corners are
-/// too sharp for it. In the maze at 5 m/s two flights in five stopped without, none with it.
+/// too sharp for it. Of 25 flights at 5 m/s around tree five stopped without, none with it.
 constexpr double kSlower = 0.6;
 constexpr double kSlow = 1.25;  // times the likely duration: a trajectory that is worth another try
 constexpr int kMostTries = 3;   // at a quicker one

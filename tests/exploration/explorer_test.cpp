@@ -59,6 +59,20 @@ FlightState state_at(const Trajectory& trajectory, double time) {
           .yaw = at.yaw};
 }
 
+/// At one end of the closed room.
+ExplorerConfig with_a_home() {
+  ExplorerConfig config;
+  config.home = Point(1.1, 3.1, 1.5);
+  return config;
+}
+
+/// What an explorer with a home does at the other end of the closed room.
+ExplorationStep way_home(Explorer& explorer, const LiveRoadmap& live) {
+  ExplorationStep home = explorer.decide(live.snapshot(), {.position = {10.1, 3.1, 1.5}});
+  EXPECT_EQ(home.status, ExplorationStatus::kReturn) << name_of(home.status);
+  return home;
+}
+
 /// A robot at rest at a place that the map has nearer to an obstacle than the robot's radius.
 TEST(Explorer, GoesOnFromWhereItDoesNotFitAnyMore) {
   LiveRoadmap live = live_for_explorers();
@@ -92,11 +106,8 @@ TEST(Explorer, TheWayOutOfWhereItDoesNotFitIsFlownToItsEnd) {
 TEST(Explorer, ItIsInDoubtWhereSomethingTurnsUpBesideIt) {
   LiveRoadmap live = live_for_explorers();
   live.set_voxels(closed_room());
-  ExplorerConfig config;
-  config.home = Point(1.1, 3.1, 1.5);
-  Explorer explorer(config);
-  const ExplorationStep home = explorer.decide(live.snapshot(), {.position = {10.1, 3.1, 1.5}});
-  ASSERT_EQ(home.status, ExplorationStatus::kReturn) << name_of(home.status);
+  Explorer explorer(with_a_home());
+  const ExplorationStep home = way_home(explorer, live);
   const FlightState flying = state_at(home.trajectory, 2.0);
   const VoxelIndex here = voxel_at(flying.position, kExplorerVoxel);
   EXPECT_FALSE(explorer.decide(live.snapshot(), flying).was_in_doubt);
@@ -108,11 +119,8 @@ TEST(Explorer, ItIsInDoubtWhereSomethingTurnsUpBesideIt) {
 TEST(Explorer, OnItsWayHomeItIsNotStuckWhileItFlies) {
   LiveRoadmap live = live_for_explorers();
   live.set_voxels(closed_room());
-  ExplorerConfig config;
-  config.home = Point(1.1, 3.1, 1.5);
-  Explorer explorer(config);
-  const ExplorationStep home = explorer.decide(live.snapshot(), {.position = {10.1, 3.1, 1.5}});
-  ASSERT_EQ(home.status, ExplorationStatus::kReturn) << name_of(home.status);
+  Explorer explorer(with_a_home());
+  const ExplorationStep home = way_home(explorer, live);
   const FlightState fast = state_at(home.trajectory, 2.0);
   ASSERT_GT(fast.velocity.norm(), 1.5);
   const int wall = voxel_at(fast.position, kExplorerVoxel).x - 5;
@@ -132,12 +140,10 @@ TEST(Explorer, BrakesInWhatRoomThereIs) {
   for (const int room : {8, 9, 10, 11, 12, 13}) {  // voxels
     LiveRoadmap live = live_for_explorers();
     live.set_voxels(closed_room());
-    ExplorerConfig config;
-    config.home = Point(1.1, 3.1, 1.5);
+    ExplorerConfig config = with_a_home();
     config.limits.max_jerk = 8.0;
     Explorer explorer(config);
-    const ExplorationStep home = explorer.decide(live.snapshot(), {.position = {10.1, 3.1, 1.5}});
-    ASSERT_EQ(home.status, ExplorationStatus::kReturn) << name_of(home.status);
+    const ExplorationStep home = way_home(explorer, live);
     const FlightState fast = state_at(home.trajectory, 2.0);
     ASSERT_GT(fast.velocity.norm(), 1.5);
     live.set_voxels(
