@@ -31,7 +31,8 @@ bool can_ask(const EsdfMap& esdf, const Point& a, const Point& b, double radius)
 
 /// Whether a point lies in, or on the border of, a known-free voxel: but for rounding, also of the
 /// world's coordinates, where waypoints of paths were rounded.
-bool touches_free(const EsdfMap& esdf, const Vector& p) {
+bool touches_free(const EsdfMap& esdf, VoxelFinder& finder, const Vector& p) {
+  if (esdf.is_open(finder.find(voxel_holding(p)))) return true;
   constexpr double kSlack = 1e-9, kMetres = 1e-8;
   const double slack = std::max(kSlack, kMetres / esdf.voxel_size);
   const VoxelIndex low = voxel_holding(p - Vector::Constant(slack));
@@ -39,10 +40,30 @@ bool touches_free(const EsdfMap& esdf, const Vector& p) {
   for (int z = low.z; z <= high.z; ++z)
     for (int y = low.y; y <= high.y; ++y)
       for (int x = low.x; x <= high.x; ++x) {
-        const VoxelId id = esdf.layout.find({x, y, z});
-        if (esdf.is_open(id)) return true;
+        if (esdf.is_open(finder.find({x, y, z}))) return true;
       }
   return false;
+}
+
+/// Where, after its part t, a segment crosses a plane of a lattice of cubes of a side; 1 if
+/// nowhere.
+double next_crossing(const Vector& from, const Vector& along, double t, double side) {
+  double next = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (along[axis] == 0.0) continue;
+    const double here = (from[axis] + t * along[axis]) / side, off = 1e-9 / side;
+    const double plane =
+        along[axis] > 0.0 ? std::floor(here + off) + 1.0 : std::ceil(here - off) - 1.0;
+    next = std::min(next, (side * plane - from[axis]) / along[axis]);
+  }
+  return std::max(next, std::nextafter(t, 1.0));  // far out a plane may be where it was
+}
+
+/// Whether all voxels of a block are open, as far as that can be told at a glance.
+bool is_open_block(const EsdfMap& esdf, std::uint32_t slot) {
+  if (esdf.unknown != UnknownPolicy::kFree || slot == BlockLayout::kNoBlock) return false;
+  const VoxelMask::Block& obstacles = esdf.obstacle.block(slot);
+  return std::all_of(obstacles.begin(), obstacles.end(), [](std::uint64_t z) { return z == 0; });
 }
 
 }  // namespace
@@ -80,24 +101,26 @@ bool FreeSpace::is_free(const Point& p, double radius) const { return is_free(p,
 bool FreeSpace::is_free(const Point& a, const Point& b, double radius) const {
   const double s = esdf_.voxel_size;
   if (!can_ask(esdf_, a, b, radius) || !is_within_limits(a, b)) return false;
-  if (esdf_.unknown != UnknownPolicy::kObstacle && !is_known_free(a, b)) return false;
   const auto fits = [&](double ball) {
     return std::isinf(
         SegmentMarch(esdf_, a / s, b / s).doubt<Wanted::kWhether>(squared_limit(ball, s)));
   };
-  if (is_for_sphere()) return fits(radius);
-  return fits(outer_radius(radius)) ||
-         (fits(inner_radius(radius)) &&
-          detail::cylinder_is_free(esdf_, a / s, b / s, radius / s, half_height(radius) / s));
+  const auto cylinder_fits = [&] {
+    return fits(outer_radius(radius)) ||
+           (fits(inner_radius(radius)) &&
+            detail::cylinder_is_free(esdf_, a / s, b / s, radius / s, half_height(radius) / s));
+  };
+  return (is_for_sphere() ? fits(radius) : cylinder_fits()) &&
+         (esdf_.unknown == UnknownPolicy::kObstacle || is_known_free(a, b));
 }
 
 bool FreeSpace::is_clearly_free(const Point& a, const Point& b, double radius) const {
   if (!is_for_sphere()) return is_free(a, b, radius);
   const double s = esdf_.voxel_size;
   if (!can_ask(esdf_, a, b, radius) || !is_within_limits(a, b)) return false;
-  if (esdf_.unknown != UnknownPolicy::kObstacle && !is_known_free(a, b)) return false;
-  return std::isinf(
-      SegmentMarch(esdf_, a / s, b / s).doubt<Wanted::kWhetherClearly>(squared_limit(radius, s)));
+  return std::isinf(SegmentMarch(esdf_, a / s, b / s)
+                        .doubt<Wanted::kWhetherClearly>(squared_limit(radius, s))) &&
+         (esdf_.unknown == UnknownPolicy::kObstacle || is_known_free(a, b));
 }
 
 double FreeSpace::free_length(const Point& a, const Point& b, double radius) const {
@@ -134,23 +157,17 @@ std::optional<Point> FreeSpace::near_obstacle(const Point& p) const {
 bool FreeSpace::is_known_free(const Point& a, const Point& b) const {
   if (!can_ask(esdf_, a, b, 0.0)) return false;
   const Vector from = a / esdf_.voxel_size, along = b / esdf_.voxel_size - from;
-  // Between two crossings of lattice planes the segment stays in one voxel: ask at its middle,
-  // and at the crossing itself.
-  double t = 0.0;
-  if (!touches_free(esdf_, from) || !touches_free(esdf_, from + along)) return false;
-  while (t < 1.0) {
-    double next = 1.0;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (along[axis] == 0.0) continue;
-      const double here = from[axis] + t * along[axis];
-      double plane =
-          along[axis] > 0.0 ? std::floor(here + 1e-9) + 1.0 : std::ceil(here - 1e-9) - 1.0;
-      next = std::min(next, (plane - from[axis]) / along[axis]);
-    }
-    next = std::max(next, std::nextafter(t, 1.0));  // far out a plane may be where it was
-    if (!touches_free(esdf_, from + 0.5 * (t + next) * along) ||
-        !touches_free(esdf_, from + next * along))
-      return false;
+  VoxelFinder finder(esdf_.layout);
+  if (!touches_free(esdf_, finder, from) || !touches_free(esdf_, finder, from + along))
+    return false;
+  // Between two crossings of lattice planes the segment stays in one voxel: ask at its middle. The
+  // crossings are on the border of what lies before and behind.
+  for (double t = 0.0; t < 1.0;) {
+    double next = next_crossing(from, along, t, 1.0);
+    const Vector middle = from + 0.5 * (t + next) * along;
+    if (!touches_free(esdf_, finder, middle)) return false;
+    if (is_open_block(esdf_, finder.find_block(block_of(voxel_holding(middle)))))
+      next = std::max(next, next_crossing(from, along, t, kBlockSide));
     t = next;
   }
   return true;

@@ -24,24 +24,6 @@ std::string place_text(const Point& p) {
   return number_text(p.x()) + "," + number_text(p.y()) + "," + number_text(p.z());
 }
 
-/// As voxels from the low corner of `range`. Those that are off by rounding are within the slack.
-VoxelTriangles in_voxels(const TriangleSoup& mesh, const VoxelIndex& origin, double voxel_size) {
-  VoxelTriangles local;
-  local.triangles = mesh.triangles;
-  local.vertices.resize(mesh.vertices.size());
-  const Point corner(origin.x, origin.y, origin.z);
-  double farthest = 0.0;
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    const Point v = mesh.vertices[i] / voxel_size;
-    const double far = v.cwiseAbs().maxCoeff();
-    // What no triangle uses may be anything.
-    local.vertices[i] = far <= 4e9 ? Point(v - corner) : Point(Point::Zero());
-    if (far <= 4e9) farthest = std::max(farthest, far);
-  }
-  local.slack = 4.0 * std::numeric_limits<double>::epsilon() * farthest + mesh.off / voxel_size;
-  return local;
-}
-
 /// Those voxels of masks that lie in a range.
 void write_states(const BlockMasks& masks, VoxelState state, const VoxelRange& kept,
                   OccupancyMap& map) {
@@ -185,8 +167,11 @@ OccupancyMap map_from_mesh(const TriangleSoup& mesh, const MeshMapConfig& config
   const auto in_kept = [&](const VoxelRange& r) {
     return VoxelRange{r.min - origin, r.max - origin};
   };
-  const BlockMasks walls = touched_voxels(in_voxels(mesh, origin, config.voxel_size),
-                                          kept.max - kept.min + VoxelIndex{1, 1, 1}, name);
+  std::vector<Point> vertices = mesh.vertices;
+  for (Point& vertex : vertices) vertex /= config.voxel_size;
+  const BlockMasks walls = touched_voxels(
+      from_voxel(origin, std::move(vertices), mesh.triangles, mesh.off / config.voxel_size, name),
+      kept.max - kept.min + VoxelIndex{1, 1, 1}, name);
   const SpaceFlood flood = FreeSpace(walls, in_kept(range), origin, config, name).find(report);
   const BlockMasks reached = flood.reached();
 

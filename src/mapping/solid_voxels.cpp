@@ -79,39 +79,26 @@ Box box_of_solids(const World& world) {
   return box;
 }
 
-/// The triangles of a mesh in voxels from `origin`.
+/// The triangles of a mesh in voxels from the map's origin.
 VoxelTriangles in_voxels(const PlacedMesh& placed, const OccupancyMap& map,
                          const std::string& name) {
-  constexpr double kFarthest = 4e9;  // voxels
   const TriangleTree& tree = placed.mesh->tree();
-  VoxelTriangles local;
-  local.triangles.assign(tree.triangles().begin(), tree.triangles().end());
-  const Point origin(map.origin.x, map.origin.y, map.origin.z);
+  std::vector<Point> vertices;
+  vertices.reserve(tree.vertices().size());
   for (const Point& vertex : tree.vertices())
-    local.vertices.emplace_back(placed.T_world_mesh * (placed.scale * vertex) / map.voxel_size -
-                                origin);
-  double farthest = origin.cwiseAbs().maxCoeff();  // of what triangles use
-  for (const Triangle& triangle : tree.triangles())
-    for (const std::uint32_t corner : triangle)
-      farthest = std::max(farthest, (local.vertices[corner] + origin).cwiseAbs().maxCoeff());
-  if (!(farthest <= kFarthest))
-    throw InputError(name, "has a mesh that reaches farther than 4e9 voxels from zero",
-                     "check its scale, or give a larger voxel_size");
-  local.slack = 32.0 * std::numeric_limits<double>::epsilon() * farthest;
-  return local;
+    vertices.emplace_back(placed.T_world_mesh * (placed.scale * vertex) / map.voxel_size);
+  return from_voxel(map.origin, std::move(vertices),
+                    {tree.triangles().begin(), tree.triangles().end()}, 0.0, name);
 }
 
 /// Which voxels of a block lie within a closed mesh, of those that its surface does not touch.
-/// Neighbours of them are on the same side, so one is asked for each run of them. Where a mesh cuts
-/// through itself, or lies within itself with both fronts outwards, which side that is may differ
-/// from place to place inside of it, as SolidMesh::distance says what the nearest triangle says:
-/// pockets in there may be free, shut off by the surface all around.
+/// Neighbours of them are on the same side, so one is asked for each run of them.
 VoxelMask::Block inside_of(const PlacedMesh& placed, const OccupancyMap& map, std::uint32_t slot,
                            const VoxelMask::Block& surface) {
   const Eigen::Isometry3d T_mesh_world = placed.T_world_mesh.inverse();
   const auto is_inside = [&](VoxelId id) {
     const Point centre = to_world(map, centre_of(map.layout.index_of(id), map.voxel_size));
-    return placed.mesh->distance(T_mesh_world * centre / placed.scale).distance < 0.0;
+    return placed.mesh->encloses(T_mesh_world * centre / placed.scale);
   };
   const VoxelId first = slot * kBlockVoxels;
   VoxelMask::Block inside{};

@@ -9,8 +9,10 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "memory_limit.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 
 namespace ridgeway {
@@ -155,6 +157,24 @@ void require_room(const std::vector<Node>& nodes, const std::string& name) {
 }
 
 }  // namespace
+
+VoxelTriangles from_voxel(const VoxelIndex& origin, std::vector<Point> vertices,
+                          std::vector<Triangle> triangles, double off, const std::string& name) {
+  constexpr double kFarthest = 4e9;  // voxels
+  const Point corner(origin.x, origin.y, origin.z);
+  double farthest = corner.cwiseAbs().maxCoeff();
+  for (const Triangle& triangle : triangles)
+    for (const std::uint32_t v : triangle) {
+      const double far = vertices[v].cwiseAbs().maxCoeff();
+      if (!(far <= kFarthest))
+        throw InputError(name, "has a mesh that reaches farther than 4e9 voxels from zero",
+                         "check its scale, or give a larger voxel_size");
+      farthest = std::max(farthest, far);
+    }
+  for (Point& vertex : vertices) vertex -= corner;
+  return {std::move(vertices), std::move(triangles),
+          32.0 * std::numeric_limits<double>::epsilon() * farthest + off};
+}
 
 BlockMasks touched_voxels(const VoxelTriangles& mesh, const VoxelIndex& size,
                           const std::string& name) {

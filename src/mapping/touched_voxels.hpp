@@ -25,6 +25,12 @@ struct VoxelTriangles {
   double slack = 0.0;  ///< by which vertices may be off, voxels; what is so near counts as touching
 };
 
+/// Triangles whose vertices, in voxels from zero, may be `off` by so many and by rounding, from
+/// voxel `origin`. Vertices that no triangle uses may be anything. Throws InputError, naming
+/// `name`, where one that is used is not within 4e9 voxels of zero.
+VoxelTriangles from_voxel(const VoxelIndex& origin, std::vector<Point> vertices,
+                          std::vector<Triangle> triangles, double off, const std::string& name);
+
 /// The voxels from (0, 0, 0) up to `size` whose closed cube shares a point with a triangle, found
 /// by the separating axis theorem (Akenine-Moeller 2001); rounding counts as touching. Triangles
 /// without area are segments or points. The voxels of a closed surface thus leave no way from one

@@ -80,6 +80,7 @@ SolidMesh::SolidMesh(const std::vector<Point>& vertices, const std::vector<Trian
     : tree_(tree_of(vertices, triangles)) {
   find_neighbours();
   find_normals();
+  is_cave_ = is_closed() && signed_volume() < 0.0;
 }
 
 void SolidMesh::find_neighbours() {
@@ -130,6 +131,16 @@ void SolidMesh::find_normals() {
   }
 }
 
+/// Of the tetrahedra between each triangle and a corner of the box around all.
+double SolidMesh::signed_volume() const {
+  double sum = 0.0;
+  for (const auto& [a, b, c] : tree_.triangles()) {
+    const auto from_low = [&](std::uint32_t v) -> Vector { return tree_.vertices()[v] - low(); };
+    sum += from_low(a).dot(from_low(b).cross(from_low(c)));
+  }
+  return sum / 6.0;
+}
+
 Vector SolidMesh::normal_at(const TriangleTree::Nearest& place) const {
   const Vector& face = face_normals_[place.triangle];
   switch (place.corners) {
@@ -156,6 +167,21 @@ SurfaceDistance SolidMesh::distance(const Point& p) const {
   if (distance == 0.0) return {0.0, normal.norm() > 0.0 ? normal.normalized() : Vector::UnitZ()};
   const double sign = is_closed() && normal.dot(away) < 0.0 ? -1.0 : 1.0;
   return {sign * distance, away * (sign / distance)};
+}
+
+bool SolidMesh::encloses(const Point& p) const {
+  if (!is_closed()) return false;
+  if ((p.array() < low().array()).any() || (p.array() > high().array()).any()) return is_cave_;
+  constexpr int kRays = 32;  // one nearly always does
+  constexpr double kGoldenAngle = 2.399963229728653;
+  for (int i = 0; i < kRays; ++i) {
+    const double z = (2.0 * i + 1.0) / kRays - 1.0, around = std::sqrt(1.0 - z * z);
+    const double angle = kGoldenAngle * (i + 0.5);
+    const Vector direction(around * std::cos(angle), around * std::sin(angle), z);
+    if (const std::optional<int> winding = tree_.winding_along(p, direction))
+      return is_cave_ ? *winding >= 0 : *winding != 0;
+  }
+  return distance(p).distance < 0.0;
 }
 
 double SolidMesh::cast_ray(const Point& origin, const Vector& direction) const {

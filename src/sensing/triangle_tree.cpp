@@ -71,7 +71,7 @@ class ShearedRay {
   /// Range at which it meets a triangle, edges and corners included; infinite if it does not. A
   /// product of differences may round to 0 but never to the wrong sign, so nothing slips through.
   double meets(const Point& p, const Point& q, const Point& r) const {
-    const Vector a = sheared(p), b = sheared(q), c = sheared(r);
+    const Vector a = sheared(p - origin_), b = sheared(q - origin_), c = sheared(r - origin_);
     const double u = c.x() * b.y() - c.y() * b.x();
     const double v = a.x() * c.y() - a.y() * c.x();
     const double w = b.x() * a.y() - b.y() * a.x();
@@ -82,9 +82,27 @@ class ShearedRay {
     return range >= 0.0 ? range : kInfinity;
   }
 
+  /// 1 where it meets a triangle's back, -1 for its front, 0 where it misses; nothing where
+  /// rounding decides.
+  std::optional<int> side_met(const Point& p, const Point& q, const Point& r) const {
+    const Vector from_p = p - origin_, from_q = q - origin_, from_r = r - origin_;
+    const Vector a = sheared(from_p), b = sheared(from_q), c = sheared(from_r);
+    const double reach = std::max({from_p.lpNorm<1>(), from_q.lpNorm<1>(), from_r.lpNorm<1>()});
+    const double off = 64.0 * std::numeric_limits<double>::epsilon() * reach;
+    const auto turn = [&](const Vector& one, const Vector& other) {
+      const double product = one.x() * other.y() - one.y() * other.x();
+      const double doubt = off * (one.head<2>().lpNorm<1>() + other.head<2>().lpNorm<1>() + off);
+      return std::abs(product) <= doubt ? 0 : product > 0.0 ? 1 : -1;
+    };
+    const int u = turn(b, c), v = turn(c, a), w = turn(a, b);
+    if (std::min({u, v, w}) < 0 && std::max({u, v, w}) > 0) return 0;
+    if (u == 0 || v == 0 || w == 0) return std::nullopt;
+    if (!(meets(p, q, r) < kInfinity)) return 0;
+    return per_length_ > 0.0 ? u : -u;
+  }
+
  private:
-  Vector sheared(const Point& p) const {
-    const Vector from = p - origin_;
+  Vector sheared(const Vector& from) const {
     return {from[one_] - slope_one_ * from[along_], from[two_] - slope_two_ * from[along_],
             per_length_ * from[along_]};
   }
@@ -237,6 +255,24 @@ TriangleTree::Hit TriangleTree::first_hit(const Point& origin, const Vector& dir
         return first.range;
       });
   return first;
+}
+
+std::optional<int> TriangleTree::winding_along(const Point& origin, const Vector& direction) const {
+  const ShearedRay ray(origin, direction);
+  const BoxEntry entry(origin, direction, low(), high());
+  std::optional<int> winding = 0;
+  walk(
+      nodes_,
+      [&](const Node& node) { return winding ? entry.range(node.low, node.high) : kInfinity; },
+      [&](const Node& leaf) {
+        for (std::uint32_t i = leaf.first; winding && i < leaf.first + leaf.count; ++i) {
+          const auto& [a, b, c] = triangles_[i];
+          const std::optional<int> side = ray.side_met(vertices_[a], vertices_[b], vertices_[c]);
+          winding = side ? std::optional(*winding + *side) : std::nullopt;
+        }
+        return winding ? kInfinity : 0.0;
+      });
+  return winding;
 }
 
 }  // namespace ridgeway

@@ -236,6 +236,53 @@ TEST(FreeSpace, KeepsToKnownFreeVoxelsWhereUnknownIsIgnored) {
   EXPECT_TRUE(space.is_free(Point(0.05, 0.15, 0.05), Point(0.15, 0.05, 0.05), 0.3));
 }
 
+/// Whether a segment of which no coordinate stays the same meets a cube.
+bool meets(const Point& a, const Point& b, const Point& low, const Point& high) {
+  const Eigen::Array3d one = (low - a).array() / (b - a).array();
+  const Eigen::Array3d other = (high - a).array() / (b - a).array();
+  return std::max(0.0, one.min(other).maxCoeff()) <= std::min(1.0, one.max(other).minCoeff());
+}
+
+/// Every voxel is held against segments, a little smaller and a little larger than it is. Many
+/// segments cross blocks without an obstacle, and some begin on planes between blocks.
+TEST(FreeSpace, ASegmentIsKnownFreeWhereItMeetsNoOtherVoxel) {
+  std::array<int, 2> counts{};
+  for (unsigned seed = 0; seed < 30; ++seed) {
+    std::mt19937 random(seed);
+    const OccupancyMap map =
+        testing::make_map(1.0, {0, 0, 0}, {23, 23, 23}, [&](const VoxelIndex&) {
+          const auto dice = random() % 4000;
+          return dice < 5    ? VoxelState::kOccupied
+                 : dice < 20 ? VoxelState::kUnknown
+                             : VoxelState::kFree;
+        });
+    const UnknownPolicy policy = seed % 2 == 0 ? UnknownPolicy::kFree : UnknownPolicy::kIgnore;
+    const EsdfMap esdf = compute_esdf(map, {.unknown = policy});
+    const FreeSpace space(esdf);
+    const VoxelRange whole = {{0, 0, 0}, {23, 23, 23}};
+    std::vector<VoxelIndex> closed;
+    for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
+      if (const VoxelIndex v = esdf.layout.index_of(id); !esdf.is_open(id) && whole.contains(v))
+        closed.push_back(v);
+    std::uniform_real_distribution<double> inside(0.001, 23.999);
+    for (int i = 0; i < 600; ++i) {
+      Point a(inside(random), inside(random), inside(random));
+      const Point b(inside(random), inside(random), inside(random));
+      if (i % 2 == 0) a.x() = 8.0 + 1e-9 * (static_cast<double>(random() % 20) - 10.0);
+      bool may = true, must = true;
+      for (const VoxelIndex& v : closed) {
+        const Point low(v.x, v.y, v.z), off = Point::Constant(1e-6);
+        may &= !meets(a, b, low + off, low + Point::Ones() - off);
+        must &= !meets(a, b, low - off, low + Point::Ones() + off);
+      }
+      if (may != must) continue;
+      ASSERT_EQ(space.is_known_free(a, b), may) << a.transpose() << " to " << b.transpose();
+      ++counts[may];
+    }
+  }
+  EXPECT_GT(std::min(counts[0], counts[1]), 300);
+}
+
 TEST(FreeSpace, NothingIsFreeWhereNoVoxelIsNorForNoRadius) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();

@@ -115,6 +115,36 @@ TEST(SolidVoxels, AMeshTakesTheVoxelsThatItTouchesOrEncloses) {
   EXPECT_GT(touched, enclosed + 100);
 }
 
+World world_of(const std::vector<testing::TriangleList>& meshes) {
+  World world;
+  for (const testing::TriangleList& mesh : meshes)
+    world.meshes.push_back({std::make_shared<SolidMesh>(mesh.vertices, mesh.triangles), 1.0,
+                            Eigen::Isometry3d::Identity(), ""});
+  return world;
+}
+
+/// Boxes that overlap, or of which one lies within the other: in one mesh they take the voxels that
+/// they take as two, whatever the bounds.
+TEST(SolidVoxels, AMeshThatCutsThroughItselfIsSolidWithin) {
+  const testing::TriangleList large = testing::box_mesh(Point::Zero(), {4.0, 4.0, 4.0});
+  for (const Point& centre : {Point(2.5, 0.2, 0.1), Point(0.2, 0.1, -0.2)}) {
+    const testing::TriangleList small = testing::box_mesh(centre, {2.6, 1.8, 1.8});
+    testing::TriangleList both = large;
+    append(small, false, both);
+    for (const double low : {-3.0, -2.7, -2.1}) {
+      const Box bounds = {Point::Constant(low), Point::Constant(4.5)};
+      const OccupancyMap apart = touched_by(world_of({large, small}), 0.1, bounds, "world");
+      const OccupancyMap one = touched_by(world_of({both}), 0.1, bounds, "world");
+      std::size_t occupied = 0;
+      for (VoxelId id = 0; id < apart.layout.voxel_count(); ++id) {
+        ASSERT_EQ(one.state[id], apart.state[id]) << id;
+        occupied += one.state[id] == VoxelState::kOccupied;
+      }
+      EXPECT_GT(occupied, 64000u);
+    }
+  }
+}
+
 TEST(SolidVoxels, AWorldWithoutAnEndHasNoExtent) {
   World world;
   EXPECT_FALSE(extent_of(world));

@@ -17,6 +17,7 @@
 namespace ridgeway {
 namespace {
 
+using testing::append;
 using testing::box_mesh;
 using testing::brute_distance;
 using testing::random_direction;
@@ -111,12 +112,47 @@ TEST(SolidMesh, SignIsThatOfTheWindingNumber) {
       ASSERT_NEAR(brute_distance(list, p - here.distance * here.gradient), 0.0, 1e-9);
       const double range = mesh.cast_ray(p, random_direction(random));
       ASSERT_EQ(range == 0.0, is_inside);
+      ASSERT_EQ(mesh.encloses(p), is_inside);
       inside += is_inside ? 1 : 0;
       edges += tree.nearest(p).corners != 7 ? 1 : 0;
     }
   }
   EXPECT_GT(inside, 1000);
   EXPECT_GT(edges, 2000);
+}
+
+/// Boxes, of which some overlap, some lie in others, and some are turned: rays along axes run
+/// through edges, corners and faces, as points lie on a lattice of which all corners are.
+TEST(SolidMesh, EnclosesWhatItGoesAround) {
+  int enclosed = 0, doubtful = 0;
+  for (std::uint64_t seed = 0; seed < 120; ++seed) {
+    Random random(seed, 9);
+    TriangleList list;
+    const bool is_cave = seed % 4 == 3;
+    if (is_cave) append(box_mesh({3.0, 3.0, 3.0}, {10.0, 10.0, 10.0}), true, list);
+    for (int i = 0; i < 4; ++i) {
+      const auto below = [&](std::uint64_t n) { return static_cast<double>(random.below(n)); };
+      const Point low(below(4), below(4), below(4));
+      const Vector size(1.0 + below(3), 1.0 + below(3), 1.0 + below(3));
+      append(box_mesh(low + 0.5 * size, size), seed % 4 == 2 && i == 3, list);
+    }
+    const SolidMesh mesh = solid(list);
+    if (!mesh.is_closed()) continue;  // two of the boxes share an edge
+    for (int i = 0; i < 8 * 8 * 8; ++i) {
+      const Point p(i % 8 - 0.5, i / 8 % 8 - 0.5, i / 64 - 0.5);
+      const auto winding = static_cast<int>(std::lround(winding_number(list, p)));
+      const bool expected = is_cave ? winding >= 0 : winding != 0;
+      ASSERT_EQ(mesh.encloses(p), expected) << seed << ": " << p.transpose();
+      enclosed += expected;
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto along = mesh.tree().winding_along(p, Vector::Unit(axis));
+        ASSERT_EQ(along.value_or(winding), winding) << seed << ": " << p.transpose();
+        doubtful += !along;
+      }
+    }
+  }
+  EXPECT_GT(enclosed, 1000);
+  EXPECT_GT(doubtful, 100);
 }
 
 TEST(SolidMesh, TurnedInsideOutItIsACave) {

@@ -39,6 +39,16 @@ inline TriangleList box_mesh(const Point& centre, const Eigen::Vector3d& size) {
   return mesh;
 }
 
+/// Adds a part to a mesh, its fronts where its backs were if it is turned.
+inline void append(const TriangleList& part, bool is_turned, TriangleList& whole) {
+  const auto first = static_cast<std::uint32_t>(whole.vertices.size());
+  whole.vertices.insert(whole.vertices.end(), part.vertices.begin(), part.vertices.end());
+  for (auto [a, b, c] : part.triangles) {
+    if (is_turned) std::swap(b, c);
+    whole.triangles.push_back({first + a, first + b, first + c});
+  }
+}
+
 /// An octahedron, its triangles cut into four and pushed out to the sphere again and again.
 inline TriangleList sphere_mesh(double radius, int cuts) {
   TriangleList mesh;

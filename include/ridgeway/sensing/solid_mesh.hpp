@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -53,6 +54,11 @@ class TriangleTree {
   /// if nowhere. No ray slips through between triangles that share an edge or a vertex.
   Hit first_hit(const Point& origin, const Eigen::Vector3d& direction) const;
 
+  /// How many more triangles a ray meets from the back than from the front: where they are closed,
+  /// the winding number around its origin. Nothing where it runs so near to an edge or a vertex
+  /// that rounding decides. The origin lies on no triangle.
+  std::optional<int> winding_along(const Point& origin, const Eigen::Vector3d& direction) const;
+
  private:
   /// The first child of an inner node follows it.
   struct Node {
@@ -94,6 +100,13 @@ class SolidMesh {
   /// Exact distance to the triangles: of a closed mesh negative inside, else never.
   SurfaceDistance distance(const Point& p) const;
 
+  /// Whether a point that is not on the surface lies in the solid, by the winding number around it:
+  /// of a mesh that encloses a volume where that is not 0, of a cave where it is not negative. The
+  /// same as the sign of the distance but where the mesh cuts through itself or parts of it lie
+  /// within others with their fronts turned alike: all that they enclose is solid. Never where it
+  /// is not closed.
+  bool encloses(const Point& p) const;
+
   /// How far a ray along a direction of length one runs until it meets a triangle, from either
   /// side; 0 from inside a closed mesh, infinite where it meets none.
   double cast_ray(const Point& origin, const Eigen::Vector3d& direction) const;
@@ -101,13 +114,15 @@ class SolidMesh {
  private:
   void find_neighbours();
   void find_normals();
+  double signed_volume() const;
   Eigen::Vector3d normal_at(const TriangleTree::Nearest& place) const;
 
   TriangleTree tree_;
   std::vector<Eigen::Vector3d> face_normals_;    ///< of length one; 0 for triangles without area
   std::vector<Eigen::Vector3d> vertex_normals_;  ///< any length
   std::vector<Triangle>
-      neighbours_;  ///< across the edge from corner i to i + 1; none if not closed
+      neighbours_;        ///< across the edge from corner i to i + 1; none if not closed
+  bool is_cave_ = false;  ///< closed, with fronts turned inwards
 };
 
 }  // namespace ridgeway
