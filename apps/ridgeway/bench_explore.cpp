@@ -133,6 +133,7 @@ int run(const BenchExploreOptions& options, const Globals& globals) {
         for (const std::string& planner : options.planners) {
           ExploreSettings settings = options.settings;
           settings.planner = planner;
+          settings.of_frontiers.clear();  // given for the planners that have them
           ExplorationFlightConfig config = settings.flight();
           const Place place =
               place_of(options, world, static_cast<std::uint64_t>(seed), config.free_radius());

@@ -29,6 +29,10 @@ ExplorationFlightConfig ExploreSettings::flight() const {
                     .vertical = vertical_angle * std::numbers::pi / 180.0,
                     .max_range = max_range,
                     .range_sigma = sigma};
+  for (const Option& option : of_frontiers)
+    if (option.is_given() && planner == "nbvp")
+      throw InputError(option.name(), "is of planners that look for frontiers",
+                       "leave it out, or give --planner ridgeway or frontier");
   flight.bounds = bounds;
   flight.explorer.limits.max_yaw_rate = max_yaw_rate * std::numbers::pi / 180.0;
   if (planner == "frontier") flight.planner = ExplorationPlanner::kFrontier;
@@ -71,9 +75,10 @@ void add_explore_settings(Command& command, ExploreSettings& settings) {
   command.choice("--planner", settings.planner, {"ridgeway", "frontier", "nbvp"},
                  "Tours over all frontiers, the nearest frontier, or the next best view "
                  "(Bircher et al. 2016)");
-  command.whole("--least-frontier", config.explorer.least_frontier, {1, 1'000'000},
-                "Voxels of a frontier that is worth a look");
-  command.number("--spacing", config.explorer.spacing, kLengths, "Between viewpoints, metres");
+  settings.of_frontiers = {
+      command.whole("--least-frontier", config.explorer.least_frontier, {1, 1'000'000},
+                    "Voxels of a frontier that is worth a look"),
+      command.number("--spacing", config.explorer.spacing, kLengths, "Between viewpoints, metres")};
   command.number("--longest", config.longest, {.least = 0.0, .most = 1e6, .above = true},
                  "The flight is cut off then, seconds");
 }

@@ -19,7 +19,7 @@ struct ExploreSettings {
   double sigma = 0.01, max_range = 10.0, max_yaw_rate = 90.0;
   std::optional<Box> bounds;
   ExplorationFlightConfig config;
-  std::vector<Option> of_lidars;
+  std::vector<Option> of_lidars, of_frontiers;
 
   /// All of it, checked but for what belongs to the world.
   ExplorationFlightConfig flight() const;

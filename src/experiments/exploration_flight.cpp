@@ -215,10 +215,12 @@ class ExplorationRun {
 
   /// Holds the way from one time to another against the exact world.
   void follow(double from, double to) {
-    const World now = world_at(world_, from);
+    World now = world_at(world_, from);
     const auto steps = static_cast<int>(std::ceil((to - from) / kPathStep));
     for (int i = 0; i < steps; ++i) {
-      const Point p = state_at(from + (to - from) * i / steps).position;
+      const double time = from + (to - from) * i / steps;
+      if (i > 0 && !world_.timed.empty()) now = world_at(world_, time);
+      const Point p = state_at(time).position;
       const double room = surface_distance(now, p).distance - config_.radius;
       flight_.nearest = std::min(flight_.nearest, room);
       flight_.collisions += room < 0.0;
@@ -233,7 +235,7 @@ class ExplorationRun {
           surface_distance(world_at(world_, 0.0), config_.start).distance - config_.radius;
     flight_.seconds = flight_.samples.back().state.time;
     flight_.coverage = flight_.samples.back().mapped;
-    flight_.is_complete = flight_.end == ExplorationStatus::kComplete;
+    flight_.is_complete = flight_.end == ExplorationStatus::kComplete && config_.is_by_explorer();
     if (config_.is_by_explorer()) flight_.unseen = explorer_.unseen();
     flight_.map = live_.map();
     flight_.roadmap = live_.settled();
@@ -276,6 +278,14 @@ void ExplorationFlightConfig::validate() const {
   else
     sensor.validate();
   require(max_range() >= 2.0 * voxel_size, "max_range", max_range(), "give at least two voxels");
+  // One pixel speaks for all voxels that are nearer to it than to others, farther off than this no
+  // surface is from its ray.
+  const double gap = max_range() / std::min(sensor.camera.fx, sensor.camera.fy);
+  if (!lidar && std::sqrt(0.5) * gap > clearance())
+    throw InputError("max_range " + number_text(max_range()),
+                     "is where pixels are " + number_text(gap) +
+                         " m apart, too far for walls to be found before the drone is in them",
+                     "give the camera more pixels across (width), or a shorter max_range");
   explorer.limits.validate();
   require(!std::isfinite(budget) || is_by_explorer(), "budget", budget,
           "leave it out, or take the planner ridgeway or frontier: no other comes back in time");
@@ -318,6 +328,7 @@ ExplorationFlight explore(const World& world, const ExplorationFlightConfig& con
 }
 
 std::string_view ExplorationFlight::end_name() const {
+  if (end == ExplorationStatus::kComplete && !is_complete) return "finished";
   return end == ExplorationStatus::kKeep ? "cut_off" : name_of(end);
 }
 

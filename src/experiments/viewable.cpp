@@ -17,13 +17,33 @@ namespace {
 constexpr double kBetweenPlaces = 0.5;  // metres
 constexpr double kPatience = 4.0;       // metres: places nearer than this are all asked
 
-/// Centres of the voxels that a sphere gets to from a start.
-std::vector<Point> places_reached(const EsdfMap& esdf, const Point& start, double radius) {
+/// Voxels at whose centres a sphere fits into the exact world: a wall that is thinner than a voxel
+/// may leave no voxel of a map of the world occupied.
+VoxelMask where_it_fits(const World& world, const EsdfMap& esdf, double radius) {
+  const SquaredHalves threshold = least_clearance(radius, esdf.voxel_size);
+  const World all = world_at_all_times(world);
+  VoxelMask fits(esdf.layout);
+  parallel_for_each_index(esdf.layout.block_count(), [&](std::size_t slot) {
+    const auto first = static_cast<VoxelId>(slot * kBlockVoxels);
+    for (VoxelId id = first; id < first + kBlockVoxels; ++id) {
+      if (!esdf.is_open(id) || esdf.squared[id] < threshold) continue;
+      const Point centre = to_world(esdf, centre_of(esdf.layout.index_of(id), esdf.voxel_size));
+      if (surface_distance(all, centre).distance >= radius) fits.set(id);
+    }
+  });
+  return fits;
+}
+
+/// Centres of the voxels that a sphere gets to from a start. Between neighbours that it fits on no
+/// wall has room, unless it is smaller than voxels.
+std::vector<Point> places_reached(const World& world, const EsdfMap& esdf, const Point& start,
+                                  double radius) {
   const SquaredHalves threshold = least_clearance(radius, esdf.voxel_size);
   const FreeSpace space(esdf);
   const VoxelId first = esdf.layout.find(voxel_at(to_local(esdf, start), esdf.voxel_size));
   std::vector<Point> places;
-  if (first == kNoVoxel || esdf.squared[first] < threshold) return places;
+  const VoxelMask fits = where_it_fits(world, esdf, radius);
+  if (first == kNoVoxel || !fits.test(first)) return places;
   VoxelMask reached(esdf.layout);
   std::vector<VoxelId> queue = {first};
   reached.set(first);
@@ -34,7 +54,7 @@ std::vector<Point> places_reached(const EsdfMap& esdf, const Point& start, doubl
       places.push_back(to_world(esdf, centre_of(voxel, esdf.voxel_size)));
     for (int d = 0; d < 27; ++d) {
       const VoxelId next = esdf.layout.neighbour(queue[i], d);
-      if (next == kNoVoxel || reached.test(next) || !esdf.is_open(next)) continue;
+      if (next == kNoVoxel || reached.test(next) || !fits.test(next)) continue;
       if (!space.move_is_free(queue[i], next, d, threshold)) continue;
       reached.set(next);
       queue.push_back(next);
@@ -63,7 +83,7 @@ ViewableVolume::ViewableVolume(const World& world, double voxel_size, const Voxe
   const OccupancyMap truth = occupancy_of(
       world, voxel_size, {corner(within.min), corner(within.max + VoxelIndex{1, 1, 1})});
   const EsdfMap esdf = compute_esdf(truth);
-  const std::vector<Point> places = places_reached(esdf, start, radius);
+  const std::vector<Point> places = places_reached(world, esdf, start, radius);
   // Places by cells of a few metres, so that near ones are found.
   std::unordered_map<BlockIndex, std::vector<std::size_t>, BlockHash> near;
   const auto cell_of = [](const Point& p) {

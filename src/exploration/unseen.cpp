@@ -29,6 +29,57 @@ std::vector<VoxelId> widest_views_of(const Roadmap& roadmap, const Frontiers& fr
   return widest;
 }
 
+/// Where the widest way between two places is too narrow for the robot, taking unknown space for
+/// free: so nothing that is still to be seen can make it wider.
+class Doors {
+ public:
+  explicit Doors(const Roadmap& roadmap)
+      : radius_(roadmap.min_clearance),
+        esdf_(compute_esdf(map_of(roadmap.esdf), {.unknown = UnknownPolicy::kFree,
+                                                  .max_distance = roadmap.esdf.max_distance})),
+        parts_(esdf_) {}
+
+  double clearance(const VoxelIndex& voxel) const {
+    return esdf_.known_squared(esdf_.layout.find(voxel)).metres(esdf_.voxel_size);
+  }
+
+  struct Door {
+    Point place;   ///< world
+    double width;  ///< radius that fits, metres
+  };
+  /// Nothing where the robot fits on no place at the way's end: that says nothing about the way.
+  std::optional<Door> between(const VoxelIndex& home, const VoxelIndex& end) const {
+    if (clearance(end) < radius_) return std::nullopt;
+    const auto pass = parts_.narrowest_move(esdf_.layout.find(home), esdf_.layout.find(end));
+    if (!pass || pass->clearance.metres(esdf_.voxel_size) >= radius_) return std::nullopt;
+    const SpaceParts::Narrow narrow = parts_.look_at(*pass);
+    return Door{narrow.place, pass->clearance.metres(esdf_.voxel_size)};
+  }
+
+  /// Of the unknown voxels of a frontier the one with most room.
+  VoxelIndex widest_target(const Frontiers& frontiers, const FrontierCluster& cluster) const {
+    VoxelIndex widest = frontiers.parts()[cluster.parts[0]].first;
+    for (const std::size_t i : cluster.parts)
+      for (const VoxelIndex& target : frontiers.parts()[i].targets)
+        if (clearance(target) > clearance(widest)) widest = target;
+    return widest;
+  }
+
+ private:
+  static OccupancyMap map_of(const EsdfMap& esdf) {
+    OccupancyMap map;
+    map.voxel_size = esdf.voxel_size;
+    map.origin = esdf.origin;
+    map.layout = esdf.layout;
+    map.state = esdf.state;
+    return map;
+  }
+
+  const double radius_;
+  const EsdfMap esdf_;
+  const SpaceParts parts_;
+};
+
 }  // namespace
 
 std::vector<UnseenFrontier> Explorer::unseen() const {
@@ -36,37 +87,35 @@ std::vector<UnseenFrontier> Explorer::unseen() const {
   std::vector<UnseenFrontier> unseen;
   if (!state.roadmap) return unseen;
   const EsdfMap& esdf = state.roadmap->esdf;
-  const double radius = state.roadmap->min_clearance;
-  std::optional<SpaceParts> parts;
+  std::optional<Doors> doors;
   const auto home = state.config.home
-                        ? detail::find_endpoint(esdf, to_local(esdf, *state.config.home), radius)
+                        ? detail::find_endpoint(esdf, to_local(esdf, *state.config.home),
+                                                state.roadmap->min_clearance)
                         : detail::Endpoint{};
-  const std::vector<VoxelId> views = widest_views_of(*state.roadmap, state.frontiers, state.config);
-  for (std::size_t c = 0; c < state.frontiers.clusters().size(); ++c) {
-    const FrontierCluster& cluster = state.frontiers.clusters()[c];
+  Frontiers frontiers(state.config.within);  // with what was looked at in vain
+  frontiers.update(state.roadmap);
+  const std::vector<VoxelId> views = widest_views_of(*state.roadmap, frontiers, state.config);
+  for (std::size_t c = 0; c < frontiers.clusters().size(); ++c) {
+    const FrontierCluster& cluster = frontiers.clusters()[c];
     if (cluster.voxels < state.config.least_frontier) continue;
     UnseenFrontier found = {to_world(esdf, cluster.centroid), cluster.voxels};
     if (!state.has_seen_all) found.reason = UnseenReason::kNotVisited;
     std::size_t looked_at = 0, targets = 0;
     for (const std::size_t i : cluster.parts)
-      for (const VoxelIndex& target : state.frontiers.parts()[i].targets) {
+      for (const VoxelIndex& target : frontiers.parts()[i].targets) {
         ++targets;
         looked_at += state.looks.contains(target) ? 1 : 0;
       }
-    if (2 * looked_at > targets) found.reason = UnseenReason::kLookedInVain;
-    if (home.voxel != kNoVoxel) {
-      if (!parts) parts.emplace(esdf);
-      const FrontierPart& part = state.frontiers.parts()[cluster.parts[0]];
-      const VoxelId voxel = views[c] != kNoVoxel ? views[c] : esdf.layout.find(part.first);
-      const std::optional<Pass> pass = parts->narrowest_move(home.voxel, voxel);
-      if (pass) {
-        const SpaceParts::Narrow narrow = parts->look_at(*pass);
-        const double width = pass->clearance.metres(esdf.voxel_size);
-        if (width < radius && narrow.by == Blocker::kObstacle) {
-          found.reason = UnseenReason::kTooNarrow;
-          found.door = narrow.place;
-          found.door_radius = width;
-        }
+    if (2 * looked_at > targets) {
+      found.reason = UnseenReason::kLookedInVain;
+    } else if (state.has_seen_all && home.voxel != kNoVoxel) {
+      if (!doors) doors.emplace(*state.roadmap);
+      const VoxelIndex end = views[c] != kNoVoxel ? esdf.layout.index_of(views[c])
+                                                  : doors->widest_target(frontiers, cluster);
+      if (const auto door = doors->between(esdf.layout.index_of(home.voxel), end)) {
+        found.reason = UnseenReason::kTooNarrow;
+        found.door = door->place;
+        found.door_radius = door->width;
       }
     }
     unseen.push_back(found);

@@ -280,7 +280,8 @@ BuildResult build_by_stages(OccupancyMap map, const BuildConfig& config, const P
   require_memory_for_blocks(map.layout.block_count(), kPipelineBytesPerVoxel - kMapBytesPerVoxel,
                             "map");  // of which there is only the map so far
   report.voxels = count_voxels(map);
-  if (report.voxels.free == 0)
+  const bool may_be_free = config.unknown == UnknownPolicy::kFree && report.voxels.occupied > 0;
+  if (report.voxels.free == 0 && !may_be_free)
     throw InputError("map", "has no free space",
                      "record free space, or give bounds where a cloud holds only surfaces");
   roadmap.min_clearance = config.min_clearance;

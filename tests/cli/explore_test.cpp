@@ -77,6 +77,14 @@ TEST_F(CliExplore, RefusesBeforeTheFlight) {
     of_a_lidar.insert(of_a_lidar.end(), {option, "10"});
     expect_refused(of_a_lidar, {option, "is of a lidar"});
   }
+  for (const std::string option : {"--least-frontier", "--spacing"}) {
+    std::vector<std::string> of_frontiers = words("1.3,1.3,1.2");
+    of_frontiers.insert(of_frontiers.end(), {option, "2", "--planner", "nbvp"});
+    expect_refused(of_frontiers, {option, "look for frontiers"});
+  }
+  std::vector<std::string> coarse = words("1.3,1.3,1.2");
+  *(std::find(coarse.begin(), coarse.end(), "--width") + 1) = "8";
+  expect_refused(coarse, {"max-range", "pixels are", "width"});
   expect_refused(words("0.1,1,1"), {"from an obstacle"});
   std::vector<std::string> near_sighted = words("1.3,1.3,1.2");
   near_sighted.insert(near_sighted.end(), {"--max-range", "0.3"});

@@ -186,6 +186,46 @@ TEST(Exploration, ATooNarrowDoorIsNamed) {
     EXPECT_NE(frontier.reason, UnseenReason::kNotVisited);
 }
 
+/// Short-sighted in one large room: from a place in the middle most is out of range, and known
+/// space ends everywhere, but nothing is narrow.
+TEST(Exploration, WhatIsLeftIsListedAndNoDoorIsInvented) {
+  ExplorationFlightConfig config = quick_config();
+  config.start = {3.1, 2.1, 1.2};
+  config.sensor.max_range = 1.6;
+  const ExplorationFlight flight = explore(two_rooms(4.0), config);
+  ASSERT_NE(flight.end, ExplorationStatus::kStuck);
+  EXPECT_LT(flight.coverage, 0.9);
+  std::map<UnseenReason, std::size_t> voxels;
+  for (const UnseenFrontier& frontier : flight.unseen) voxels[frontier.reason] += frontier.voxels;
+  EXPECT_EQ(voxels[UnseenReason::kTooNarrow], 0u);
+  EXPECT_EQ(flight.is_complete, voxels[UnseenReason::kNotVisited] == 0);
+  Frontiers all(voxels_inside({Point::Zero(), Point(8.2, 4.0, 2.4)}, config.voxel_size));
+  all.update(flight.roadmap);
+  std::size_t left = 0;
+  for (const FrontierCluster& cluster : all.clusters())
+    if (cluster.voxels >= config.explorer.least_frontier) left += cluster.voxels;
+  EXPECT_GT(left, 100u);
+  std::size_t listed = 0;
+  for (const auto& [reason, count] : voxels) listed += count;
+  EXPECT_EQ(listed, left);
+}
+
+/// A block fills the room between the second scan and the third.
+TEST(Exploration, WhatComesAndGoesBetweenScansIsHit) {
+  World world = two_rooms(4.0);
+  TimedSolids timed;
+  timed.from = 2.2;
+  timed.until = 3.8;
+  timed.boxes = {{Point(4.1, 2.0, 1.2), Eigen::Vector3d(8.2, 4.0, 2.4)}};
+  world.timed = {timed};
+  ExplorationFlightConfig config = quick_config();
+  config.scan_rate = 0.5;
+  config.longest = 8.0;
+  const ExplorationFlight flight = explore(world, config);
+  EXPECT_GT(flight.collisions, 50u);
+  EXPECT_LT(flight.nearest, 0.0);
+}
+
 TEST(Exploration, IsBackWhenTheBudgetEnds) {
   for (const double budget : {8.0, 17.0}) {
     ExplorationFlightConfig config = quick_config();
@@ -195,8 +235,10 @@ TEST(Exploration, IsBackWhenTheBudgetEnds) {
     EXPECT_LT((flight.samples.back().state.position - config.start).norm(), 1e-6);
     EXPECT_GT(flight.coverage, 0.2);
     EXPECT_FALSE(flight.unseen.empty());
-    for (const UnseenFrontier& frontier : flight.unseen)
-      EXPECT_NE(frontier.reason, UnseenReason::kOutOfView);  // there was no time to know
+    for (const UnseenFrontier& frontier : flight.unseen) {  // there was no time to know
+      EXPECT_NE(frontier.reason, UnseenReason::kOutOfView);
+      EXPECT_NE(frontier.reason, UnseenReason::kTooNarrow);
+    }
   }
 }
 
@@ -211,6 +253,8 @@ TEST(Exploration, BaselinesFlySafely) {
     EXPECT_EQ(flight.collisions, 0u);
     EXPECT_GE(flight.nearest, 0.0);
     EXPECT_GT(flight.coverage, 0.6);
+    EXPECT_TRUE(config.is_by_explorer() || !flight.is_complete);
+    EXPECT_TRUE(config.is_by_explorer() || flight.end_name() != "complete");
   }
 }
 
@@ -239,6 +283,11 @@ TEST(Exploration, RefusesWhatCannotBeFlown) {
   refused(world, config, "max_range");
   config.lidar = {.max_range = 0.3};
   refused(world, config, "max_range");
+  config = quick_config();
+  config.sensor.camera = {.width = 8, .height = 6, .fx = 4, .fy = 4, .cx = 3.5, .cy = 2.5};
+  refused(world, config, "pixels are 2.5 m apart");
+  config.lidar = SpinningLidar{};  // whose rays are followed, one by one
+  EXPECT_NO_THROW(config.validate());
   config = quick_config();
   config.budget = 1.0;
   refused(world, config, "budget");

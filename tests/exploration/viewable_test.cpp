@@ -37,5 +37,19 @@ TEST(ViewableVolume, EndsAtAMeshOfThinWalls) {
   EXPECT_GT(outside.volume(), 120.0);
 }
 
+/// A wall of 2 cm between the centres of voxels, of which none is occupied.
+TEST(ViewableVolume, EndsAtAWallThatIsThinnerThanAVoxel) {
+  const VoxelRange rooms = voxels_inside({{-5.0, -5.0, 0.0}, {5.0, 5.0, 2.0}}, 0.2);
+  World world = tent_in_a_hall();
+  world.meshes.clear();
+  const FieldOfView view = field_of_view(DepthSensor{});
+  const ViewableVolume whole(world, 0.2, rooms, {2.1, 0.1, 1.0}, 0.4, view);
+  EXPECT_GT(whole.volume(), 160.0);
+  world.boxes.push_back({{1.0, 0.0, 1.0}, {0.02, 10.0, 2.0}});
+  const ViewableVolume beside(world, 0.2, rooms, {2.1, 0.1, 1.0}, 0.4, view);
+  EXPECT_GT(beside.volume(), 0.35 * whole.volume());
+  EXPECT_LT(beside.volume(), 0.41 * whole.volume());
+}
+
 }  // namespace
 }  // namespace ridgeway

@@ -74,7 +74,8 @@ INSTANTIATE_TEST_SUITE_P(Policies, LiveRoadmapAfter,
                                                 std::numeric_limits<double>::infinity(), sets(400)},
                                            Sets{UnknownPolicy::kObstacle, 0.45, sets(400)},
                                            Sets{UnknownPolicy::kIgnore,
-                                                std::numeric_limits<double>::infinity(), 60}));
+                                                std::numeric_limits<double>::infinity(), 60},
+                                           Sets{UnknownPolicy::kFree, 0.45, 60}));
 
 TEST(LiveRoadmap, KeepsTheLimitsOfFlightsAsABatchBuildDoes) {
   BuildConfig build = small_build(UnknownPolicy::kObstacle, 1.0);
@@ -222,6 +223,16 @@ TEST(LiveRoadmap, AnUpdateThatChangesNothingKeepsTheSnapshot) {
   const UpdateReport report = live.set_voxels(testing::changes_to(live.map()));
   EXPECT_EQ(report.changed_voxels, 0u);
   EXPECT_EQ(live.snapshot(), before);
+}
+
+/// Free by the policy, as nothing is known to be: the one voxel that is known is occupied.
+TEST(LiveRoadmap, OfOneObstacleInFreeUnknownSpaceHasTheBytesOfABatchBuild) {
+  const BuildConfig build = small_build(UnknownPolicy::kFree, 1.0);
+  LiveRoadmap live({.build = build});
+  live.set_voxels(std::vector<VoxelChange>{{{0, 0, 0}, VoxelState::kOccupied}});
+  const auto settled = live.settled();
+  ASSERT_NE(settled, nullptr);
+  EXPECT_TRUE(bytes_of(settled.get()) == batch_bytes(live.map(), build));
 }
 
 TEST(LiveRoadmap, RefusesBadInputByNameAndStaysAsItWas) {

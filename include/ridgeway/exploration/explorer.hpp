@@ -187,8 +187,10 @@ class Explorer {
   /// roadmap of another policy.
   ExplorationStep decide(std::shared_ptr<const Roadmap> now, const FlightState& state);
 
-  /// The frontiers of at least the least size that are left, each with its reason; looks through
-  /// the whole map.
+  /// The frontiers of at least the least size that are left, what was looked at in vain too, each
+  /// with its reason; looks through the whole map. Doors are looked for with unknown space taken
+  /// for free, which what is not seen yet cannot make wider. Throws InputError where memory does
+  /// not do for the box around the map.
   std::vector<UnseenFrontier> unseen() const;
 
   const Frontiers& frontiers() const;  ///< The frontiers of the map that was last decided on.
