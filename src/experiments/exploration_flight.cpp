@@ -9,7 +9,6 @@
 
 #include "common/number_text.hpp"
 #include "common/random.hpp"
-#include "common/require.hpp"
 #include "next_best_view.hpp"
 #include "offline_tour.hpp"
 #include "ridgeway/common/error.hpp"
@@ -258,64 +257,6 @@ class ExplorationRun {
 
 }  // namespace
 
-void ExplorationFlightConfig::validate() const {
-  using detail::require;
-  require(radius > 0.0 && std::isfinite(radius), "radius", radius, "give metres above 0");
-  require(margin >= 0.0 && std::isfinite(margin), "margin", margin, "give metres from 0");
-  require(start.allFinite(), "start", start.x(), "give three finite coordinates");
-  require(std::isfinite(start_yaw), "start_yaw", start_yaw, "give radians");
-  require(start_radius == 0.0 || start_radius >= clearance() + 0.5 * voxel_size, "start_radius",
-          start_radius, "give at least the radius, the margin and half a voxel, or 0");
-  require(voxel_size > 0.0 && std::isfinite(voxel_size), "voxel_size", voxel_size,
-          "give metres above 0");
-  require(scan_rate > 0.0 && std::isfinite(scan_rate), "scan_rate", scan_rate,
-          "give images a second, above 0");
-  require(longest > 0.0 && std::isfinite(longest), "longest", longest, "give seconds above 0");
-  require(max_distance > clearance(), "max_distance", max_distance,
-          "give more than the radius and the margin");
-  if (lidar)
-    lidar->validate();
-  else
-    sensor.validate();
-  require(max_range() >= 2.0 * voxel_size, "max_range", max_range(), "give at least two voxels");
-  // One pixel speaks for all voxels that are nearer to it than to others, farther off than this no
-  // surface is from its ray.
-  const double gap = max_range() / std::min(sensor.camera.fx, sensor.camera.fy);
-  if (!lidar && std::sqrt(0.5) * gap > clearance())
-    throw InputError("max_range " + number_text(max_range()),
-                     "is where pixels are " + number_text(gap) +
-                         " m apart, too far for walls to be found before the drone is in them",
-                     "give the camera more pixels across (width), or a shorter max_range");
-  explorer.limits.validate();
-  require(!std::isfinite(budget) || is_by_explorer(), "budget", budget,
-          "leave it out, or take the planner ridgeway or frontier: no other comes back in time");
-  const double turn = 2.0 * std::numbers::pi / explorer.limits.max_yaw_rate;
-  require(budget >= turn, "budget", budget,
-          "give at least the time that the drone takes to turn once around");
-  // The flight is looked at when an image is taken, so it ends no earlier.
-  const double period = 1.0 / scan_rate;
-  require(budget >= period, "budget", budget, "give at least the time between two images");
-  require(longest >= period, "longest", longest, "give at least the time between two images");
-  if (bounds) validate_box(*bounds, "bounds");
-}
-
-FieldOfView ExplorationFlightConfig::view() const {
-  return lidar ? field_of_view(*lidar, 0.7, 2.0 * voxel_size) : field_of_view(sensor);
-}
-
-FieldOfView ExplorationFlightConfig::whole_view() const {
-  return lidar ? field_of_view(*lidar, 1.0) : field_of_view(sensor, 1.0);
-}
-
-double ExplorationFlightConfig::free_radius() const {
-  if (start_radius > 0.0) return start_radius;
-  const FieldOfView seen = view();
-  const double half_angle = 0.5 * std::min({seen.vertical, seen.horizontal, std::numbers::pi});
-  // Where the edges of the view leave the ball the robot must fit between them.
-  return std::max(clearance() + 2.0 * voxel_size,
-                  clearance() / std::sin(half_angle) + 0.25 * voxel_size);
-}
-
 ExplorationFlight explore(const World& world, const ExplorationFlightConfig& config,
                           const Progress& progress, const OnImage& on_image,
                           const OnMoment& on_moment, const OnScan& on_scan) {
@@ -325,26 +266,6 @@ ExplorationFlight explore(const World& world, const ExplorationFlightConfig& con
     throw InputError(world.name, "has no enclosure", "give bounds");
   require_start(world, config, bounds);
   return ExplorationRun(world, config, bounds, on_image, on_scan).run(progress, on_moment);
-}
-
-std::string_view ExplorationFlight::end_name() const {
-  if (end == ExplorationStatus::kComplete && !is_complete) return "finished";
-  return end == ExplorationStatus::kKeep ? "cut_off" : name_of(end);
-}
-
-double ExplorationFlight::seconds_to(double share) const {
-  for (const ExplorationSample& sample : samples)
-    if (sample.mapped >= share) return sample.state.time;
-  return std::numeric_limits<double>::infinity();
-}
-
-double ExplorationFlight::length_to(double share) const {
-  double flown = 0.0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (i > 0) flown += (samples[i].state.position - samples[i - 1].state.position).norm();
-    if (samples[i].mapped >= share) return flown;
-  }
-  return std::numeric_limits<double>::infinity();
 }
 
 }  // namespace ridgeway
