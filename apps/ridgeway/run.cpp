@@ -105,6 +105,14 @@ int run(const CommandLine& line, const Job& job) {
   }
 }
 
+/// "help" and "help COMMAND" ask for what --help does.
+std::vector<std::string> asked(std::vector<std::string> words) {
+  if (words.empty() || words.front() != "help") return words;
+  words.erase(words.begin());
+  words.emplace_back("--help");
+  return words;
+}
+
 }  // namespace
 
 int run(int argc, const char* const* argv) {
@@ -116,7 +124,7 @@ int run(int argc, const char* const* argv) {
   });
   Job job;
   try {
-    job = line.parse(join_values(argc, argv));
+    job = line.parse(asked(join_values(argc, argv)));
   } catch (const InputError& error) {
     return fail(json, error);
   }

@@ -10,6 +10,7 @@
 #include "common/number_text.hpp"
 #include "distance_sweeps.hpp"
 #include "mapping/memory_limit.hpp"
+#include "mapping/planar.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
@@ -145,6 +146,7 @@ EsdfMap compute_esdf(OccupancyMap map, const EsdfConfig& config) {
   esdf.planar = map.planar;
   esdf.limits = limits_in_local(esdf, config.limits);
   if (esdf.planar) {
+    static_assert(kPlanarLayer == detail::kStandingLayer);
     const double height = (kPlanarLayer + 0.5) * esdf.voxel_size;
     esdf.limits.keep_in.min.z() = esdf.limits.keep_in.max.z() = height;
   }

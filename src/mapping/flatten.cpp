@@ -15,8 +15,6 @@
 namespace ridgeway {
 namespace {
 
-constexpr int kLayer = 3;  // of a block, that stands for the others (kPlanarLayer of the field)
-
 /// What is known of the columns of a block, seen from above.
 struct Columns {
   std::array<int, 64> free{};  // voxels of each
@@ -63,7 +61,7 @@ OccupancyMap flatten(const OccupancyMap& map, double low, double high) {
   OccupancyMap flat;
   flat.voxel_size = map.voxel_size;
   const int middle = floor_to_int(0.5 * (low + high) / map.voxel_size);
-  flat.origin = {map.origin.x, map.origin.y, middle - kLayer};
+  flat.origin = {map.origin.x, map.origin.y, middle - detail::kStandingLayer};
   std::vector<BlockIndex> blocks;
   for (const auto& [place, columns] : plan) blocks.push_back({place.second, place.first, 0});
   flat.layout = BlockLayout(std::move(blocks));

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "planar.hpp"
+
 namespace ridgeway {
 
 VoxelCounts count_voxels(const OccupancyMap& map) {
@@ -41,8 +43,9 @@ VoxelRange known_range(const OccupancyMap& map) {
 }
 
 std::optional<Box> known_bounds(const OccupancyMap& map) {
-  const VoxelRange known = known_range(map);
+  VoxelRange known = known_range(map);
   if (known.empty()) return std::nullopt;
+  if (map.planar) known.min.z = known.max.z = detail::kStandingLayer;
   const auto corner = [&map](const VoxelIndex& own) -> Point {
     const VoxelIndex v = map.origin + own;
     return Point(v.x, v.y, v.z) * map.voxel_size;

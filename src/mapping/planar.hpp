@@ -14,6 +14,9 @@ inline void require_three_dimensions(const OccupancyMap& map) {
                      "edit it before flatten, or give bounds and no-fly boxes where it is loaded");
 }
 
+/// The layer of a planar map's blocks that stands for all of them: the one that robots are in.
+inline constexpr int kStandingLayer = 3;
+
 /// How many voxels of the layout stand for one of the map.
 inline int copies_of_a_voxel(const OccupancyMap& map) { return map.planar ? kBlockSide : 1; }
 

@@ -179,6 +179,8 @@ TEST_F(CliLimits, PlanarMapsAreBuiltSavedAndChecked) {
   const Json info = run({"info", map, "--json"}).json();
   EXPECT_TRUE(info["planar"].get<bool>());
   EXPECT_EQ(info["config"]["planar"], Json({0.5, 1.5}));
+  EXPECT_NEAR(info["bounds"]["min"][2].get<double>(), 1.0, 1e-9);
+  EXPECT_NEAR(info["bounds"]["max"][2].get<double>(), 1.1, 1e-9);
   EXPECT_EQ(info["voxels"]["free"].get<int>() + info["voxels"]["occupied"].get<int>(), 60 * 40);
   const std::string told = run({"info", map}).out;
   for (const char* words : {"at a height of 1.05 m", " m2, "})

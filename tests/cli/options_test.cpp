@@ -143,6 +143,12 @@ TEST_F(CliOptions, DescriptionHoldsWhatTheHelpShows) {
   EXPECT_EQ(plan["name"], "plan");
 }
 
+TEST_F(CliOptions, HelpIsACommandToo) {
+  EXPECT_EQ(run({"help"}).out, run({"--help"}).out);
+  EXPECT_EQ(run({"help", "bench", "maze"}).out, run({"bench", "maze", "--help"}).out);
+  expect_refused({"help", "castle"}, {"'castle'", "no such command"});
+}
+
 TEST_F(CliOptions, MisspeltWordsNameWhatWasMeant) {
   expect_refused({"biuld", "map.bt", "-o", "x.ridge"},
                  {"'biuld'", "no such command", "did you mean build?"});

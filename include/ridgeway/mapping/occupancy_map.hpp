@@ -61,7 +61,8 @@ struct VoxelCounts {
 };
 VoxelCounts count_voxels(const OccupancyMap& map);  ///< Looks at every state.
 
-/// Box around all known voxels, in the world, or nothing where none is known.
+/// Box around all known voxels, in the world, or nothing where none is known; of a planar map as
+/// high as the one layer that robots are in.
 std::optional<Box> known_bounds(const OccupancyMap& map);
 
 /// Voxels min .. max, both included; empty where max < min in some axis.
