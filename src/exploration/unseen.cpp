@@ -39,8 +39,10 @@ class Doors {
                                                   .max_distance = roadmap.esdf.max_distance})),
         parts_(esdf_) {}
 
+  /// 0 beyond the box around the map.
   double clearance(const VoxelIndex& voxel) const {
-    return esdf_.known_squared(esdf_.layout.find(voxel)).metres(esdf_.voxel_size);
+    const VoxelId id = esdf_.layout.find(voxel);
+    return id == kNoVoxel ? 0.0 : esdf_.known_squared(id).metres(esdf_.voxel_size);
   }
 
   struct Door {

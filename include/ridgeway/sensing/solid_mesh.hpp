@@ -102,9 +102,9 @@ class SolidMesh {
 
   /// Whether a point that is not on the surface lies in the solid, by the winding number around it:
   /// of a mesh that encloses a volume where that is not 0, of a cave where it is not negative. The
-  /// same as the sign of the distance but where the mesh cuts through itself or parts of it lie
-  /// within others with their fronts turned alike: all that they enclose is solid. Never where it
-  /// is not closed.
+  /// same as the sign of the distance but where the mesh cuts through itself, parts of it lie
+  /// within others with their fronts turned alike, or beside others with theirs turned the other
+  /// way: all that they enclose is solid. Never where it is not closed.
   bool encloses(const Point& p) const;
 
   /// How far a ray along a direction of length one runs until it meets a triangle, from either
