@@ -69,12 +69,7 @@ class Doors {
 
  private:
   static OccupancyMap map_of(const EsdfMap& esdf) {
-    OccupancyMap map;
-    map.voxel_size = esdf.voxel_size;
-    map.origin = esdf.origin;
-    map.layout = esdf.layout;
-    map.state = esdf.state;
-    return map;
+    return {esdf.voxel_size, esdf.origin, esdf.layout, esdf.state, esdf.planar};
   }
 
   const double radius_;

@@ -139,7 +139,8 @@ TEST(SolidMesh, EnclosesWhatItGoesAround) {
     const SolidMesh mesh = solid(list);
     if (!mesh.is_closed()) continue;  // two of the boxes share an edge
     for (int i = 0; i < 8 * 8 * 8; ++i) {
-      const Point p(i % 8 - 0.5, i / 8 % 8 - 0.5, i / 64 - 0.5);
+      const int y = i / 8 % 8, z = i / 64;
+      const Point p(i % 8 - 0.5, y - 0.5, z - 0.5);
       const auto winding = static_cast<int>(std::lround(winding_number(list, p)));
       const bool expected = is_cave ? winding >= 0 : winding != 0;
       ASSERT_EQ(mesh.encloses(p), expected) << seed << ": " << p.transpose();
