@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 #include <filesystem>
-#include <iomanip>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -29,17 +27,12 @@ struct FuseOptions {
   FusionConfig fusion;
 };
 
-struct PointCounts {
-  std::size_t fused = 0, out_of_range = 0, not_finite = 0;
-};
-
 struct Fused {
   std::string layout;
   TsdfMap map;
   std::size_t frames = 0, unreadable = 0, without_pose = 0;
   std::optional<PointCounts> points;  // of scans
   double seconds = 0.0;               // of fusing alone
-  std::string upward_axis;            // what a person should be told of it
 };
 
 SequenceConfig sequence_config(const FuseOptions& options) {
@@ -61,23 +54,6 @@ void fuse_frame(const std::filesystem::path& frame, Fused& fused, const Integrat
   }
   fused.seconds += watch.seconds();
   ++fused.frames;
-}
-
-/// Maps, pictures and heights take the world's z for up; recordings by hand often have another
-/// axis, mostly that of the first image. Cameras are held upright more often than not: y is down.
-/// Empty where they are upright in the world.
-std::string told_of_upward_axis(const DepthSequence& sequence) {
-  Eigen::Vector3d up = Eigen::Vector3d::Zero();
-  for (const DepthFrame& frame : sequence.frames) up -= frame.T_world_camera.linear().col(1);
-  constexpr double kHalf = 0.5;  // the cosine of 60 degrees; of nearly nothing if they look around
-  if (up.norm() < kHalf * static_cast<double>(sequence.frames.size())) return {};
-  up.normalize();
-  if (up.z() > kHalf) return {};
-  std::ostringstream text;
-  text << std::setprecision(2) << up.x() << ',' << up.y() << ',' << up.z();
-  return "the cameras are upright along " + text.str() +
-         " of the world of their poses, not along z, which maps and pictures take for up: "
-         "`ridgeway build --transform` turns the map";
 }
 
 /// Images that are missing or damaged are passed over, as real recordings have them; not all.
@@ -106,7 +82,7 @@ Fused fuse_images(const FuseOptions& options, const FusionConfig& config, const 
   if (fused.unreadable > 0)
     warn(globals,
          count_text(fused.unreadable) + " images were passed over, the first: " + first_problem);
-  fused.upward_axis = told_of_upward_axis(sequence);
+  note_upward_axis(globals, sequence);
   fused.map = fusion.map();
   return fused;
 }
@@ -125,14 +101,10 @@ Fused fuse_scans(const FuseOptions& options, const FusionConfig& config, const G
     const Scan& scan = sequence.scans[i];
     const PointCloud cloud = read_scan(scan);
     fuse_frame(scan.cloud, fused, [&] { fusion.integrate(cloud.points, scan.T_world_sensor); });
-    points.not_finite += cloud.skipped;
-    for (const Point& point : cloud.points)
-      ++(config.takes(point.norm()) ? points.fused : points.out_of_range);
+    points.add(cloud, config);
   }
   bar.clear();
-  if (points.out_of_range + points.not_finite > 0)
-    note(globals, count_text(points.out_of_range) + " points out of range and " +
-                      count_text(points.not_finite) + " that are not finite were passed over");
+  note_passed_over(globals, points);
   fused.map = fusion.map();
   return fused;
 }
@@ -197,7 +169,6 @@ int run(const FuseOptions& options, const Globals& globals) {
     throw InputError(options.folder, "shows no free space",
                      "check --min-range, --max-range and the scale of the recording");
   save_tsdf(fused.map, options.folder, options.output);
-  if (!fused.upward_axis.empty()) note(globals, fused.upward_axis);
   print(options, fused, voxels, globals);
   return kExitDone;
 }

@@ -157,7 +157,8 @@ void replay_images(Run& run, const Globals& globals) {
   GrowingRecording frames(options.folder, options.follow, options.until);
   ProgressBar bar(globals);
   std::size_t place = 0;
-  while (frames.find(sequence, next, bar)) {
+  bool is_last = false;
+  while (!is_last && frames.find(sequence, next, bar)) {
     run.replay.without_pose = sequence.without_pose;
     for (const DepthFrame& frame : next) {
       frames.done(frame);
@@ -173,17 +174,21 @@ void replay_images(Run& run, const Globals& globals) {
                        return run.live.integrate(*image, sequence.camera, frame.T_world_camera);
                      });
       if (!image && run.replay.unreadable++ == 0) run.replay.first_unreadable = problem;
-      if (frames.is_last(frame)) return;
+      is_last = frames.is_last(frame);
+      if (is_last) break;
     }
     if (options.follow == 0.0) break;
   }
-  if (!options.until.empty())
+  bar.clear();
+  note_upward_axis(globals, sequence);
+  if (!options.until.empty() && !is_last)
     warn(globals, "no image " + options.until + " has come, so all of them were taken");
 }
 
 void replay_scans(Run& run, const Globals& globals) {
   const ScanSequence sequence = open_scans(run.options.folder);
   run.replay.without_pose = sequence.without_pose;
+  PointCounts points;
   ProgressBar bar(globals);
   std::size_t place = 0;
   for (const Scan& scan : sequence.scans) {
@@ -193,7 +198,10 @@ void replay_scans(Run& run, const Globals& globals) {
     replay_frame(run, scan.cloud, sequence.scans.size(),
                  scene_at(scan.T_world_sensor, Eigen::Vector3d::UnitX()),
                  [&] { return run.live.integrate(cloud.points, scan.T_world_sensor); });
+    points.add(cloud, run.options.live.fusion);
   }
+  bar.clear();
+  note_passed_over(globals, points);
 }
 
 /// What was asked for, with what follows from the recording.

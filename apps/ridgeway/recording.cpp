@@ -3,6 +3,8 @@
 #include "recording.hpp"
 
 #include <algorithm>
+#include <iomanip>
+#include <sstream>
 #include <system_error>
 
 #include "ridgeway/common/error.hpp"
@@ -28,6 +30,31 @@ RecordingKind kind_of_recording(const std::string& folder) {
       folder, "holds no recording",
       "give a folder with depth.txt (TUM RGB-D), frame-*.depth.png (7-Scenes, "
       "3DMatch), depth/ and trajectory.log (Open3D), or scans and their poses in poses.txt");
+}
+
+void PointCounts::add(const PointCloud& cloud, const FusionConfig& config) {
+  not_finite += cloud.skipped;
+  for (const Point& point : cloud.points) ++(config.takes(point.norm()) ? fused : out_of_range);
+}
+
+void note_passed_over(const Globals& globals, const PointCounts& points) {
+  if (points.out_of_range + points.not_finite > 0)
+    note(globals, count_text(points.out_of_range) + " points out of range and " +
+                      count_text(points.not_finite) + " that are not finite were passed over");
+}
+
+void note_upward_axis(const Globals& globals, const DepthSequence& sequence) {
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();
+  for (const DepthFrame& frame : sequence.frames) up -= frame.T_world_camera.linear().col(1);
+  constexpr double kHalf = 0.5;  // the cosine of 60 degrees; of nearly nothing if they look around
+  if (up.norm() < kHalf * static_cast<double>(sequence.frames.size())) return;
+  up.normalize();
+  if (up.z() > kHalf) return;
+  std::ostringstream text;
+  text << std::setprecision(2) << up.x() << ',' << up.y() << ',' << up.z();
+  note(globals, "the cameras are upright along " + text.str() +
+                    " of the world of their poses, not along z, which maps and pictures take for "
+                    "up: `ridgeway build --transform` turns what `fuse` has made");
 }
 
 void require_outside(const std::filesystem::path& output, const std::filesystem::path& folder) {

@@ -2,9 +2,15 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
+
+#include "console.hpp"
+#include "ridgeway/formats/point_cloud.hpp"
+#include "ridgeway/mapping/tsdf_fusion.hpp"
+#include "ridgeway/recordings/depth_sequence.hpp"
 
 namespace ridgeway::cli {
 
@@ -12,6 +18,21 @@ enum class RecordingKind : std::uint8_t { kImages, kScans };
 
 /// Throws InputError where a folder is no recording.
 RecordingKind kind_of_recording(const std::string& folder);
+
+/// What became of the points of scans.
+struct PointCounts {
+  std::size_t fused = 0, out_of_range = 0, not_finite = 0;
+
+  void add(const PointCloud& cloud, const FusionConfig& config);
+};
+
+/// A note on points that were passed over, if any were.
+void note_passed_over(const Globals& globals, const PointCounts& points);
+
+/// Maps, pictures and heights take the world's z for up; recordings by hand often have another
+/// axis, mostly that of the first image. Cameras are held upright more often than not: y is down.
+/// A note where they are not upright in the world.
+void note_upward_axis(const Globals& globals, const DepthSequence& sequence);
 
 /// Throws InputError where a file that is to be written is part of a recording.
 void require_outside(const std::filesystem::path& output, const std::filesystem::path& folder);

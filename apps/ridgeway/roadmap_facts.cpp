@@ -43,10 +43,6 @@ nlohmann::ordered_json or_null(const std::optional<Point>& place) {
 
 }  // namespace
 
-OccupancyMap occupancy_of(const EsdfMap& esdf) {
-  return {esdf.voxel_size, esdf.origin, esdf.layout, esdf.state, esdf.planar};
-}
-
 Query as_planned(Query query, const PlanResult& plan) {
   if (plan.moved_start.distance > 0.0) query.start = plan.moved_start.place;
   if (plan.moved_goal.distance > 0.0) query.goal = plan.moved_goal.place;

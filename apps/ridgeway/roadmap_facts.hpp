@@ -10,13 +10,9 @@
 #include <vector>
 
 #include "query_file.hpp"
-#include "ridgeway/mapping/occupancy_map.hpp"
 #include "ridgeway/planning/blocked_route.hpp"
 
 namespace ridgeway::cli {
-
-/// The occupancy that a distance field was computed from.
-OccupancyMap occupancy_of(const EsdfMap& esdf);
 
 /// The query as it was planned: from and to where its ends were moved, if they were.
 Query as_planned(Query query, const PlanResult& plan);

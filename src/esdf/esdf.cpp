@@ -172,4 +172,8 @@ EsdfMap compute_esdf(OccupancyMap map, const EsdfConfig& config) {
   return esdf;
 }
 
+OccupancyMap occupancy_of(const EsdfMap& esdf) {
+  return {esdf.voxel_size, esdf.origin, esdf.layout, esdf.state, esdf.planar};
+}
+
 }  // namespace ridgeway

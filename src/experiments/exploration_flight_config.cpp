@@ -6,10 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "common/number_text.hpp"
 #include "common/require.hpp"
 #include "exploration_flight.hpp"
-#include "ridgeway/common/error.hpp"
 
 namespace ridgeway {
 
@@ -33,14 +31,6 @@ void ExplorationFlightConfig::validate() const {
   else
     sensor.validate();
   require(max_range() >= 2.0 * voxel_size, "max_range", max_range(), "give at least two voxels");
-  // One pixel speaks for all voxels that are nearer to it than to others, farther off than this no
-  // surface is from its ray.
-  const double gap = max_range() / std::min(sensor.camera.fx, sensor.camera.fy);
-  if (!lidar && std::sqrt(0.5) * gap > clearance())
-    throw InputError("max_range " + number_text(max_range()),
-                     "is where pixels are " + number_text(gap) +
-                         " m apart, too far for walls to be found before the drone is in them",
-                     "give the camera more pixels across (width), or a shorter max_range");
   explorer.limits.validate();
   require(!std::isfinite(budget) || is_by_explorer(), "budget", budget,
           "leave it out, or take the planner ridgeway or frontier: no other comes back in time");

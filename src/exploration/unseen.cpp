@@ -35,8 +35,9 @@ class Doors {
  public:
   explicit Doors(const Roadmap& roadmap)
       : radius_(roadmap.min_clearance),
-        esdf_(compute_esdf(map_of(roadmap.esdf), {.unknown = UnknownPolicy::kFree,
-                                                  .max_distance = roadmap.esdf.max_distance})),
+        esdf_(compute_esdf(
+            occupancy_of(roadmap.esdf),
+            {.unknown = UnknownPolicy::kFree, .max_distance = roadmap.esdf.max_distance})),
         parts_(esdf_) {}
 
   /// 0 beyond the box around the map.
@@ -68,10 +69,6 @@ class Doors {
   }
 
  private:
-  static OccupancyMap map_of(const EsdfMap& esdf) {
-    return {esdf.voxel_size, esdf.origin, esdf.layout, esdf.state, esdf.planar};
-  }
-
   const double radius_;
   const EsdfMap esdf_;
   const SpaceParts parts_;

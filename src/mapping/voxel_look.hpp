@@ -37,6 +37,7 @@ class VoxelLook {
         nearby_(static_cast<float>(1.0 * config.voxel_size)),
         truncation_(static_cast<float>(config.truncation)),
         behind_(static_cast<float>(config.depth_behind)),
+        sparse_from_(nearby_ / std::hypot(0.5f / fx_, 0.5f / fy_)),
         config_(config),
         sights_(image_.depth.size()) {
     for (int u = 0; u < image_.width; ++u) ray_x_.push_back((static_cast<float>(u) - cx_) / fx_);
@@ -129,6 +130,7 @@ class VoxelLook {
       value = truncation_;
     }
     if (value <= -behind_ || (value >= truncation_ && !config_.carve)) return {};
+    if (p.z() > sparse_from_ && value > 0.0f && is_between_rays(p, pixel)) return {};
     return {std::min(value, truncation_), gain_at(value, sight.facing, p)};
   }
 
@@ -157,6 +159,12 @@ class VoxelLook {
     return depth > 0.0f && std::abs(depth - foot.z()) < 0.5f * truncation_;
   }
 
+  /// Whether the ray of the pixel passes by farther off than a voxel: what the point is in may be
+  /// something that all rays miss.
+  bool is_between_rays(const Eigen::Vector3f& p, const Pixel& pixel) const {
+    return (p - p.z() * ray_of(pixel)).squaredNorm() > nearby_ * nearby_;
+  }
+
   float gain_at(float value, float facing, const Eigen::Vector3f& p) const {
     return gain_of(value, config_) * std::max(facing, static_cast<float>(kLeastFacing)) /
            (p.z() * p.z());
@@ -165,6 +173,8 @@ class VoxelLook {
   const DepthSurfaces& surfaces_;
   const DepthImage& image_;
   const float fx_, fy_, cx_, cy_, nearby_, truncation_, behind_;
+  // Depth from which pixels are so sparse that a point between them may be so far from their rays.
+  const float sparse_from_;
   const FusionConfig& config_;
   std::vector<float> ray_x_, ray_y_;  // by column, and by row
   std::vector<Sight> sights_;         // by pixel

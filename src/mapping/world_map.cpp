@@ -7,6 +7,7 @@
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
 #include "ridgeway/mapping/occupancy_map.hpp"
+#include "thin_surfaces.hpp"
 
 namespace ridgeway {
 namespace {
@@ -35,6 +36,7 @@ OccupancyMap occupancy_of(const World& world, double voxel_size, const Box& boun
   map.origin = range.min;
   map.layout = BlockLayout(blocks_up_to(range.max - range.min));
   map.state = VoxelField<VoxelState>(map.layout);
+  VoxelField<float> distance(map.layout);  // metres
   const World all = world_at_all_times(world);
   World meshes;  // alone: walls without an inside are in the way, too
   meshes.meshes = world.meshes;
@@ -45,11 +47,13 @@ OccupancyMap occupancy_of(const World& world, double voxel_size, const Box& boun
       const VoxelIndex voxel = map.origin + map.layout.index_of(id);
       if (!range.contains(voxel)) continue;
       const Point centre = centre_of(voxel, voxel_size);
-      const bool is_free = surface_distance(all, centre).distance > 0.0 &&
-                           surface_distance(meshes, centre).distance > half_diagonal;
+      distance[id] = static_cast<float>(surface_distance(all, centre).distance);
+      const bool is_free =
+          distance[id] > 0.0f && surface_distance(meshes, centre).distance > half_diagonal;
       map.state[id] = is_free ? VoxelState::kFree : VoxelState::kOccupied;
     }
   });
+  detail::occupy_thin_surfaces(distance, map);
   return map;
 }
 

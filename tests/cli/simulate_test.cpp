@@ -148,7 +148,7 @@ TEST_F(CliSimulate, FuseTakesRecordingsAsTheyAre) {
                  {"map.ridge", "not a roadmap"});
 }
 
-TEST_F(CliSimulate, FuseTellsWhereTheWorldOfThePosesLiesOnItsSide) {
+TEST_F(CliSimulate, FuseAndLiveTellWhereTheWorldOfThePosesLiesOnItsSide) {
   ASSERT_EQ(run({"simulate", house(), "-o", path("run"), "--frames", "2", "--width", "40"}).code,
             0);
   const Outcome upright = run({"fuse", path("run"), "-o", path("map.ridge")});
@@ -164,9 +164,11 @@ TEST_F(CliSimulate, FuseTellsWhereTheWorldOfThePosesLiesOnItsSide) {
     turned += "0 0 0 1\n";
   }
   write_whole(folder_ / "run/groundtruth.txt", turned);
-  const Outcome lying = run({"fuse", path("run"), "-o", path("map.ridge")});
-  EXPECT_NE(lying.err.find("upright along 0,-1,0"), std::string::npos) << lying.err;
-  EXPECT_NE(lying.err.find("--transform"), std::string::npos) << lying.err;
+  for (const char* command : {"fuse", "live"}) {
+    const Outcome lying = run({command, path("run"), "-o", path("map.ridge")});
+    EXPECT_NE(lying.err.find("upright along 0,-1,0"), std::string::npos) << lying.err;
+    EXPECT_NE(lying.err.find("--transform"), std::string::npos) << lying.err;
+  }
 }
 
 TEST_F(CliSimulate, WidthOfTheImages) {

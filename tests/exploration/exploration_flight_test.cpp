@@ -284,11 +284,6 @@ TEST(Exploration, RefusesWhatCannotBeFlown) {
   config.lidar = {.max_range = 0.3};
   refused(world, config, "max_range");
   config = quick_config();
-  config.sensor.camera = {.width = 8, .height = 6, .fx = 4, .fy = 4, .cx = 3.5, .cy = 2.5};
-  refused(world, config, "pixels are 2.5 m apart");
-  config.lidar = SpinningLidar{};  // whose rays are followed, one by one
-  EXPECT_NO_THROW(config.validate());
-  config = quick_config();
   config.budget = 1.0;
   refused(world, config, "budget");
   config = quick_config();

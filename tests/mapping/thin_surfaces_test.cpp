@@ -10,8 +10,10 @@
 #include <limits>
 
 #include "common/random.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
 #include "sensing/poses.hpp"
+#include "sensing/random_worlds.hpp"
 #include "sensing/world_generators.hpp"
 #include "support/lattice.hpp"
 
@@ -120,6 +122,31 @@ TEST(ThinSurfaces, WhatIsThickIsAsItsSignsHaveIt) {
       EXPECT_GT(known, 5000u);
       EXPECT_LE(1000 * wrong, known) << seed;
     }
+}
+
+/// Sheets between the centres of voxels, and pipes: what knows the world loses them no more than
+/// what has seen them, and thick walls gain nothing.
+TEST(ThinSurfaces, OfAWorldAreInItsMap) {
+  Random random(3);
+  const Box room{{-kHalf, -kHalf, 0.0}, {kHalf, kHalf, kHeight}};
+  const OccupancyMap empty = occupancy_of(empty_room(), kRoomVoxel, room);
+  for (VoxelId id = 0; id < empty.layout.voxel_count(); ++id)
+    if (empty.state[id] == VoxelState::kOccupied)
+      ASSERT_LE(surface_distance(empty_room(), testing::centre_in_world(empty, id)).distance, 0.0);
+  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+    World world = empty_room();
+    SolidBox thin = random_pipe(random, static_cast<Eigen::Index>(seed % 3));
+    if (seed % 2 == 1) thin.size[static_cast<Eigen::Index>((seed / 2 + 1) % 3)] = 20.0;
+    world.boxes.push_back(thin);
+    const OccupancyMap map = occupancy_of(world, kRoomVoxel, room);
+    for (int i = 0; i < 200; ++i) {
+      const Point inside = testing::random_vector(random, -0.5, 0.5).cwiseProduct(thin.size);
+      const Point place = thin.centre + inside;
+      if (((place - Point(0.0, 0.0, 0.5 * kHeight)).cwiseAbs().array() > 2.5).any()) continue;
+      if (place.z() < 0.5 || place.z() > 2.5) continue;
+      EXPECT_LE(to_obstacle(map, place), 1.25 * kRoomVoxel) << seed;
+    }
+  }
 }
 
 TEST(ThinSurfaces, AreThoseNearVoxelsThatHaveFreeOnesAcrossFacesAndEdges) {

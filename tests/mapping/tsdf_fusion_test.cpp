@@ -233,6 +233,24 @@ TEST(TsdfFusion, ImagesOfOneRowOrColumnAreFused) {
   }
 }
 
+/// A pillar that no ray meets: pixels are 1.5 m apart there.
+TEST(TsdfFusion, WhatLiesBetweenSparseRaysIsNotFree) {
+  World world;
+  world.planes.push_back({-Eigen::Vector3d::UnitX(), -9.0});
+  world.boxes.push_back({{5.5, -0.5, -9.0}, {6.5, 0.5, 9.0}});
+  const DepthSensor sensor{
+      .camera = {.width = 8, .height = 6, .fx = 4.0, .fy = 4.0, .cx = 3.5, .cy = 2.5}};
+  TsdfFusion fusion({.max_range = 20.0});
+  const Eigen::Isometry3d pose = level_pose(Point::Zero(), 0.0);
+  fusion.integrate(render_depth(world, sensor, pose), sensor.camera, pose);
+  const OccupancyMap map = occupancy_of(fusion.map());
+  for (const double depth : {2.0, 5.0, 6.0, 8.0})
+    EXPECT_EQ(testing::state_at(map, voxel_at(pose * Point(depth * sensor.camera.ray(4, 3)), 0.1)),
+              VoxelState::kFree);
+  for (int y = -4; y < 4; ++y)
+    EXPECT_NE(testing::state_at(map, {60, y, 0}), VoxelState::kFree) << y;
+}
+
 /// What is nearer than any sensor measures must not leave what is no number.
 TEST(TsdfFusion, RangesOfNothingAreNone) {
   TsdfFusion fusion({.min_range = 0.0});

@@ -239,4 +239,7 @@ struct EsdfConfig {
 /// voxel, who hands in a copy keeps the map.
 EsdfMap compute_esdf(OccupancyMap map, const EsdfConfig& config = {});
 
+/// The occupancy that a distance field was computed from, a copy.
+OccupancyMap occupancy_of(const EsdfMap& esdf);
+
 }  // namespace ridgeway
