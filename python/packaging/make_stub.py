@@ -16,7 +16,7 @@ HEAD = '''# SPDX-License-Identifier: BSD-3-Clause
 #
 # Made by python/packaging/make_stub.py.
 import os
-from typing import Any, Callable, Dict, Iterable, List, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -39,7 +39,7 @@ PARAMETERS = {
     "points path waypoints starts goals places transform T_world_camera T_world_sensor image states "
     "voxels via": "ArrayLike",
     "bounds keep_in": "Optional[_Box]",
-    "boxes keep_out exclude": "Iterable[_Box]",
+    "boxes keep_out exclude": "Sequence[_Box]",
     "voxel_size free_below occupied_above low high deepest step max_range range_sigma fx fy cx cy "
     "min_clearance max_distance theta least_apart prune_radius split_deviation significance "
     "widest_kept steepness width_step stretch within time_limit prefer_clearance snap robot_height "
@@ -84,6 +84,9 @@ PARTICULAR = {
     "OccupancyMap.from_points.bounds": "_Box", "OccupancyMap.cropped.bounds": "_Box",
     "World.occupancy.bounds": "_Box", "thin.voxels": "VoxelMask",
     "TsdfFusion.__init__.origin": "Optional[_Point]", "LiveRoadmap.__init__.origin": "Optional[_Point]",
+    "EsdfMap.path_is_free.path": "Union[PlanResult, ArrayLike]", "EsdfMap.clearance.path": "Union[PlanResult, ArrayLike]",
+    "EsdfMap.surroundings.path": "Union[PlanResult, ArrayLike]",
+    "GraphDelta.may_invalidate.path": "Union[PlanResult, ArrayLike]",
     "EsdfMap.is_free.radius": "float", "EsdfMap.path_is_free.radius": "float",
     "traversable_voxels.radius": "float", "GraphDelta.may_invalidate.radius": "float",
 }
@@ -114,7 +117,9 @@ RETURNS = {
 RESULTS = {name: kind for names, kind in RETURNS.items() for name in names.split()}
 RESULTS.update({"TsdfFusion.map": "TsdfMap", "Roadmap.distances": "NDArray[np.float64]",
                 "TsdfFusion.integrate_depth": "None", "TsdfFusion.integrate_points": "None",
-                "Alternatives.__getitem__": "PlanResult",
+                "Alternatives.__getitem__": "PlanResult", "Alternatives.__iter__": "Iterator[PlanResult]",
+                "ScanSequence.__iter__": "Iterator[Tuple[NDArray[np.float64], NDArray[np.float64]]]",
+                "DepthSequence.__iter__": "Iterator[Tuple[NDArray[np.float32], NDArray[np.float64]]]",
                 "ScanSequence.__getitem__": "Tuple[NDArray[np.float64], NDArray[np.float64]]",
                 "DepthSequence.__getitem__": "Tuple[NDArray[np.float32], NDArray[np.float64]]"})
 PROPERTIES = {
@@ -185,6 +190,8 @@ def stub_of(cls):
             lines.append(function(where, "    ", ["error: object", "value: object", "traceback: object"], "None"))
         elif name == "__getitem__":
             lines.append(function(where, "    ", ["index: int"], RESULTS[where]))
+        elif name == "__iter__":
+            lines.append(function(where, "    ", [], RESULTS[where]))
         elif not name.startswith("_"):
             static = isinstance(member, staticmethod)
             words = parameters(where, inspect.signature(getattr(cls, name)))

@@ -137,7 +137,7 @@ void read(py::handle value, const char* name, std::vector<Box>& field) {
 std::string literal(double value) {
   if (std::isinf(value)) return value > 0.0 ? "1e999" : "-1e999";  // which reads as infinity
   std::string text = number_text(value);
-  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+  return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
 }
 std::string shown(double value) { return std::isinf(value) ? number_text(value) : literal(value); }
 std::string literal(bool value) { return value ? "True" : "False"; }

@@ -88,6 +88,18 @@ std::int64_t whole_from(py::handle value, const char* name) {
   return number;
 }
 
+std::size_t place_from(py::handle index, std::size_t count, const char* what) {
+  const std::int64_t given = whole_from(index, "index"), all = static_cast<std::int64_t>(count);
+  const std::int64_t place = given < 0 ? given + all : given;
+  if (place < 0 || place >= all)
+    throw py::index_error("there are " + std::to_string(count) + " " + what);
+  return static_cast<std::size_t>(place);
+}
+
+py::object iterator_of(const py::object& sequence) {
+  return py::reinterpret_steal<py::object>(PySeqIter_New(sequence.ptr()));
+}
+
 std::string text_from(py::handle value, const char* name) {
   if (!PyUnicode_Check(value.ptr())) wrong_type(value, name, "a string");
   Py_ssize_t size = 0;

@@ -26,6 +26,11 @@ std::string describe(py::handle value);
 double number_from(py::handle value, const char* name);
 bool flag_from(py::handle value, const char* name);
 std::int64_t whole_from(py::handle value, const char* name);
+/// Which of `count` an index means, as Python counts: from the end where it is below 0. Throws
+/// IndexError, naming `what` there are, where it is none of them.
+std::size_t place_from(py::handle index, std::size_t count, const char* what);
+/// What iter() gives of a value with __getitem__ and __len__.
+py::object iterator_of(const py::object& sequence);
 std::string text_from(py::handle value, const char* name);
 /// Text that may hold the name of a file. Bytes that are no UTF-8 become what os.fsencode() turns
 /// back into them.

@@ -8,6 +8,7 @@
 #include "config.hpp"
 #include "faces.hpp"
 #include "long_call.hpp"
+#include "plans.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/distance_field.hpp"
 #include "ridgeway/esdf/esdf.hpp"
@@ -59,7 +60,7 @@ py::tuple distance_at(const EsdfFace& face, py::handle points, py::handle deepes
   std::vector<double> distance(places.size(), kNaN);
   std::vector<Point> gradient(places.size(), Point::Constant(kNaN));
   {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     parallel_for_each_index(
         places.size(),
         [&](std::size_t i) {
@@ -81,7 +82,7 @@ py::array ask_each(const EsdfFace& face, const std::vector<Point>& places, Value
                    const Ask& ask) {
   std::vector<Value> answers(places.size(), outside);
   {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     const FreeSpace space(*face.esdf);
     parallel_for_each_index(
         places.size(),
@@ -113,18 +114,18 @@ py::array is_free(const EsdfFace& face, py::handle points, py::handle radius) {
 }
 
 double clearance(const EsdfFace& face, py::handle path) {
-  std::vector<Point> local = points_from(path, "path");
+  std::vector<Point> local = path_points_from(path, "path");
   if (local.empty()) throw InputError("path", "has no points", "give one or more");
   for (Point& p : local) {
     p = flight_place(*face.esdf, p);
     if (!has_voxel(p, face.esdf->voxel_size)) return 0.0;
   }
-  const py::gil_scoped_release release;
+  const Unlocked unlocked;
   return FreeSpace(*face.esdf).clearance(local);
 }
 
 py::dict surroundings(const EsdfFace& face, py::handle path, py::handle radius) {
-  const std::vector<Point> points = points_from(path, "path");
+  const std::vector<Point> points = path_points_from(path, "path");
   if (points.empty()) throw InputError("path", "has no points", "give one or more");
   const double r = radius_from(radius);
   const PathSurroundings found =
@@ -138,14 +139,14 @@ py::dict surroundings(const EsdfFace& face, py::handle path, py::handle radius) 
 }
 
 bool path_is_free(const EsdfFace& face, py::handle path, py::handle radius) {
-  std::vector<Point> local = points_from(path, "path");
+  std::vector<Point> local = path_points_from(path, "path");
   if (local.empty()) throw InputError("path", "has no points", "give one or more");
   const double r = radius_from(radius);
   for (Point& p : local) {
     p = flight_place(*face.esdf, p);
     if (!has_voxel(p, face.esdf->voxel_size)) return false;
   }
-  const py::gil_scoped_release release;
+  const Unlocked unlocked;
   const FreeSpace space(*face.esdf);
   if (local.size() == 1) return space.is_free(local.front(), r);
   for (std::size_t i = 1; i < local.size(); ++i)
@@ -221,18 +222,23 @@ void add_fields(py::module_& module) {
            "Whether a sphere (radius in metres) fits at points (N, 3), world: (N,) bool, exact.")
       .def("path_is_free", &path_is_free, py::arg("path"), py::arg("radius"),
            "path_is_free(self, path, radius)\n--\n\n"
-           "Whether a sphere (radius in metres) can move along straight segments (N, 3), world: "
+           "Whether a sphere (radius in metres) can move along straight segments (N, 3), world, or "
+           "a PlanResult: "
            "exact.")
       .def("clearance", &clearance, py::arg("path"),
            "clearance(self, path)\n--\n\n"
-           "Smallest distance to an obstacle along straight segments (N, 3), metres, exact.")
+           "Smallest distance to an obstacle along straight segments (N, 3), or a PlanResult, "
+           "metres, exact.")
       .def("surroundings", &surroundings, py::arg("path"), py::arg("radius"),
            "surroundings(self, path, radius)\n--\n\n"
-           "What straight segments (N, 3) run beside, whatever unknown space was taken for: a dict "
+           "What straight segments (N, 3), or a PlanResult, run beside, whatever unknown space was "
+           "taken for: a dict "
            "of the smallest\ndistances to what is known to be occupied and to something unknown, "
            "metres, and of "
            "the shares of the length that are\nnearer to the unknown than the radius "
-           "(unknown_share) and within it (unknown_inside).")
+           "(unknown_share) and, where unknown space\nis taken for free, in it (unknown_inside; "
+           "else "
+           "0).")
       .def_property_readonly(
           "voxel_size", [](const EsdfFace& face) { return face.esdf->voxel_size; }, "Metres.")
       .def_property_readonly(

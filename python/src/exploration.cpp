@@ -8,6 +8,7 @@
 #include "config.hpp"
 #include "faces.hpp"
 #include "flights.hpp"
+#include "long_call.hpp"
 #include "ridgeway/exploration/explorer.hpp"
 #include "sensors.hpp"
 
@@ -27,7 +28,7 @@ class ExplorerFace {
     state.velocity = point_from(velocity, "velocity");
     state.acceleration = point_from(acceleration, "acceleration");
     state.yaw = number_from(yaw, "yaw");
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     const std::scoped_lock lock(mutex_);
     ExplorationStep step = explorer_.decide(roadmap.roadmap, state);
     roadmap_ = roadmap.roadmap;
@@ -35,12 +36,10 @@ class ExplorerFace {
   }
 
   py::list unseen() {
-    std::vector<UnseenFrontier> left;
-    {
-      const py::gil_scoped_release release;
+    const std::vector<UnseenFrontier> left = run_stage([&] {
       const std::scoped_lock lock(mutex_);
-      left = explorer_.unseen();
-    }
+      return explorer_.unseen();
+    });
     py::list list;
     for (const UnseenFrontier& frontier : left) {
       py::dict dict;
@@ -58,7 +57,7 @@ class ExplorerFace {
     std::vector<FrontierCluster> clusters;
     std::shared_ptr<const Roadmap> roadmap;
     {
-      const py::gil_scoped_release release;
+      const Unlocked unlocked;
       const std::scoped_lock lock(mutex_);
       const auto all = explorer_.frontiers().clusters();
       clusters.assign(all.begin(), all.end());
@@ -194,20 +193,20 @@ void add_exploration(py::module_& module) {
            }),
            ("__init__(self, *, " + signature + ")\n--\n\n").c_str())
       .def(
-          "decide", &ExplorerFace::decide, py::arg("roadmap"), py::arg("time"), py::arg("position"),
-          py::arg("velocity") = py::make_tuple(0.0, 0.0, 0.0),
+          "decide", method(&ExplorerFace::decide), py::arg("roadmap"), py::arg("time"),
+          py::arg("position"), py::arg("velocity") = py::make_tuple(0.0, 0.0, 0.0),
           py::arg("acceleration") = py::make_tuple(0.0, 0.0, 0.0), py::arg("yaw") = 0.0,
           "decide(self, roadmap, time, position, velocity=(0.0, 0.0, 0.0), acceleration=(0.0, 0.0, "
           "0.0), yaw=0.0)\n--\n\n"
           "What to do now, an ExplorationStep; to be asked after every scan, with the snapshot of "
           "a LiveRoadmap and\nhow the robot moves: seconds, metres, radians, world.")
-      .def("unseen", &ExplorerFace::unseen,
+      .def("unseen", method(&ExplorerFace::unseen),
            "unseen(self)\n--\n\n"
            "The frontiers that are left, dicts of centroid, voxels, reason ('too_narrow', "
            "'out_of_view',\n'looked_in_vain' or 'not_visited'), door (where it is too narrow, or "
            "None) and "
            "door_radius.")
-      .def("frontiers", &ExplorerFace::frontiers,
+      .def("frontiers", method(&ExplorerFace::frontiers),
            "frontiers(self)\n--\n\n"
            "Where what is known ended at the last decision: dicts of centroid (metres, world), "
            "voxels, and normal\n(towards the unknown).")

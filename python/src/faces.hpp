@@ -8,8 +8,11 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "ridgeway/mapping/tsdf_fusion.hpp"
+#include "ridgeway/planning/alternatives.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 
@@ -48,16 +51,36 @@ struct RoadmapFace {
   std::optional<BuildReport> report = {};  ///< where it was built here
 };
 
-/// A plan; where an end lies in an obstacle also what was asked, to tell what would help.
+/// A plan and what it was asked for: its trajectory is for the same robot.
 struct PlanFace : PlanResult {
+  PlanConfig config;
+  std::vector<Point> via = {};  ///< places between start and goal that it is to pass, world
+  /// Where an end lies in an obstacle, to tell what would help.
   struct Question {
     std::shared_ptr<const Roadmap> roadmap;
     Point start, goal;
-    PlanConfig config;
   };
-  std::shared_ptr<const Question> question;
-  std::vector<Point> via = {};  // places between start and goal that it is to pass, world
+  std::shared_ptr<const Question> question = nullptr;
 };
+
+/// Some of several routes, and what they were asked for.
+struct AlternativesFace : Alternatives {
+  PlanConfig config;
+};
+
+/// A method that refuses None for its object, which a pointer to it would take.
+template <typename Class, typename Result, typename... Arguments>
+auto method(Result (Class::*call)(Arguments...)) {
+  return [call](Class& self, Arguments... arguments) -> Result {
+    return (self.*call)(std::forward<Arguments>(arguments)...);
+  };
+}
+template <typename Class, typename Result, typename... Arguments>
+auto method(Result (Class::*call)(Arguments...) const) {
+  return [call](const Class& self, Arguments... arguments) -> Result {
+    return (self.*call)(std::forward<Arguments>(arguments)...);
+  };
+}
 
 /// The configuration as a roadmap keeps it, JSON text.
 std::string record_of(const BuildConfig& config, double voxel_size);

@@ -6,6 +6,7 @@
 
 #include "config.hpp"
 #include "faces.hpp"
+#include "lock.hpp"
 #include "plans.hpp"
 #include "ridgeway/formats/path_io.hpp"
 #include "ridgeway/trajectory/plan_trajectory.hpp"
@@ -31,14 +32,25 @@ std::string reason_of(TrajectoryStatus status) {
   return "invalid";
 }
 
+/// What is not said of the robot and its limits is as the path was asked for.
+TrajectoryConfig config_for(const PlanConfig& plan, const RoadmapFace& face, py::handle radius,
+                            const py::kwargs& keywords) {
+  TrajectoryConfig config = trajectory_fields().read_all(keywords);
+  config.radius = radius.is_none() ? plan.radius.value_or(face.roadmap->min_clearance)
+                                   : number_from(radius, "radius");
+  if (!keywords.contains("robot_height")) config.robot_height = plan.robot_height;
+  if (!keywords.contains("flight_limits")) config.flight_limits = plan.limits;
+  config.validate();
+  return config;
+}
+
 /// A plan with its escapes, or a path of points.
 FlightFace fly(const RoadmapFace& face, py::handle path, py::handle radius,
                const py::kwargs& keywords) {
-  TrajectoryConfig config = trajectory_fields().read_all(keywords);
-  config.radius = radius.is_none() ? face.roadmap->min_clearance : number_from(radius, "radius");
-  config.validate();
-  FlightFace flight;
   const bool is_plan = py::isinstance<PlanFace>(path);
+  TrajectoryConfig config = config_for(is_plan ? path.cast<const PlanFace&>().config : PlanConfig{},
+                                       face, radius, keywords);
+  FlightFace flight;
   if (is_plan) {
     const auto& plan = path.cast<const PlanFace&>();
     flight.path = static_cast<const PlanResult&>(plan);
@@ -49,7 +61,7 @@ FlightFace fly(const RoadmapFace& face, py::handle path, py::handle radius,
   } else {
     flight.path = given_plan(face.roadmap->esdf, points_from(path, "path"));
   }
-  const py::gil_scoped_release release;
+  const Unlocked unlocked;
   const EsdfMap& esdf = face.roadmap->esdf;
   flight.result = is_plan ? fly_plan(esdf, flight.path, config)
                           : plan_trajectory(esdf, flight.path.waypoints, config);
@@ -73,18 +85,21 @@ std::string flight_repr(const FlightFace& flight) {
 }  // namespace
 
 py::object samples_of(const Trajectory& trajectory, py::handle step) {
-  const std::vector<TrajectoryState> states = trajectory.sample(number_from(step, "step"));
+  const double seconds = number_from(step, "step");
   std::vector<double> time, yaw, yaw_rate;
   std::vector<Point> position, velocity, acceleration;
-  for (const TrajectoryState& s : states) {
-    time.push_back(s.time);
-    position.push_back(s.position);
-    velocity.push_back(s.velocity);
-    acceleration.push_back(s.acceleration);
-    yaw.push_back(s.yaw);
-    yaw_rate.push_back(s.yaw_rate);
+  {
+    const Unlocked unlocked;
+    for (const TrajectoryState& s : trajectory.sample(seconds)) {
+      time.push_back(s.time);
+      position.push_back(s.position);
+      velocity.push_back(s.velocity);
+      acceleration.push_back(s.acceleration);
+      yaw.push_back(s.yaw);
+      yaw_rate.push_back(s.yaw_rate);
+    }
   }
-  const std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(states.size())};
+  const std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(time.size())};
   return py::module_::import("ridgeway._values")
       .attr("TrajectorySamples")(
           owning_array(std::move(time), shape), array_of(std::move(position)),
@@ -168,8 +183,10 @@ void add_flights(py::module_& module) {
           "save",
           [](const FlightFace& flight, py::handle path, py::handle step) {
             require_ok(flight);
-            write_trajectory(flight.path, flight.result, path_from(path, "path"),
-                             number_from(step, "step"));
+            const std::filesystem::path file = path_from(path, "path");
+            const double seconds = number_from(step, "step");
+            const Unlocked unlocked;
+            write_trajectory(flight.path, flight.result, file, seconds);
           },
           py::arg("path"), py::arg("step") = 0.01,
           "save(self, path, step=0.01)\n--\n\nAs .csv, .json, or .yaml (polynomials).")
@@ -180,7 +197,9 @@ void add_trajectories(py::class_<RoadmapFace>& type) {
   type.def("trajectory", &fly, py::arg("path"), py::arg("radius") = py::none(),
            ("trajectory(self, path, radius=None, *, " + trajectory_fields().signature().substr(2) +
             ")\n--\n\nA verified Trajectory along a path: a PlanResult, or points (N, 3), metres, "
-            "world.\n\n  radius: of the robot, metres; None: the roadmap's" +
+            "world.\n\n  radius: of the robot, metres; None: that which the plan was asked for, of "
+            "points the "
+            "roadmap's;\n    flight_limits and robot_height are the plan's, too, unless given" +
             trajectory_fields().docs())
                .c_str());
 }

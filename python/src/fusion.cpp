@@ -4,6 +4,7 @@
 // Fusion of measurements to truncated distance fields.
 #include "config.hpp"
 #include "faces.hpp"
+#include "lock.hpp"
 #include "maps.hpp"
 #include "ridgeway/formats/graph_export.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
@@ -22,7 +23,7 @@ class FusionFace {
   void integrate_depth(py::handle image, const PinholeCamera& camera, py::handle pose) {
     const DepthImage depth = image_from(image, "image");
     const Eigen::Isometry3d T_world_camera = pose_from(pose, "T_world_camera");
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     const std::scoped_lock lock(mutex_);
     fusion_.integrate(depth, camera, T_world_camera);
     ++frames_;
@@ -31,14 +32,14 @@ class FusionFace {
   void integrate_points(py::handle points, py::handle pose) {
     const std::vector<Point> cloud = cloud_from(points);
     const Eigen::Isometry3d T_world_sensor = pose_from(pose, "T_world_sensor");
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     const std::scoped_lock lock(mutex_);
     fusion_.integrate(cloud, T_world_sensor);
     ++frames_;
   }
 
   TsdfFace map() {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     const std::scoped_lock lock(mutex_);
     return {std::make_shared<const TsdfMap>(fusion_.map())};
   }
@@ -54,7 +55,7 @@ class FusionFace {
 py::object surface(const TsdfFace& face) {
   SurfaceMesh mesh;
   {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     mesh = surface_of(*face.tsdf);
   }
   std::vector<std::uint32_t> corners;
@@ -93,7 +94,7 @@ void add_tsdf(py::module_& module) {
       .def(
           "occupancy",
           [](const TsdfFace& face) {
-            const py::gil_scoped_release release;
+            const Unlocked unlocked;
             return face_of(occupancy_of(*face.tsdf));
           },
           "occupancy(self)\n--\n\n"
@@ -103,7 +104,7 @@ void add_tsdf(py::module_& module) {
           "save_surface",
           [](const TsdfFace& face, py::handle path) {
             const std::filesystem::path file = path_from(path, "path");
-            const py::gil_scoped_release release;
+            const Unlocked unlocked;
             write_mesh_ply(surface_of(*face.tsdf), file);
           },
           py::arg("path"), "save_surface(self, path)\n--\n\nWrites that surface as a .ply mesh.")
@@ -111,7 +112,7 @@ void add_tsdf(py::module_& module) {
           "export_voxblox",
           [](const TsdfFace& face, py::handle path) {
             const std::filesystem::path file = path_from(path, "path");
-            const py::gil_scoped_release release;
+            const Unlocked unlocked;
             write_voxblox(*face.tsdf, file);
           },
           py::arg("path"),
@@ -121,7 +122,7 @@ void add_tsdf(py::module_& module) {
           [](const TsdfFace& face, py::handle path, py::handle source) {
             const std::filesystem::path file = path_from(path, "path");
             const std::string text = text_from(source, "source");
-            const py::gil_scoped_release release;
+            const Unlocked unlocked;
             save_tsdf(*face.tsdf, text, file);
           },
           py::arg("path"), py::arg("source") = "",
@@ -134,7 +135,7 @@ void add_tsdf(py::module_& module) {
       "load_tsdf",
       [](py::handle path) {
         const std::filesystem::path file = path_from(path, "path");
-        const py::gil_scoped_release release;
+        const Unlocked unlocked;
         return TsdfFace{std::make_shared<const TsdfMap>(load_tsdf(file))};
       },
       py::arg("path"), "load_tsdf(path)\n--\n\nThe TsdfMap of a .ridge file.");
@@ -145,9 +146,10 @@ void add_tsdf(py::module_& module) {
 std::vector<Point> cloud_from(py::handle value) {
   const std::string expected = "an (N, 3) array of numbers, metres";
   const Doubles array = doubles_from(value, "points", expected);
-  if (array.ndim() != 2 || array.shape(1) != 3)
+  const bool none = array.size() == 0 && array.ndim() <= 2;
+  if (!none && (array.ndim() != 2 || array.shape(1) != 3))
     throw InputError("points", "is " + describe(value), "give " + expected);
-  std::vector<Point> points(static_cast<std::size_t>(array.shape(0)));
+  std::vector<Point> points(static_cast<std::size_t>(none ? 0 : array.shape(0)));
   for (std::size_t i = 0; i < points.size(); ++i)
     points[i] = Eigen::Map<const Point>(array.data() + 3 * i);
   return points;  // fusion passes over those that are not finite
@@ -166,18 +168,19 @@ void add_fusion(py::module_& module) {
              return std::make_unique<FusionFace>(fusion_fields().read_all(keywords));
            }),
            ("__init__(self, *, " + signature + ")\n--\n\n").c_str())
-      .def("integrate_depth", &FusionFace::integrate_depth, py::arg("image"), py::arg("camera"),
-           py::arg("T_world_camera"),
+      .def("integrate_depth", method(&FusionFace::integrate_depth), py::arg("image"),
+           py::arg("camera"), py::arg("T_world_camera"),
            "integrate_depth(self, image, camera, T_world_camera)\n--\n\n"
            "Depths along the optical axis (H, W), metres, 0 or NaN where nothing was measured; a "
            "PinholeCamera;\nits pose (4, 4). Where it throws, the map is as before.")
-      .def("integrate_points", &FusionFace::integrate_points, py::arg("points"),
+      .def("integrate_points", method(&FusionFace::integrate_points), py::arg("points"),
            py::arg("T_world_sensor"),
            "integrate_points(self, points, T_world_sensor)\n--\n\n"
            "Points (N, 3) in the sensor's frame, metres, and its pose (4, 4). Those not finite are "
            "passed over.")
-      .def("map", &FusionFace::map, "map(self)\n--\n\nAll that was fused so far, a TsdfMap.")
-      .def("__len__", &FusionFace::frames)
+      .def("map", method(&FusionFace::map),
+           "map(self)\n--\n\nAll that was fused so far, a TsdfMap.")
+      .def("__len__", method(&FusionFace::frames))
       .def("__repr__", [](const FusionFace& face) {
         return "TsdfFusion(" + std::to_string(face.frames()) + " measurements)";
       });

@@ -6,6 +6,7 @@
 #include "faces.hpp"
 #include "long_call.hpp"
 #include "maps.hpp"
+#include "plans.hpp"
 #include "ridgeway/live/graph_delta.hpp"
 #include "ridgeway/live/live_roadmap.hpp"
 #include "sensors.hpp"
@@ -33,6 +34,7 @@ std::vector<VoxelChange> changes_from(py::handle voxels, py::handle states) {
   const std::vector<VoxelIndex> places = voxels_from(voxels, "voxels");
   require_no_mask(states, "states");
   const auto array = py::array_t<std::int64_t, py::array::forcecast>::ensure(states);
+  if (places.empty() && array && array.size() == 0) return {};
   const char kind = array ? py::array::ensure(states).dtype().kind() : 'O';
   if (kind == 'O') {
     PyErr_Clear();
@@ -94,12 +96,12 @@ class LiveFace {
   }
   void begin_correcting(const py::dict& poses) {
     const std::vector<PoseCorrection> corrections = corrections_from(poses);
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     const std::scoped_lock lock(mutex_);
     live_.begin_correcting(corrections);
   }
   bool is_correction_ready() {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     const std::scoped_lock lock(mutex_);
     return live_.is_correction_ready();
   }
@@ -115,7 +117,7 @@ class LiveFace {
     return face(run_stage([&] { return live_.settled(); }));
   }
   MapFace map() {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     const std::scoped_lock lock(mutex_);
     return face_of(live_.map());
   }
@@ -125,7 +127,7 @@ class LiveFace {
   py::dict update(const Work& work) {
     UpdateReport report;
     {
-      const py::gil_scoped_release release;
+      const Unlocked unlocked;
       const std::scoped_lock lock(mutex_);
       report = work();
     }
@@ -142,7 +144,7 @@ class LiveFace {
 
 void add_deltas(py::module_& module) {
   py::class_<GraphDelta>(module, "GraphDelta", "What is different between two snapshots.")
-      .def_property_readonly("is_empty", &GraphDelta::is_empty, "Whether nothing is.")
+      .def_property_readonly("is_empty", method(&GraphDelta::is_empty), "Whether nothing is.")
       .def_property_readonly(
           "counts",
           [](const GraphDelta& delta) {
@@ -160,11 +162,13 @@ void add_deltas(py::module_& module) {
       .def(
           "may_invalidate",
           [](const GraphDelta& delta, py::handle path, py::handle radius) {
-            return may_be_invalid(points_from(path, "path"), number_from(radius, "radius"), delta);
+            return may_be_invalid(path_points_from(path, "path"), number_from(radius, "radius"),
+                                  delta);
           },
           py::arg("path"), py::arg("radius"),
           "may_invalidate(self, path, radius)\n--\n\n"
-          "Whether a path (N, 3) that was free may not be so any more; False is certain. Then ask\n"
+          "Whether a path (N, 3), or a PlanResult, that was free may not be so any more; False is "
+          "certain. Then ask\n"
           "EsdfMap.path_is_free of the new snapshot.")
       .def("__repr__", [](const GraphDelta& delta) {
         return "GraphDelta(came_edges=" + std::to_string(delta.came_edges.size()) +
@@ -174,7 +178,7 @@ void add_deltas(py::module_& module) {
   module.def(
       "delta_between",
       [](const RoadmapFace& before, const RoadmapFace& now) {
-        const py::gil_scoped_release release;
+        const Unlocked unlocked;
         return delta_between(*before.roadmap, *now.roadmap);
       },
       py::arg("before"), py::arg("now"),
@@ -200,43 +204,44 @@ void add_live(py::module_& module) {
              return std::make_unique<LiveFace>(config);
            }),
            ("__init__(self, *, " + signature + ")\n--\n\n").c_str())
-      .def("integrate_depth", &LiveFace::integrate_depth, py::arg("image"), py::arg("camera"),
-           py::arg("T_world_camera"),
+      .def("integrate_depth", method(&LiveFace::integrate_depth), py::arg("image"),
+           py::arg("camera"), py::arg("T_world_camera"),
            "integrate_depth(self, image, camera, T_world_camera)\n--\n\n"
            "Depths along the optical axis (H, W), metres, 0 or NaN where nothing was measured; a "
            "PinholeCamera;\nits pose (4, 4).")
-      .def("integrate_points", &LiveFace::integrate_points, py::arg("points"),
+      .def("integrate_points", method(&LiveFace::integrate_points), py::arg("points"),
            py::arg("T_world_sensor"),
            "integrate_points(self, points, T_world_sensor)\n--\n\n"
            "Points (N, 3) in the sensor's frame, metres, and its pose (4, 4).")
-      .def("set_voxels", &LiveFace::set_voxels, py::arg("voxels"), py::arg("states"),
+      .def("set_voxels", method(&LiveFace::set_voxels), py::arg("voxels"), py::arg("states"),
            "set_voxels(self, voxels, states)\n--\n\n"
            "Voxels of the lattice (N, 3), whole numbers (v holds the points from v * voxel_size to "
            "(v + 1) *\nvoxel_size), and the states (N,), or one, that they now have.")
-      .def("correct_poses", &LiveFace::correct_poses, py::arg("poses"),
+      .def("correct_poses", method(&LiveFace::correct_poses), py::arg("poses"),
            "correct_poses(self, poses)\n--\n\n"
            "Fuses frames again with other poses: {frame, counted from 1: (4, 4)}. Needs "
            "log_folder.")
-      .def("begin_correcting", &LiveFace::begin_correcting, py::arg("poses"),
+      .def("begin_correcting", method(&LiveFace::begin_correcting), py::arg("poses"),
            "begin_correcting(self, poses)\n--\n\n"
            "Begins the same in a thread of its own and returns at once: scans may be fused "
            "meanwhile.")
-      .def("is_correction_ready", &LiveFace::is_correction_ready,
+      .def("is_correction_ready", method(&LiveFace::is_correction_ready),
            "is_correction_ready(self)\n--\n\n"
            "Whether finish_correcting would not wait for that thread.")
-      .def("finish_correcting", &LiveFace::finish_correcting,
+      .def("finish_correcting", method(&LiveFace::finish_correcting),
            "finish_correcting(self)\n--\n\n"
            "Waits for that thread and updates the roadmap.")
-      .def("catch_up", &LiveFace::catch_up,
+      .def("catch_up", method(&LiveFace::catch_up),
            "catch_up(self)\n--\n\nFollows what waits outside of the window.")
-      .def("snapshot", &LiveFace::snapshot,
+      .def("snapshot", method(&LiveFace::snapshot),
            "snapshot(self)\n--\n\n"
            "The Roadmap after the last update, which stays as it is; None while nothing is "
            "traversable.")
-      .def("settled", &LiveFace::settled,
+      .def("settled", method(&LiveFace::settled),
            "settled(self)\n--\n\n"
            "The same with shortcuts around corners, which takes as long as many updates.")
-      .def("map", &LiveFace::map, "map(self)\n--\n\nThe OccupancyMap after the last update.")
+      .def("map", method(&LiveFace::map),
+           "map(self)\n--\n\nThe OccupancyMap after the last update.")
       .def("__repr__", [](const LiveFace& face) {
         const py::object snapshot = face.snapshot();
         return "LiveRoadmap(snapshot=" + std::string(py::repr(snapshot)) + ")";

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "lock.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 
@@ -23,6 +24,7 @@ class Watch {
   explicit Watch(py::object callback) : callback_(std::move(callback)) {}
 
   bool go_on(std::string_view stage, double share) {
+    wait_where_python_ends();
     const py::gil_scoped_acquire acquire;
     try {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -63,7 +65,7 @@ auto run_long(const py::object& callback, int threads, Work&& work) {
     return watch.go_on(stage, share);
   };
   try {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     return with_threads(threads, [&] { return work(progress); });
   } catch (const Cancelled&) {
     watch.rethrow();

@@ -44,15 +44,14 @@ MapFace from_points(py::handle points, py::handle voxel_size, py::handle bounds,
   config.bounds = box_from(bounds, "bounds");
   read(transform, "transform", config.T_map_cloud);
   LoadNotes notes;
-  MapFace face = [&] {
-    const py::gil_scoped_release release;
+  MapFace face = run_stage([&] {
     cloud.points.reserve(static_cast<std::size_t>(array.shape(0)));
     for (py::ssize_t i = 0; i < array.shape(0); ++i) {
       const double* p = array.data() + 3 * i;
       cloud.add(p[0], p[1], p[2]);
     }
     return face_of(map_from_points(cloud, config, "points", &notes));
-  }();
+  });
   warn_of(notes, "points");
   return face;
 }
@@ -77,12 +76,16 @@ py::object to_numpy(const MapFace& face, py::handle bounds) {
 
 py::array state_at(const MapFace& face, py::handle points) {
   const OccupancyMap& map = *face.map;
+  const std::vector<Point> places = points_from(points, "points");
   std::vector<std::uint8_t> states;
-  for (const Point& point : points_from(points, "points")) {
-    const Point local = to_local(map, point);
-    states.push_back(has_voxel(local, map.voxel_size)
-                         ? static_cast<std::uint8_t>(map.at(voxel_at(local, map.voxel_size)))
-                         : std::uint8_t{0});
+  {
+    const Unlocked unlocked;
+    for (const Point& place : places) {
+      const Point local = to_local(map, place);
+      states.push_back(has_voxel(local, map.voxel_size)
+                           ? static_cast<std::uint8_t>(map.at(voxel_at(local, map.voxel_size)))
+                           : std::uint8_t{0});
+    }
   }
   const auto count = static_cast<py::ssize_t>(states.size());
   return owning_array(std::move(states), {count});
@@ -115,11 +118,11 @@ py::str map_repr(const MapFace& face) {
                         (face.source.empty() ? "" : ", source='" + face.source + "'") + ")");
 }
 
-/// A map made of another one, without Python's lock.
+/// A map made of another one.
 template <typename Edit>
 MapFace edited(const MapFace& face, const Edit& edit) {
-  const py::gil_scoped_release release;
-  return {std::make_shared<const OccupancyMap>(edit(*face.map)), face.source};
+  return {run_stage([&] { return std::make_shared<const OccupancyMap>(edit(*face.map)); }),
+          face.source};
 }
 
 void add_edits(py::class_<MapFace>& type) {

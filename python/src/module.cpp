@@ -8,6 +8,7 @@
 
 #include "convert.hpp"
 #include "faces.hpp"
+#include "lock.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/version.hpp"
 
@@ -57,6 +58,7 @@ static void add_all(py::module_& module) {
   options.disable_function_signatures();
   module.doc() = "The compiled part of ridgeway.";
   module.attr("__version__") = kVersion;
+  watch_for_the_end();
   add_errors(module);
   add_maps(module);
   add_fields(module);

@@ -55,14 +55,15 @@ std::string reason_of(const PlanFace& plan) {
   const bool is_start = plan.status == PlanStatus::kStartInCollision;
   if (!plan.question || !(is_start || plan.status == PlanStatus::kGoalInCollision))
     return reason_of(plan.status);
-  const auto& [roadmap, start, goal, config] = *plan.question;
+  const auto& [roadmap, start, goal] = *plan.question;
   const EsdfMap& esdf = roadmap->esdf;
   if (FreeSpace(esdf).distance(flight_place(esdf, is_start ? start : goal)) > 0.0)
     return reason_of(plan.status);
-  const double radius = config.radius.value_or(roadmap->min_clearance);
+  const double radius = plan.config.radius.value_or(roadmap->min_clearance);
   std::string text = std::string(is_start ? "the start" : "the goal") + " lies in an obstacle";
-  const py::gil_scoped_release release;
-  const std::optional<double> snap = smallest_snap(*roadmap, start, goal, 16.0 * radius, config);
+  const Unlocked unlocked;
+  const std::optional<double> snap =
+      smallest_snap(*roadmap, start, goal, 16.0 * radius, plan.config);
   if (!snap) return text;
   return text + " (snap=" + literal(std::ceil(*snap * 1000.0 - 1e-6) / 1000.0) +
          " moves it to where the robot fits)";
@@ -70,10 +71,10 @@ std::string reason_of(const PlanFace& plan) {
 
 PlanFace plan_face(const std::shared_ptr<const Roadmap>& roadmap, const Point& start,
                    const Point& goal, const PlanConfig& config, PlanResult plan) {
-  PlanFace face{std::move(plan), nullptr};
+  PlanFace face{std::move(plan), config};
   if (face.status == PlanStatus::kStartInCollision || face.status == PlanStatus::kGoalInCollision)
-    face.question = std::make_shared<const PlanFace::Question>(
-        PlanFace::Question{roadmap, start, goal, config});
+    face.question =
+        std::make_shared<const PlanFace::Question>(PlanFace::Question{roadmap, start, goal});
   return face;
 }
 
@@ -98,7 +99,7 @@ PlanFace plan_one(const RoadmapFace& face, py::handle start, py::handle goal,
                   const py::kwargs& keywords) {
   const PlanConfig config = plan_fields().read_all(keywords);
   const Point from = point_from(start, "start"), to = point_from(goal, "goal");
-  const py::gil_scoped_release release;
+  const Unlocked unlocked;
   return plan_face(face.roadmap, from, to, config, plan(*face.roadmap, from, to, config));
 }
 
@@ -160,7 +161,7 @@ py::array goal_distances(const RoadmapFace& face, py::handle start, py::handle g
   read(radius, "radius", r);
   std::vector<double> lengths;
   {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     lengths = distances_to_goals(*face.roadmap, from, to, r);
   }
   return owning_array(std::move(lengths), {static_cast<py::ssize_t>(to.size())});
@@ -173,11 +174,11 @@ py::tuple plan_nearest(const RoadmapFace& face, py::handle start, py::handle goa
   const std::vector<Point> to = points_from(goals, "goals");
   NearestGoal nearest;
   {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     nearest = plan_to_nearest(*face.roadmap, from, to, config);
   }
   return py::make_tuple(nearest.goal ? py::cast(*nearest.goal) : py::none(),
-                        py::cast(PlanFace{std::move(nearest.plan), nullptr}));
+                        py::cast(PlanFace{std::move(nearest.plan), config}));
 }
 
 py::tuple plan_over(const RoadmapFace& face, py::handle places, const py::kwargs& keywords) {
@@ -185,24 +186,24 @@ py::tuple plan_over(const RoadmapFace& face, py::handle places, const py::kwargs
   const std::vector<Point> points = points_from(places, "places");
   ViaPlan via;
   {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     via = plan_via(*face.roadmap, points, config);
   }
   const py::object leg = via.plan.ok() ? py::none() : py::cast(via.leg);
   return py::make_tuple(
-      py::cast(PlanFace{std::move(via.plan), nullptr, {points.begin() + 1, points.end() - 1}}),
-      leg);
+      py::cast(PlanFace{std::move(via.plan), config, {points.begin() + 1, points.end() - 1}}), leg);
 }
 
-Alternatives alternatives(const RoadmapFace& face, py::handle start, py::handle goal,
-                          py::handle count, const py::kwargs& keywords) {
+AlternativesFace alternatives(const RoadmapFace& face, py::handle start, py::handle goal,
+                              py::handle count, const py::kwargs& keywords) {
   const PlanConfig config = plan_fields().read_all(keywords);
   const Point from = point_from(start, "start"), to = point_from(goal, "goal");
   int routes = 0;
   read(count, "count", routes);
   if (routes == 0) throw InputError("count", "is 0", "ask for at least one route");
-  const py::gil_scoped_release release;
-  return plan_alternatives(*face.roadmap, from, to, static_cast<std::size_t>(routes), config);
+  const Unlocked unlocked;
+  return {plan_alternatives(*face.roadmap, from, to, static_cast<std::size_t>(routes), config),
+          config};
 }
 
 py::object explain(const RoadmapFace& face, py::handle start, py::handle goal, py::handle radius,
@@ -229,8 +230,9 @@ void add_results(py::module_& module) {
       .def_property_readonly(
           "reason", [](const PlanFace& plan) { return reason_of(plan); },
           "The status in words; '' where ok.")
-      .def_property_readonly("ok", &PlanFace::ok, "Whether there is a path.")
-      .def("__bool__", &PlanFace::ok)
+      .def_property_readonly(
+          "ok", [](const PlanFace& plan) { return plan.ok(); }, "Whether there is a path.")
+      .def("__bool__", [](const PlanFace& plan) { return plan.ok(); })
       .def_property_readonly(
           "waypoints",
           [](const py::object& self) {
@@ -265,18 +267,23 @@ void add_results(py::module_& module) {
           "How far the goal was moved (snap), metres.")
       .def(
           "save",
-          [](const PlanFace& plan, py::handle path) { write_plan(plan, path_from(path, "path")); },
+          [](const PlanFace& plan, py::handle path) {
+            const std::filesystem::path file = path_from(path, "path");
+            const Unlocked unlocked;
+            write_plan(plan, file);
+          },
           py::arg("path"), "save(self, path)\n--\n\nAs .csv or .json, as the command line does.")
       .def(
           "save_mission",
           [](const PlanFace& plan, py::handle path, py::handle latitude, py::handle longitude,
              py::handle altitude, py::handle x_heading) {
-            write_mission(plan,
-                          {.latitude = number_from(latitude, "latitude"),
-                           .longitude = number_from(longitude, "longitude"),
-                           .altitude = number_from(altitude, "altitude"),
-                           .x_heading = number_from(x_heading, "x_heading")},
-                          path_from(path, "path"));
+            const Datum datum{.latitude = number_from(latitude, "latitude"),
+                              .longitude = number_from(longitude, "longitude"),
+                              .altitude = number_from(altitude, "altitude"),
+                              .x_heading = number_from(x_heading, "x_heading")};
+            const std::filesystem::path file = path_from(path, "path");
+            const Unlocked unlocked;
+            write_mission(plan, datum, file);
           },
           py::arg("path"), py::arg("latitude"), py::arg("longitude"), py::arg("altitude") = 0.0,
           py::arg("x_heading") = 90.0,
@@ -287,28 +294,26 @@ void add_results(py::module_& module) {
           "from north.")
       .def("__repr__", [](const PlanFace& plan) { return plan_repr(plan); });
 
-  py::class_<Alternatives>(module, "Alternatives",
-                           "Routes on other sides of obstacles, shortest first; a sequence of "
-                           "PlanResult.")
+  py::class_<AlternativesFace>(module, "Alternatives",
+                               "Routes on other sides of obstacles, shortest first; a sequence of "
+                               "PlanResult.")
       .def_property_readonly(
-          "status", [](const Alternatives& all) { return std::string(name_of(all.status)); },
+          "status", [](const AlternativesFace& all) { return std::string(name_of(all.status)); },
           "'ok', or why there is no route.")
       .def_property_readonly(
-          "reason", [](const Alternatives& all) { return reason_of(all.status); },
+          "reason", [](const AlternativesFace& all) { return reason_of(all.status); },
           "The status in words; '' where ok.")
-      .def_readonly("complete", &Alternatives::complete, "Whether more would find no more.")
-      .def_readonly("seconds", &Alternatives::seconds, "In all.")
-      .def("__len__", [](const Alternatives& all) { return all.routes.size(); })
+      .def_readonly("complete", &AlternativesFace::complete, "Whether more would find no more.")
+      .def_readonly("seconds", &AlternativesFace::seconds, "In all.")
+      .def("__len__", [](const AlternativesFace& all) { return all.routes.size(); })
       .def(
           "__getitem__",
-          [](const Alternatives& all, py::ssize_t i) {
-            const auto count = static_cast<py::ssize_t>(all.routes.size());
-            if (i < 0) i += count;
-            if (i < 0 || i >= count) throw py::index_error();
-            return PlanFace{all.routes[static_cast<std::size_t>(i)], nullptr};
+          [](const AlternativesFace& all, py::handle index) {
+            return PlanFace{all.routes[place_from(index, all.routes.size(), "routes")], all.config};
           },
           py::arg("index"))
-      .def("__repr__", [](const Alternatives& all) {
+      .def("__iter__", &iterator_of)
+      .def("__repr__", [](const AlternativesFace& all) {
         std::string text =
             "Alternatives(status='" + std::string(name_of(all.status)) + "', lengths=[";
         for (std::size_t i = 0; i < all.routes.size(); ++i)
@@ -343,6 +348,11 @@ void add_results(py::module_& module) {
 }
 
 }  // namespace
+
+std::vector<Point> path_points_from(py::handle path, const char* name) {
+  if (py::isinstance<PlanFace>(path)) return path.cast<const PlanFace&>().waypoints;
+  return points_from(path, name);
+}
 
 void add_plans(py::module_& module) { add_results(module); }
 

@@ -6,9 +6,12 @@
 
 namespace ridgeway::python {
 
-/// The queries of a roadmap as methods of its class.
+/// The waypoints of a PlanResult, or points (N, 3).
+std::vector<Point> path_points_from(py::handle path, const char* name);
+
 /// Adds pictures to Roadmap.
 void add_pictures(py::class_<RoadmapFace>& type);
+/// The queries of a roadmap as methods of its class.
 void add_queries(py::class_<RoadmapFace>& type);
 /// Likewise its trajectories.
 void add_trajectories(py::class_<RoadmapFace>& type);

@@ -71,7 +71,7 @@ void save(const RoadmapFace& face, py::handle path) {
   const std::filesystem::path file = path_from(path, "path");
   if (file.extension() != ".ridge")
     throw InputError("path", "is '" + file.string() + "'", "give a name that ends in .ridge");
-  const py::gil_scoped_release release;
+  const Unlocked unlocked;
   save_roadmap(*face.roadmap, file);
 }
 
@@ -244,7 +244,7 @@ void add_roadmap(py::module_& module) {
           "export_graph",
           [](const RoadmapFace& face, py::handle path) {
             const std::filesystem::path file = path_from(path, "path");
-            const py::gil_scoped_release release;
+            const Unlocked unlocked;
             write_graph(*face.roadmap, file);
           },
           py::arg("path"),
@@ -254,7 +254,7 @@ void add_roadmap(py::module_& module) {
           "export_voxblox",
           [](const RoadmapFace& face, py::handle path) {
             const std::filesystem::path file = path_from(path, "path");
-            const py::gil_scoped_release release;
+            const Unlocked unlocked;
             write_voxblox(*face.roadmap, file);
           },
           py::arg("path"),

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "config.hpp"
+#include "lock.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/exploration/explorer.hpp"
 #include "ridgeway/recordings/scan_sequence.hpp"
@@ -44,7 +45,7 @@ py::dict view_of_lidar(const SpinningLidar& lidar, py::handle share_of_range, py
   read(row_gap, "row_gap", gap);
   if (gap && !(*gap > 0.0))
     throw InputError("row_gap", "is " + literal(*gap), "give metres, above 0");
-  return dict_of(gap ? field_of_view(lidar, share, *gap) : field_of_view(lidar, share));
+  return python::dict_of(gap ? field_of_view(lidar, share, *gap) : field_of_view(lidar, share));
 }
 
 void add_lidar(py::module_& module) {
@@ -62,8 +63,8 @@ void add_lidar(py::module_& module) {
            py::arg("vertical") = 1.0, py::arg("min_range") = 0.0, py::arg("max_range") = 10.0,
            py::arg("range_sigma") = 0.0,
            (std::string("__init__(self, ") + kSignature + ")\n--\n\n").c_str())
-      .def_readonly("rows", &SpinningLidar::rows)
-      .def_readonly("columns", &SpinningLidar::columns)
+      .def_readonly("rows", &SpinningLidar::rows, "One above the other.")
+      .def_readonly("columns", &SpinningLidar::columns, "In a turn.")
       .def_readonly("vertical", &SpinningLidar::vertical, "Radians.")
       .def_readonly("min_range", &SpinningLidar::min_range, "Metres.")
       .def_readonly("max_range", &SpinningLidar::max_range, "Metres.")
@@ -76,14 +77,11 @@ void add_lidar(py::module_& module) {
       .def("__repr__", &lidar_repr);
 }
 
-py::tuple scan_of(const ScanSequence& sequence, py::ssize_t i) {
-  const auto count = static_cast<py::ssize_t>(sequence.scans.size());
-  if (i < 0) i += count;
-  if (i < 0 || i >= count) throw py::index_error("there are " + std::to_string(count) + " scans");
-  const Scan& scan = sequence.scans[static_cast<std::size_t>(i)];
+py::tuple scan_of(const ScanSequence& sequence, py::handle index) {
+  const Scan& scan = sequence.scans[place_from(index, sequence.scans.size(), "scans")];
   PointCloud cloud;
   {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     cloud = read_scan(scan);
   }
   return py::make_tuple(python::array_of(std::move(cloud.points)),
@@ -100,6 +98,7 @@ void add_sequence(py::module_& module) {
                     "Scans whose pose is not finite, passed over.")
       .def("__len__", [](const ScanSequence& sequence) { return sequence.scans.size(); })
       .def("__getitem__", &scan_of, py::arg("index"))
+      .def("__iter__", &iterator_of)
       .def("__repr__", [](const ScanSequence& sequence) {
         return "ScanSequence(" + std::to_string(sequence.scans.size()) + " scans, layout='" +
                sequence.layout + "')";
@@ -108,7 +107,7 @@ void add_sequence(py::module_& module) {
       "open_scans",
       [](py::handle folder) {
         const std::filesystem::path path = path_from(folder, "folder");
-        const py::gil_scoped_release release;
+        const Unlocked unlocked;
         return open_scans(path);
       },
       py::arg("folder"),
@@ -121,14 +120,14 @@ class ScanWriterFace {
  public:
   explicit ScanWriterFace(py::handle folder) {
     const std::filesystem::path path = path_from(folder, "folder");
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     writer_ = std::make_unique<ScanWriter>(path);
   }
 
   void add(py::handle points, py::handle pose) {
     std::vector<Point> cloud = cloud_from(points);
     const Eigen::Isometry3d T_world_sensor = pose_from(pose, "T_world_sensor");
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     std::erase_if(cloud, [](const Point& p) { return !p.allFinite(); });
     const std::scoped_lock lock(mutex_);
     writer().add(cloud, T_world_sensor);
@@ -136,7 +135,7 @@ class ScanWriterFace {
   }
 
   void finish() {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     const std::scoped_lock lock(mutex_);
     writer().finish();
     writer_.reset();
@@ -146,7 +145,7 @@ class ScanWriterFace {
   void leave(py::handle error) {
     const bool is_well = error.is_none();
     {
-      const py::gil_scoped_release release;
+      const Unlocked unlocked;
       const std::scoped_lock lock(mutex_);
       if (!writer_) return;
       if (!is_well) return writer_.reset();
@@ -176,15 +175,16 @@ void add_writer(py::module_& module) {
       ".ply of single\nprecision. The folder must not exist or be empty; it appears whole, by "
       "finish() or at the end of a with\nstatement, or not at all.")
       .def(py::init<py::handle>(), py::arg("folder"), "__init__(self, folder)\n--\n\n")
-      .def("add", &ScanWriterFace::add, py::arg("points"), py::arg("T_world_sensor"),
+      .def("add", method(&ScanWriterFace::add), py::arg("points"), py::arg("T_world_sensor"),
            "add(self, points, T_world_sensor)\n--\n\n"
            "The next scan: points (N, 3), metres, in the sensor's frame, its origin at 0; its pose "
            "(4, 4). Points that are\nnot finite are left out.")
-      .def("finish", &ScanWriterFace::finish, "finish(self)\n--\n\nPuts the folder in its place.")
+      .def("finish", method(&ScanWriterFace::finish),
+           "finish(self)\n--\n\nPuts the folder in its place.")
       .def("__enter__", [](const py::object& self) { return self; })
       .def("__exit__", [](ScanWriterFace& writer, py::handle error, py::handle,
                           py::handle) { writer.leave(error); })
-      .def("__len__", &ScanWriterFace::count)
+      .def("__len__", method(&ScanWriterFace::count))
       .def("__repr__", [](const ScanWriterFace& writer) {
         return "ScanWriter(" + std::to_string(writer.count()) + " scans)";
       });

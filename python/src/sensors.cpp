@@ -5,6 +5,7 @@
 #include "sensors.hpp"
 
 #include "config.hpp"
+#include "long_call.hpp"
 #include "maps.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/world_file.hpp"
@@ -38,17 +39,20 @@ std::string camera_repr(const PinholeCamera& c) {
          ", cy=" + literal(c.cy) + ")";
 }
 
-py::tuple frame_of(const DepthSequence& sequence, py::ssize_t i) {
-  const auto count = static_cast<py::ssize_t>(sequence.frames.size());
-  if (i < 0) i += count;
-  if (i < 0 || i >= count) throw py::index_error("there are " + std::to_string(count) + " frames");
-  const DepthFrame& frame = sequence.frames[static_cast<std::size_t>(i)];
+py::tuple frame_of(const DepthSequence& sequence, py::handle index) {
+  const DepthFrame& frame = sequence.frames[place_from(index, sequence.frames.size(), "frames")];
   DepthImage image;
   {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     image = read_frame(sequence, frame);
   }
   return py::make_tuple(image_array(std::move(image)), array_of(frame.T_world_camera));
+}
+
+double time_from(py::handle value) {
+  const double time = number_from(value, "time");
+  if (!std::isfinite(time)) throw InputError("time", "is " + literal(time), "give seconds");
+  return time;
 }
 
 py::array render(const World& world, const PinholeCamera& camera, py::handle pose,
@@ -60,10 +64,10 @@ py::array render(const World& world, const PinholeCamera& camera, py::handle pos
   sensor.validate();
   const Eigen::Isometry3d T_world_camera = pose_from(pose, "T_world_camera");
   const auto number = static_cast<std::uint64_t>(whole_from(seed, "seed"));
-  const double now = number_from(time, "time");
+  const double now = time_from(time);
   DepthImage image;
   {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     image = render_depth(world_at(world, now), sensor, T_world_camera, number);
   }
   return image_array(std::move(image));
@@ -73,10 +77,10 @@ py::array scan(const World& world, const SpinningLidar& lidar, py::handle pose, 
                py::handle time) {
   const Eigen::Isometry3d T_world_sensor = pose_from(pose, "T_world_sensor");
   const auto number = static_cast<std::uint64_t>(whole_from(seed, "seed"));
-  const double now = number_from(time, "time");
+  const double now = time_from(time);
   std::vector<Point> points;
   {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     points = scan_with(world_at(world, now), lidar, T_world_sensor, number);
   }
   return array_of(std::move(points));
@@ -84,14 +88,13 @@ py::array scan(const World& world, const SpinningLidar& lidar, py::handle pose, 
 
 void add_world(py::module_& module) {
   py::class_<World>(module, "World", "A simulated world: a union of solids, metres, z up.")
-      .def_readonly("name", &World::name)
+      .def_readonly("name", &World::name, "As its file has it.")
       .def(
           "occupancy",
           [](const World& world, py::handle voxel_size, py::handle bounds) {
             const double size = number_from(voxel_size, "voxel_size");
             const Box box = box_from(bounds, "bounds");
-            const py::gil_scoped_release release;
-            return face_of(occupancy_of(world, size, box), world.name);
+            return run_stage([&] { return face_of(occupancy_of(world, size, box), world.name); });
           },
           py::arg("voxel_size"), py::arg("bounds"),
           "occupancy(self, voxel_size, bounds)\n--\n\n"
@@ -119,7 +122,7 @@ void add_world(py::module_& module) {
       "load_world",
       [](py::handle path) {
         const std::filesystem::path file = path_from(path, "path");
-        const py::gil_scoped_release release;
+        const Unlocked unlocked;
         return load_world(file);
       },
       py::arg("path"), "load_world(path)\n--\n\nThe World of a .yaml file.");
@@ -157,23 +160,24 @@ void add_sensors(py::module_& module) {
            py::arg("fx") = 160.0, py::arg("fy") = 160.0, py::arg("cx") = 159.5,
            py::arg("cy") = 119.5,
            "__init__(self, width=320, height=240, fx=160.0, fy=160.0, cx=159.5, cy=119.5)\n--\n\n")
-      .def_readonly("width", &PinholeCamera::width)
-      .def_readonly("height", &PinholeCamera::height)
-      .def_readonly("fx", &PinholeCamera::fx)
-      .def_readonly("fy", &PinholeCamera::fy)
-      .def_readonly("cx", &PinholeCamera::cx)
-      .def_readonly("cy", &PinholeCamera::cy)
+      .def_readonly("width", &PinholeCamera::width, "Pixels.")
+      .def_readonly("height", &PinholeCamera::height, "Pixels.")
+      .def_readonly("fx", &PinholeCamera::fx, "Focal length across, pixels.")
+      .def_readonly("fy", &PinholeCamera::fy, "Focal length down, pixels.")
+      .def_readonly("cx", &PinholeCamera::cx, "Where the optical axis meets the image, pixels.")
+      .def_readonly("cy", &PinholeCamera::cy, "Where the optical axis meets the image, pixels.")
       .def("__repr__", &camera_repr);
 
   py::class_<DepthSequence>(
       module, "DepthSequence",
       "A recording of depth images with poses; sequence[i] is the i-th: (image, T_world_camera).")
       .def_readonly("layout", &DepthSequence::layout, "'tum', '7-scenes' or 'open3d'.")
-      .def_readonly("camera", &DepthSequence::camera)
+      .def_readonly("camera", &DepthSequence::camera, "That of all images.")
       .def_readonly("without_pose", &DepthSequence::without_pose,
                     "Images that no pose belongs to, passed over.")
       .def("__len__", [](const DepthSequence& sequence) { return sequence.frames.size(); })
       .def("__getitem__", &frame_of, py::arg("index"))
+      .def("__iter__", &iterator_of)
       .def("__repr__", [](const DepthSequence& sequence) {
         return "DepthSequence(" + std::to_string(sequence.frames.size()) + " frames, layout='" +
                sequence.layout + "')";
@@ -182,7 +186,7 @@ void add_sensors(py::module_& module) {
       "open_sequence",
       [](py::handle folder) {
         const std::filesystem::path path = path_from(folder, "folder");
-        const py::gil_scoped_release release;
+        const Unlocked unlocked;
         return open_sequence(path);
       },
       py::arg("folder"),

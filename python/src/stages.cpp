@@ -31,10 +31,22 @@ bool is_same_lattice(const EsdfMap& a, const EsdfMap& b) {
   return a.voxel_size == b.voxel_size && a.origin == b.origin;
 }
 
+/// Whether what was made of one field holds for another.
+bool are_alike(const EsdfMap& a, const EsdfMap& b) {
+  const Unlocked unlocked;
+  const auto has_same_states = [&] {
+    for (std::uint32_t slot = 0; slot < a.layout.block_count(); ++slot)
+      if (!std::equal(a.state.block(slot), a.state.block(slot) + kBlockVoxels, b.state.block(slot)))
+        return false;
+    return true;
+  };
+  return is_same_lattice(a, b) && a.layout == b.layout && a.unknown == b.unknown &&
+         a.limits == b.limits && a.obstacle == b.obstacle && has_same_states();
+}
+
 void require_same_map(const EsdfFace& esdf, const std::shared_ptr<const EsdfMap>& other,
                       const char* name) {
-  if (esdf.esdf.get() != other.get() &&
-      !(esdf.esdf->layout == other->layout && is_same_lattice(*esdf.esdf, *other)))
+  if (esdf.esdf.get() != other.get() && !are_alike(*esdf.esdf, *other))
     throw InputError(name, "is of another map than esdf", "give one that was made of this field");
 }
 
@@ -48,34 +60,44 @@ std::vector<VoxelIndex> sorted_voxels(const MaskFace& face) {
 }
 
 bool is_same_set(const MaskFace& a, const MaskFace& b) {
+  const Unlocked unlocked;
   return a.esdf->voxel_size == b.esdf->voxel_size && a.mask->count() == b.mask->count() &&
          sorted_voxels(a) == sorted_voxels(b);
 }
 
 py::array voxels_of(const MaskFace& face) {
   std::vector<std::int32_t> numbers;
-  const EsdfMap& esdf = *face.esdf;
-  const std::vector<VoxelId> members = face.mask->members(esdf.layout);
-  numbers.reserve(3 * members.size());
-  for (const VoxelId id : members) {
-    const VoxelIndex v = esdf.layout.index_of(id) + esdf.origin;
-    numbers.insert(numbers.end(), {v.x, v.y, v.z});
+  {
+    const Unlocked unlocked;
+    const EsdfMap& esdf = *face.esdf;
+    numbers.reserve(3 * face.mask->count());
+    for (const VoxelId id : face.mask->members(esdf.layout)) {
+      const VoxelIndex v = esdf.layout.index_of(id) + esdf.origin;
+      numbers.insert(numbers.end(), {v.x, v.y, v.z});
+    }
   }
-  return owning_array(std::move(numbers), {static_cast<py::ssize_t>(members.size()), 3});
+  const auto count = static_cast<py::ssize_t>(numbers.size() / 3);
+  return owning_array(std::move(numbers), {count, 3});
 }
 
 py::array points_of(const MaskFace& face) {
   std::vector<Point> points;
-  const EsdfMap& esdf = *face.esdf;
-  for (const VoxelId id : face.mask->members(esdf.layout))
-    points.push_back(to_world(esdf, centre_of(esdf.layout.index_of(id), esdf.voxel_size)));
+  {
+    const Unlocked unlocked;
+    for (const VoxelId id : face.mask->members(face.esdf->layout))
+      points.push_back(
+          to_world(*face.esdf, centre_of(face.esdf->layout.index_of(id), face.esdf->voxel_size)));
+  }
   return array_of(std::move(points));
 }
 
 py::array distances_of(const MaskFace& face) {
   std::vector<double> distances;
-  for (const VoxelId id : face.mask->members(face.esdf->layout))
-    distances.push_back(face.esdf->distance(id));
+  {
+    const Unlocked unlocked;
+    for (const VoxelId id : face.mask->members(face.esdf->layout))
+      distances.push_back(face.esdf->distance(id));
+  }
   const auto count = static_cast<py::ssize_t>(distances.size());
   return owning_array(std::move(distances), {count});
 }

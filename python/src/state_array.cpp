@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 #include "common/number_text.hpp"
+#include "long_call.hpp"
 #include "mapping/state_grid.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
@@ -185,7 +187,6 @@ OccupancyMap map_of_array(py::handle states, double voxel_size, const Point& ori
   const char kind = array.dtype().kind();
   const py::ssize_t size = array.itemsize();
 
-  const py::gil_scoped_release release;
   const auto whole = [&](auto zero) {
     return read_map<decltype(zero)>(layout, low, voxel_size, WholeStates<decltype(zero)>{});
   };
@@ -193,21 +194,25 @@ OccupancyMap map_of_array(py::handle states, double voxel_size, const Point& ori
     return read_map<decltype(zero)>(layout, low, voxel_size,
                                     Probabilities<decltype(zero)>{thresholds});
   };
-  if (kind == 'b')
-    return read_map<std::uint8_t>(layout, low, voxel_size, TruthStates<std::uint8_t>{});
-  if (kind == 'u' && size == 1) return whole(std::uint8_t{});
-  if (kind == 'i' && size == 1) return whole(std::int8_t{});
-  if (kind == 'u' && size == 2) return whole(std::uint16_t{});
-  if (kind == 'i' && size == 2) return whole(std::int16_t{});
-  if (kind == 'u' && size == 4) return whole(std::uint32_t{});
-  if (kind == 'i' && size == 4) return whole(std::int32_t{});
-  if (kind == 'u' && size == 8) return whole(std::uint64_t{});
-  if (kind == 'i' && size == 8) return whole(std::int64_t{});
-  if (kind == 'f' && size == 4) return real(float{});
-  if (kind == 'f' && size == 8) return real(double{});
-  const py::gil_scoped_acquire acquire;
-  throw py::type_error("states: expected " + std::string(kExpected) + ", got " + describe(states) +
-                       "; use states.astype(np.uint8) or np.float32");
+  std::optional<OccupancyMap> map = run_stage([&]() -> std::optional<OccupancyMap> {
+    if (kind == 'b')
+      return read_map<std::uint8_t>(layout, low, voxel_size, TruthStates<std::uint8_t>{});
+    if (kind == 'u' && size == 1) return whole(std::uint8_t{});
+    if (kind == 'i' && size == 1) return whole(std::int8_t{});
+    if (kind == 'u' && size == 2) return whole(std::uint16_t{});
+    if (kind == 'i' && size == 2) return whole(std::int16_t{});
+    if (kind == 'u' && size == 4) return whole(std::uint32_t{});
+    if (kind == 'i' && size == 4) return whole(std::int32_t{});
+    if (kind == 'u' && size == 8) return whole(std::uint64_t{});
+    if (kind == 'i' && size == 8) return whole(std::int64_t{});
+    if (kind == 'f' && size == 4) return real(float{});
+    if (kind == 'f' && size == 8) return real(double{});
+    return std::nullopt;
+  });
+  if (!map)
+    throw py::type_error("states: expected " + std::string(kExpected) + ", got " +
+                         describe(states) + "; use states.astype(np.uint8) or np.float32");
+  return *std::move(map);
 }
 
 }  // namespace ridgeway::python

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "convert.hpp"
+#include "lock.hpp"
 #include "mapping/memory_limit.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/esdf.hpp"
@@ -114,7 +115,7 @@ py::object dense(const Map& map, VoxelRange range, const Get& value) {
   Value* const first = values.mutable_data();
   const VoxelIndex low = range.min - map.origin;  // the map's own
   {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     parallel_for_each_index(static_cast<std::size_t>(shape[0]), [&](std::size_t x) {
       VoxelFinder finder(map.layout);
       Value* out = first + static_cast<py::ssize_t>(x) * shape[1] * shape[2];

@@ -23,29 +23,34 @@ std::string types_of(const py::args& arguments, const py::kwargs& keywords) {
 }
 
 /// "(start, goal, ...)": what a call has to name, without the many that are keywords alone.
-std::string outline_of(py::handle signature) {
+std::string outline_of(py::handle signature, bool is_constructor) {
   std::string text;
   for (const py::handle parameter : signature.attr("parameters").attr("values")()) {
+    if (is_constructor && py::str(parameter.attr("name")).equal(py::str("self"))) continue;
     if (parameter.attr("kind").cast<int>() > 1)
-      return "(" + text + (text.empty() ? "...)" : ", ...)");
+      return "(" + text + (text.empty() ? "name=value, ...)" : ", ...)");
     text += (text.empty() ? "" : ", ") + std::string(py::str(parameter));
   }
   return "(" + text + ")";
 }
 
-/// `call` is the function of `owner`, as a person would write it; `self` comes first in methods.
+/// `call` is the function of `owner`, as a person would write it; `self` comes first in methods,
+/// but not in constructors.
 [[noreturn]] void refuse_call(py::handle owner, const std::string& name, const std::string& call,
                               const py::args& arguments, const py::kwargs& keywords) {
+  const bool is_constructor = name == "__init__";
   const py::object signature =
       py::module_::import("inspect").attr("signature")(owner.attr(name.c_str()));
   std::string problem = "cannot take " + types_of(arguments, keywords);
   try {
-    signature.attr("bind")(*arguments, **keywords);
+    const py::tuple self = is_constructor ? py::make_tuple(py::none()) : py::tuple();
+    signature.attr("bind")(*self, *arguments, **keywords);
   } catch (const py::error_already_set& error) {
     if (!error.matches(PyExc_TypeError)) throw;
     problem = py::str(error.value());
   }
-  throw py::type_error(call + "(): " + problem + "; it is " + call + outline_of(signature));
+  throw py::type_error(call + "(): " + problem + "; it is " + call +
+                       outline_of(signature, is_constructor));
 }
 
 /// How else a value of a class is made that no call of the class makes.
@@ -80,6 +85,26 @@ void refuse_unmade_objects(py::handle type) {
   };
 }
 
+void add_to_constructor(py::handle type, const std::string& name,
+                        const std::vector<std::string>& makers) {
+  const auto add = [&](const auto& refuse, const auto&... before) {
+    return py::cpp_function(refuse, py::name("__init__"), py::is_method(type), before...,
+                            py::detail::is_new_style_constructor());
+  };
+  const py::object own = type.attr("__init__");
+  // Classes that are not made by calling them have pybind11's, which is no method.
+  if (PyInstanceMethod_Check(py::dict(type.attr("__dict__"))["__init__"].ptr()))
+    add(
+        [type, name](py::detail::value_and_holder&, const py::args& arguments,
+                     const py::kwargs& keywords) {
+          refuse_call(type, "__init__", name, arguments, keywords);
+        },
+        py::sibling(own));
+  else
+    type.attr("__init__") = add([name, makers](py::detail::value_and_holder&, const py::args&,
+                                               const py::kwargs&) { refuse_making(name, makers); });
+}
+
 void add_to_class(py::handle type) {
   refuse_unmade_objects(type);
   const std::string name = py::str(type.attr("__name__"));
@@ -93,12 +118,7 @@ void add_to_class(py::handle type) {
       continue;
     add_to_function(type, function, name + "." + function, !is_static);
   }
-  // Others have pybind11's, which is no method.
-  if (PyInstanceMethod_Check(py::object(members["__init__"]).ptr())) return;
-  const auto refuse = [name, makers](py::detail::value_and_holder&, const py::args&,
-                                     const py::kwargs&) { refuse_making(name, makers); };
-  type.attr("__init__") = py::cpp_function(refuse, py::name("__init__"), py::is_method(type),
-                                           py::detail::is_new_style_constructor());
+  add_to_constructor(type, name, makers);
 }
 
 }  // namespace

@@ -127,6 +127,22 @@ def test_masks_are_sets_of_voxels(rooms, roadmap):
         ridgeway.build_graph(elsewhere, here)
 
 
+def test_what_was_made_of_a_map_before_it_changed_is_refused(rooms):
+    def field(states, **limits):
+        return ridgeway.compute_esdf(ridgeway.OccupancyMap.from_numpy(states, 0.1), **limits)
+
+    before, same = field(rooms), field(rooms)
+    rooms[20:40, 20:24] = ridgeway.OCCUPIED
+    graph = ridgeway.build_graph(before, ridgeway.compute_skeleton(before, 0.3), min_clearance=0.3)
+    assert len(ridgeway.simplify_graph(same, graph).edges) > 0
+    with pytest.raises(ridgeway.InputError, match="another map"):
+        ridgeway.simplify_graph(field(rooms), graph)
+    near = field(rooms, max_distance=0.4)
+    for stage in (ridgeway.traversable_voxels, ridgeway.compute_skeleton):
+        with pytest.raises(ridgeway.InputError, match="0.5: is beyond the distances"):
+            stage(near, 0.5)
+
+
 def test_radii_that_are_none_are_refused(roadmap):
     for radius in (-1, 0, -1e308, float("nan"), float("inf")):
         with pytest.raises(ridgeway.InputError):
@@ -151,6 +167,38 @@ def test_objects_that_were_not_made_are_refused():
         for name in (name for name, member in vars(kind).items() if isinstance(member, property)):
             with pytest.raises(TypeError):
                 getattr(unmade, name)
+
+
+@pytest.mark.parametrize(
+    "make, words",
+    [
+        (lambda: ridgeway.PinholeCamera(widht=3), r"'widht'; it is PinholeCamera\(width=320, "),
+        (lambda: ridgeway.ScanWriter(), r"'folder'; it is ScanWriter\(folder\)"),
+        (lambda: ridgeway.LiveRoadmap(0.2), r"it is LiveRoadmap\(name=value, ...\)"),
+        (lambda: ridgeway.Roadmap(), "is not made by calling it"),
+    ],
+)
+def test_what_makes_no_object_is_told_in_words_of_python(make, words):
+    with pytest.raises(TypeError, match=words) as refused:
+        make()
+    assert "_core" not in str(refused.value) and "handle" not in str(refused.value)
+
+
+def test_methods_of_nothing_are_refused():
+    for method in (ridgeway.PlanResult.__bool__, ridgeway.TsdfFusion.__len__, ridgeway.TsdfFusion.map,
+                   ridgeway.ScanWriter.__len__, ridgeway.PlanResult.ok.fget, ridgeway.GraphDelta.is_empty.fget):
+        with pytest.raises(TypeError):
+            method(None)
+
+
+def test_sequences_are_iterated_and_take_whole_numbers(roadmap):
+    routes = roadmap.alternatives(START, GOAL)
+    assert [route.length for route in routes] == [routes[i].length for i in range(len(routes))]
+    assert routes[-1].length == routes[len(routes) - 1].length
+    with pytest.raises(IndexError, match="there are"):
+        routes[99]
+    with pytest.raises(TypeError, match="index: expected a whole number"):
+        routes[:1]
 
 
 def test_masked_arrays_are_refused(rooms, roadmap):

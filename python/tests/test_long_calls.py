@@ -79,6 +79,8 @@ space = ridgeway.OccupancyMap.from_numpy(states, 0.1)
         (320, "", "ridgeway.build(space, min_clearance=0.3)"),
         (320, "", "[ridgeway.compute_esdf(space) for _ in range(100)]"),
         (224, "esdf = ridgeway.compute_esdf(space)", "ridgeway.compute_skeleton(esdf, 0.3)"),
+        (320, "", "[space.transformed(np.eye(4), 0.1) for _ in range(100)]"),
+        (320, "", "[ridgeway.OccupancyMap.from_numpy(states, 0.1) for _ in range(1000)]"),
     ],
 )
 def test_interrupts_are_heard_within_a_stage(side, setup, work):
@@ -90,6 +92,25 @@ def test_interrupts_are_heard_within_a_stage(side, setup, work):
     process.send_signal(signal.SIGINT)
     output, _ = process.communicate(timeout=120)
     assert output == "interrupted\n"
+
+
+@pytest.mark.parametrize(
+    "work", ["roadmap.plan((1, 1, 1), (5, 3, 1))", "ridgeway.build(space, min_clearance=0.2)", "space.to_numpy()"]
+)
+def test_programs_end_while_daemons_are_at_work(work):
+    script = SPACE.replace("{side}", "64") + f"""
+import threading, time
+roadmap = ridgeway.build(space, min_clearance=0.2)
+def work():
+    while True:
+        {work}
+for _ in range(3):
+    threading.Thread(target=work, daemon=True).start()
+time.sleep(0.3)
+print("done")
+"""
+    ended = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120)
+    assert (ended.returncode, ended.stdout) == (0, "done\n"), ended.stderr
 
 
 def test_numpy_says_no_as_python_does(rooms):

@@ -268,3 +268,21 @@ def test_a_path_that_is_given_is_flown_as_one(roadmap, tmp_path):
     assert given["answered_by"] == "given"
     assert given["path_clearance"] == pytest.approx(path.clearance)
     assert given["within"] == pytest.approx(path.within)
+
+
+def test_a_plan_is_flown_by_the_robot_and_within_the_limits_that_it_was_asked_for(roadmap):
+    esdf = roadmap.esdf
+    wide = roadmap.plan(START, (2.6, 2.9, 1.0), radius=0.45)
+    flight = roadmap.trajectory(wide)
+    assert flight.clearance >= 0.45 and esdf.path_is_free(flight.sample(0.01).position, 0.45)
+    assert roadmap.trajectory(wide, radius=0.3).duration <= flight.duration
+    low, high = np.array([0.0, 1.6, 0.0]), np.array([2.0, 2.4, 9.0])
+    around = roadmap.plan(START, (0.8, 3.4, 1.0), limits=ridgeway.FlightLimits(keep_out=[(low, high)]))
+    places = roadmap.trajectory(around).sample(0.01).position
+    assert not ((places > low) & (places < high)).all(axis=1).any()
+    for flown in (roadmap.trajectory(around, flight_limits=ridgeway.FlightLimits()), roadmap.trajectory(around.waypoints)):
+        assert flown.duration <= roadmap.trajectory(around).duration
+    tall = roadmap.plan(START, GOAL, robot_height=0.8)
+    said = roadmap.trajectory(tall.waypoints, robot_height=0.8)
+    np.testing.assert_array_equal(roadmap.trajectory(tall).coefficients, said.coefficients)
+    assert esdf.path_is_free(wide, 0.45) and esdf.clearance(wide) == pytest.approx(wide.clearance)

@@ -5,6 +5,7 @@
 
 #include "explorer_state.hpp"
 #include "planning/endpoint.hpp"
+#include "ridgeway/common/parallel.hpp"
 #include "ridgeway/exploration/explorer.hpp"
 
 namespace ridgeway {
@@ -88,8 +89,9 @@ std::vector<UnseenFrontier> Explorer::unseen() const {
                         : detail::Endpoint{};
   Frontiers frontiers(state.config.within);  // with what was looked at in vain
   frontiers.update(state.roadmap);
-  const std::vector<VoxelId> views = widest_views_of(*state.roadmap, frontiers, state.config);
+  std::vector<VoxelId> views;  // of clusters, made with the doors
   for (std::size_t c = 0; c < frontiers.clusters().size(); ++c) {
+    detail::stop_if_cancelled();
     const FrontierCluster& cluster = frontiers.clusters()[c];
     if (cluster.voxels < state.config.least_frontier) continue;
     UnseenFrontier found = {to_world(esdf, cluster.centroid), cluster.voxels};
@@ -103,7 +105,10 @@ std::vector<UnseenFrontier> Explorer::unseen() const {
     if (2 * looked_at > targets) {
       found.reason = UnseenReason::kLookedInVain;
     } else if (state.has_seen_all && home.voxel != kNoVoxel) {
-      if (!doors) doors.emplace(*state.roadmap);
+      if (!doors) {
+        doors.emplace(*state.roadmap);
+        views = widest_views_of(*state.roadmap, frontiers, state.config);
+      }
       const VoxelIndex end = views[c] != kNoVoxel ? esdf.layout.index_of(views[c])
                                                   : doors->widest_target(frontiers, cluster);
       if (const auto door = doors->between(esdf.layout.index_of(home.voxel), end)) {

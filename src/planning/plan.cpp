@@ -24,11 +24,6 @@ using detail::Deadline;
 using detail::plan_between;
 using detail::seconds_now;
 
-double largest_radius(const EsdfMap& esdf) {
-  constexpr double kRounding = 1.0 + 1e-9;
-  return (esdf.max_distance - 2.0 * esdf.voxel_size) * kRounding;
-}
-
 void PlanConfig::validate() const {
   validate_planner(planner);
   if (is_sampling(planner))

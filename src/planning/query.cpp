@@ -10,6 +10,7 @@
 #include "common/number_text.hpp"
 #include "common/rounding.hpp"
 #include "endpoint.hpp"
+#include "esdf/known_radius.hpp"
 #include "paths/shorten.hpp"
 #include "ridgeway/common/error.hpp"
 
@@ -50,9 +51,7 @@ double clearance_of(const FreeSpace& space, std::span<const Point> route,
 void validate_query(const EsdfMap& esdf, const Point& start, const Point& goal, double radius) {
   require_finite(start, "start");
   require_finite(goal, "goal");
-  if (radius > largest_radius(esdf))
-    throw InputError("radius " + number_text(radius), "is beyond the distances that the map holds",
-                     "build the map with a larger max_distance, or without one");
+  detail::require_known_radius(esdf, "radius", radius);
 }
 
 void validate_robot_height(double height) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/require.hpp"
+#include "esdf/known_radius.hpp"
 #include "esdf/remembered_space.hpp"
 #include "graph_of_curves.hpp"
 #include "ridgeway/common/parallel.hpp"
@@ -94,6 +95,7 @@ void GraphConfig::validate() const {
 
 SparseGraph build_graph(const EsdfMap& esdf, const VoxelMask& diagram, const GraphConfig& config) {
   config.validate();
+  detail::require_known_radius(esdf, "min_clearance", config.min_clearance);
   return detail::build_graph(esdf, detail::index_diagram(esdf, diagram, config.min_clearance),
                              config);
 }

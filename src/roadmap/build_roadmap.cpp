@@ -85,7 +85,7 @@ void require_suits(const BuildConfig& config, double voxel_size) {
   constexpr double kRounding = 1.0 - 1e-9;
   require(config.max_distance >= (config.min_clearance + 2.0 * voxel_size) * kRounding,
           "max_distance", config.max_distance,
-          "give at least min_clearance and two voxels, or leave it out");
+          "give at least min_clearance plus two voxels, or leave it out");
 }
 
 EsdfConfig distances_config(const BuildConfig& config) {

@@ -7,6 +7,7 @@
 
 #include "common/require.hpp"
 #include "editable_graph.hpp"
+#include "esdf/known_radius.hpp"
 #include "esdf/remembered_space.hpp"
 #include "graph_of_curves.hpp"
 #include "ridgeway/common/parallel.hpp"
@@ -176,6 +177,7 @@ SparseGraph simplify_graph(const EsdfMap& esdf, const SparseGraph& graph,
 SparseGraph detail::simplify_graph(const EsdfMap& esdf, const SparseGraph& graph,
                                    const SimplifyConfig& config, SegmentMemory* memory) {
   config.validate();
+  detail::require_known_radius(esdf, "min_clearance", graph.min_clearance);
   return Simplification(esdf, graph, config, memory).run();
 }
 

@@ -6,6 +6,7 @@
 
 #include "common/number_text.hpp"
 #include "common/require.hpp"
+#include "esdf/known_radius.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/skeleton/diagram.hpp"
 
@@ -15,6 +16,7 @@ VoxelMask compute_skeleton(const EsdfMap& esdf, double min_clearance, const GvdC
   config.validate();
   detail::require(min_clearance > 0.0 && std::isfinite(min_clearance), "min_clearance",
                   min_clearance, "give the robot's radius in metres, above 0");
+  detail::require_known_radius(esdf, "min_clearance", min_clearance);
   VoxelMask traversable = traversable_voxels(esdf, min_clearance);
   if (traversable.count() == 0)
     throw InputError("min_clearance " + number_text(min_clearance),

@@ -10,6 +10,7 @@
 
 #include "block_ridges.hpp"
 #include "common/require.hpp"
+#include "esdf/known_radius.hpp"
 #include "lanes.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "voxel/cube_gather.hpp"
@@ -188,6 +189,7 @@ VoxelMask traversable_voxels(const EsdfMap& esdf, double radius, bool within_lim
   assert(esdf.state.is_of(esdf.layout) && esdf.squared.is_of(esdf.layout));
   detail::require(radius >= 0.0 && std::isfinite(radius), "radius", radius,
                   "give the robot's radius in metres, 0 or more");
+  detail::require_known_distance(esdf, radius);
   return mask_by_block(esdf.layout, [&](std::uint32_t slot) {
     return detail::traversable_in_block(esdf, radius, slot, within_limits);
   });

@@ -12,10 +12,10 @@
 #include "common/number_text.hpp"
 #include "common/require.hpp"
 #include "common/rounding.hpp"
+#include "esdf/known_radius.hpp"
 #include "initial_spline.hpp"
 #include "planning/query.hpp"
 #include "ridgeway/common/error.hpp"
-#include "ridgeway/planning/plan.hpp"
 #include "smooth_path.hpp"
 #include "speed_scaling.hpp"
 #include "straight_motion.hpp"
@@ -159,10 +159,7 @@ TrajectoryResult fly_locally(const EsdfMap& esdf, std::span<const Point> path,
                              const TrajectoryConfig& config) {
   config.validate();
   detail::require_height_counts(esdf, config.robot_height);
-  if (config.radius > largest_radius(esdf))
-    throw InputError("radius " + number_text(config.radius),
-                     "is beyond the distances that the map holds",
-                     "build the map with a larger max_distance, or without one");
+  detail::require_known_radius(esdf, "radius", config.radius);
   std::vector<Point> points = distinct_points(path);
   const double began = detail::seconds_now();
   TrajectoryResult result;

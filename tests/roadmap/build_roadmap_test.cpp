@@ -90,6 +90,22 @@ TEST(BuildRoadmap, RefusesSizesOfVoxelsAndRadiiThatAreNone) {
   }
 }
 
+/// Beyond max_distance nothing is known, so nothing is far enough.
+TEST(BuildRoadmap, StagesRefuseRadiiThatTheirFieldDoesNotKnow) {
+  const OccupancyMap map = testing::make_map(0.1, {0, 0, 0}, {31, 31, 15}, [](const VoxelIndex& v) {
+    return v.x == 16 && v.y < 20 ? VoxelState::kOccupied : VoxelState::kFree;
+  });
+  const EsdfMap near = compute_esdf(map, {.max_distance = 0.5}), far = compute_esdf(map);
+  EXPECT_EQ(traversable_voxels(near, 0.5).count(), traversable_voxels(far, 0.5).count());
+  EXPECT_THROW(traversable_voxels(near, 0.55), InputError);
+  const VoxelMask diagram = compute_skeleton(near, 0.3);
+  EXPECT_GT(diagram.count(), 0u);
+  EXPECT_THROW(compute_skeleton(near, 0.4), InputError);
+  EXPECT_THROW(build_graph(near, diagram, {.min_clearance = 0.4}), InputError);
+  const SparseGraph wide = build_graph(far, compute_skeleton(far, 0.4), {.min_clearance = 0.4});
+  EXPECT_THROW(simplify_graph(near, wide), InputError);
+}
+
 /// Asked again within a stage, the answer counts: stages of large maps take seconds.
 TEST(BuildRoadmap, CanBeCancelledWithinAStageAndBuiltAgain) {
   Random random(5);

@@ -239,6 +239,10 @@ struct EsdfConfig {
 /// voxel, who hands in a copy keeps the map.
 EsdfMap compute_esdf(OccupancyMap map, const EsdfConfig& config = {});
 
+/// Largest robot radius, metres, that the distances of a map are known far enough for: infinite
+/// unless it was computed with a max_distance.
+double largest_radius(const EsdfMap& esdf);
+
 /// The occupancy that a distance field was computed from, a copy.
 OccupancyMap occupancy_of(const EsdfMap& esdf);
 

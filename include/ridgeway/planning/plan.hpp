@@ -154,10 +154,6 @@ struct PlanResult {
   bool ok() const { return status == PlanStatus::kOk; }
 };
 
-/// Largest robot radius, metres, that the distances of a map are known far enough for: infinite
-/// unless it was computed with a max_distance.
-double largest_radius(const EsdfMap& esdf);
-
 /// Plans from start to goal (metres, world frame) for a sphere of the asked radius. Every segment
 /// of the path, but for escapes, has been verified by the free-space predicate
 /// (esdf/free_space.hpp), in the map's local frame; the waypoints given back are those moved into
