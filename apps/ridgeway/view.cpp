@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -23,14 +24,25 @@ struct ViewOptions {
   bool open = false;
 };
 
+/// Of a file that is written again with other contents another one.
+std::string word_for_map(const std::string& file) {
+  const RidgeInfo info = read_ridge_info(file);
+  std::string text = file + info.header;
+  for (const RidgeSection& section : info.sections)
+    text +=
+        " " + std::to_string(section.raw_bytes) + " " + std::to_string(section.compressed_bytes);
+  return std::to_string(std::hash<std::string>{}(text));
+}
+
 int run(const ViewOptions& options, const Globals& globals) {
   const Roadmap roadmap = load_roadmap(options.file);
   require_page("view");
   stop_if_interrupted();
   MapAnswers answers(roadmap, std::filesystem::path(options.file).filename().string());
   const PageServer server(
-      {.answer = [&](const Question& question) { return answers.answer(question); }}, options.port,
-      is_interrupted);
+      {.map = word_for_map(options.file),
+       .answer = [&](const Question& question) { return answers.answer(question); }},
+      options.port, is_interrupted);
   const std::string address = address_of(server.port());
   if (globals.json)
     print_json({{"address", address}});

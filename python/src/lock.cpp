@@ -36,8 +36,6 @@ void wait_where_python_ends() {
 Unlocked::Away::Away() { ++away; }
 Unlocked::Away::~Away() { --away; }
 
-void watch_for_the_end() {
-  py::module_::import("atexit").attr("register")(py::cpp_function(&end));
-}
+void watch_for_the_end() { py::module_::import("atexit").attr("register")(py::cpp_function(&end)); }
 
 }  // namespace ridgeway::python

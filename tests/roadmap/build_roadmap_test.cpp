@@ -12,9 +12,11 @@
 #include "common/random.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "ridgeway/roadmap/build_graph.hpp"
 #include "ridgeway/roadmap/components.hpp"
 #include "ridgeway/skeleton/basins.hpp"
 #include "ridgeway/skeleton/gvd.hpp"
+#include "skeleton/compute_skeleton.hpp"
 #include "support/random_maps.hpp"
 
 namespace ridgeway {

@@ -180,3 +180,30 @@ test("on a planar map, which has no floor, clicks between its walls are places",
 test("nothing was complained about to the end but what was refused", () => {
   assert.deepEqual(page.complaints.filter((text) => !/status of 400/.test(text)), []);
 });
+
+test("where another map is served at the address, the page is loaded again in place of an answer of the other one", kLimit, async () => {
+  await planned(page, () => set("to", "2, -1, 1"));
+  await served.stop();
+  served = await view(rooms(), served.port); // the same again
+  await planned(page, () => set("radius", "0.31"));
+  assert.equal(await page.locator("#length").count(), 1, await text_of(page, "#result"));
+  for (const other of [{ name: "closed", has_door: false }, { name: "closed", options: ["--min-clearance", "0.4"] }]) {
+    await served.stop();
+    served = await view(rooms(other), served.port);
+    const loaded = page.waitForEvent("load");
+    await set("radius", "0.45");
+    await loaded;
+    await page.waitForFunction(() => document.body.dataset.ready === "yes");
+    assert.equal(await text_of(page, "#name"), "closed.ridge");
+    await set("from", "-2, 1, 1");
+    await planned(page, () => set("to", "2, -1, 1"));
+    assert.equal(await page.locator("#length").count(), other.has_door === false ? 0 : 1, await text_of(page, "#result"));
+  }
+});
+
+test("reasons speak of the form, not of options of the command line", kLimit, async () => {
+  await planned(page, () => set("to", "2.95, 1.95, 0.05"));
+  await planned(page, () => set("snap", "0.05"));
+  assert.match(await text_of(page, "#result"), /larger Snap|a Snap of/);
+  assert.doesNotMatch(await text_of(page, "#result"), /--snap/);
+});

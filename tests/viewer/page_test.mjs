@@ -277,18 +277,18 @@ test("marks are of the robot's size, and can be seen from afar", async () => {
 test("ceilings are cut off, and nothing where there are none", async () => {
   const cuts = await page.evaluate(() => {
     const { THREE, surface } = window.ridgeway;
-    /** A floor of 20 x 20 cells, and what looks down at two heights, so many cells across. */
-    const cut = (sides) => {
-      const faces = [[0, 0, 0, 5, 20, 20], ...sides.map((side, i) => [0, 0, 20 + 10 * i, 4, side, side])];
+    /** Of 20 x 20 cells a floor, or none, and what looks down at two heights, so many cells across. */
+    const cut = (sides, has_floor = true) => {
+      const faces = [...(has_floor ? [[0, 0, 0, 5, 20, 20]] : []), ...sides.map((side, i) => [0, 0, 20 + 10 * i, 4, side, side])];
       const cells = new Uint16Array(faces.flatMap((face) => face.slice(0, 4)));
       const sizes = new Uint8Array(faces.flatMap(([, , , , width, height]) => [width, height, 0, 0]));
       const made = new surface.constructor({ origin: [0, 0, 0], cell: 0.1, cell_voxels: 1, count: faces.length, cells, sizes }, new THREE.Vector3(), 4);
-      return made.height_below_ceilings();
+      return made.height_below_ceilings(2 * 2);
     };
-    return [cut([0, 20]), cut([4, 5]), cut([0, 0])];
+    return [cut([0, 20]), cut([4, 5]), cut([0, 0]), cut([0, 5], false), cut([20], false)];
   });
   assert.ok(Math.abs(cuts[0] - 2.9) < 1e-9, String(cuts));
-  assert.deepEqual(cuts.slice(1), [4, 4]);
+  assert.deepEqual(cuts.slice(1), [4, 4, 4, 4]);
 });
 
 test("measures what is clicked", async () => {
@@ -358,6 +358,14 @@ test("on a small screen hints and tools do not cover each other, and the legend 
   assert.ok(hint.y >= tools.y + tools.height, `tools end at ${tools.y + tools.height}, the hint begins at ${hint.y}`);
   assert.ok(legend.y >= hint.y + hint.height, `the hint ends at ${hint.y + hint.height}, the legend begins at ${legend.y}`);
   await page.keyboard.press("Escape");
+});
+
+test("on a small screen what a plan has found comes into sight", async () => {
+  await page.setViewportSize({ width: 390, height: 844 });
+  await page.evaluate(() => document.getElementById("panel").scrollTo(0, 0));
+  await planned(page, () => page.evaluate(() => void window.ridgeway.app.query.plan()));
+  const result = await page.locator("#result").boundingBox();
+  assert.ok(result.y >= 0 && result.y + result.height <= 844, `from ${result.y}, ${result.height} high`);
 });
 
 test("axe finds nothing serious, light and dark, wide and narrow", async () => {

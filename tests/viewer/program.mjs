@@ -64,8 +64,8 @@ function running(server, address) {
 }
 
 /** Serves a map; skips all tests (77) where the program has no page. */
-export async function view(map) {
-  const server = spawn(program, ["view", map, "--json"], { stdio: ["ignore", "pipe", "pipe"] });
+export async function view(map, port = 0) {
+  const server = spawn(program, ["view", map, "--json", "--port", String(port)], { stdio: ["ignore", "pipe", "pipe"] });
   let out = "";
   let err = "";
   server.stderr.on("data", (text) => (err += text));

@@ -21,6 +21,7 @@ export function no_joins_text(components: number): string {
 function in_words_of_form(reason: string): string {
   return reason
     .replace(", or give --escape to begin or end there", "")
+    .replace("give a larger --snap", "give a larger Snap")
     .replace("let --snap do so", "let a larger Snap do so")
     .replace(/let --snap ([\d.]+) do so/, "let a Snap of $1 m do so")
     .replace("give a larger --time-limit, or --iteration-limit where the planner samples", "take the planner graph, or move Start and Goal nearer to each other")

@@ -45,7 +45,7 @@ export class HeightPanel {
   /** The map reaches elsewhere now. A cut that nobody has chosen follows its ceilings. */
   follow(): void {
     const { surface } = this.page;
-    if (!this.is_cut_chosen) surface.cut = surface.height_below_ceilings();
+    if (!this.is_cut_chosen) surface.cut = surface.height_below_ceilings(this.page.stage.size.x * this.page.stage.size.y);
     this.set_range();
     this.tell();
     this.cut_anew();

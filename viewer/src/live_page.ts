@@ -33,6 +33,9 @@ interface LiveEvent {
   graph?: string;
 }
 
+/** Milliseconds after which a run that has no room for this page is asked again. */
+const kAgain = 5000;
+
 /** A map that grows, and the drone that maps it. */
 export class LivePage {
   app?: App;
@@ -70,8 +73,25 @@ export class LivePage {
     } else if (!this.events) {
       const events = (this.events = new EventSource("/api/live"));
       events.onmessage = (message) => this.take(message.data);
-      events.onerror = () => this.tell(events.readyState === EventSource.CLOSED ? "The run cannot be followed: as many pages as can already do" : "The connection is lost; trying again");
+      events.onerror = () => {
+        if (events.readyState !== EventSource.CLOSED) return this.tell("The connection is lost; trying again");
+        this.tell("The run cannot be followed: as many pages as can already do; trying again");
+        this.ask_server();
+        setTimeout(() => this.follow_again(events), kAgain);
+      };
     }
+  }
+
+  /** After it was refused, which ends the events. */
+  private follow_again(refused: EventSource): void {
+    if (this.events !== refused) return;
+    this.events = undefined;
+    this.follow();
+  }
+
+  /** Where another map is served now, the answer has the page loaded again. */
+  private ask_server(): void {
+    this.source.ask("/api/info").catch(() => {});
   }
 
   private take(text: string): void {
@@ -81,7 +101,7 @@ export class LivePage {
       this.surface.clear();
       this.graph.clear();
       this.trail.length = 0;
-      if (this.app) void this.check_run(this.app.info);
+      if (this.app) this.ask_server();
     }
     if (event.surface) this.surface.apply(bytes_of(event.surface).buffer);
     if (event.graph) this.graph.apply(bytes_of(event.graph).buffer);
@@ -89,12 +109,6 @@ export class LivePage {
     this.last = event;
     if (event.is_last) this.follow();
     this.ask_refresh();
-  }
-
-  /** Where another run answers at the address now, the page begins anew: what it knows is of the old one. */
-  private async check_run({ name, voxel_size, min_clearance }: Info): Promise<void> {
-    const now = await ask_json<Info>(this.source, "/api/info").catch(() => undefined);
-    if (now && (now.name !== name || now.voxel_size !== voxel_size || now.min_clearance !== min_clearance)) location.reload();
   }
 
   /** However many events come, there is one picture of them a frame. */
@@ -112,7 +126,12 @@ export class LivePage {
     this.tell_event(event);
     if (!event.bounds) return;
     this.beginning ??= this.begin(event.bounds);
-    await this.beginning;
+    try {
+      await this.beginning;
+    } catch {
+      this.beginning = undefined; // again with the next event
+      return;
+    }
     this.show_map(event);
     this.show_drone(event);
     document.body.dataset.scan = String(event.scan);

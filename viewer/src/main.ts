@@ -35,7 +35,7 @@ async function begin_map(source: MapSource, stage: Stage, info: Info): Promise<v
   stage.set_box(new THREE.Vector3(), size);
   const surface = new SurfaceMesh(read_surface(await source.ask("/api/surface/coarse")), base, size.z);
   const asked_fine = source.ask("/api/surface").then(read_surface, (error: Error) => error);
-  surface.cut = surface.height_below_ceilings();
+  surface.cut = surface.height_below_ceilings(size.x * size.y);
   stage.scene.add(surface.mesh);
   const is_coarse_enough = () => stage.is_slow && stage.pixels_of(surface.coarse_cell) < kSmall;
   stage.before_frame.push((is_coarse) => surface.draw_coarse(is_coarse || is_coarse_enough()));

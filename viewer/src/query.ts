@@ -146,6 +146,7 @@ export class QueryPanel {
       this.answer_time = performance.now() - started;
       if (!this.start || !this.goal) return; // taken away since
       this.show(answer, query);
+      if (!is_quick) element("result").scrollIntoView({ block: "nearest" }); // below the form on narrow screens
       const first = this.shown[0];
       if (first && !is_quick && this.wanted === "nothing") this.flight.fly(query, first.waypoints);
     } catch (error) {

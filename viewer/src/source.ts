@@ -17,8 +17,10 @@ function message_of(bytes: ArrayBuffer, status: number): string {
   }
 }
 
-/** The server that the page came from. */
+/** The server that the page came from. Where another map is served at its address later, the page is loaded again: all it shows is of the first. */
 export class ServerSource implements MapSource {
+  private map?: string; // that the answers are of
+
   async ask(path: string, parameters: Record<string, string> = {}): Promise<ArrayBuffer> {
     const query = new URLSearchParams(parameters).toString();
     let response: Response;
@@ -26,6 +28,12 @@ export class ServerSource implements MapSource {
       response = await fetch(query ? `${path}?${query}` : path);
     } catch {
       throw new AnswerError("the server does not answer: is `ridgeway view` still running?");
+    }
+    const map = response.headers.get("Ridgeway-Map") ?? undefined;
+    this.map ??= map;
+    if (map !== this.map) {
+      location.reload();
+      throw new AnswerError("another map is served at this address now: the page is loaded again");
     }
     const bytes = await response.arrayBuffer();
     if (!response.ok) throw new AnswerError(message_of(bytes, response.status));

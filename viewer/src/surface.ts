@@ -212,29 +212,25 @@ export class SurfaceMesh {
     return is_coarse && this.coarse !== this.fine;
   }
 
-  /** Just below most ceilings, so that rooms can be looked into: half the faces that look down are higher. The top where there are hardly any ceilings. */
-  height_below_ceilings(): number {
+  /** Just below most ceilings, so that rooms can be looked into: half the faces that look down are higher. The top where hardly any of the map's ground plan (square metres) has a ceiling, or nothing would be left. */
+  height_below_ceilings(plan: number): number {
     const { surface, origin } = this.coarse;
     const { cells, sizes, count, cell } = surface;
     const areas = new Map<number, number>();
-    const plan = new THREE.Box2();
-    const corner = new THREE.Vector2();
     let total = 0;
+    let lowest = Infinity;
     for (let i = 0; i < count; ++i) {
-      const side = cells[4 * i + 3]!;
-      plan.expandByPoint(corner.fromArray(cells, 4 * i));
-      if (side >= 4) plan.expandByPoint(corner.set(cells[4 * i]! + sizes[4 * i]!, cells[4 * i + 1]! + sizes[4 * i + 1]!));
-      if (side !== 4) continue;
+      lowest = Math.min(lowest, cells[4 * i + 2]!);
+      if (cells[4 * i + 3] !== 4) continue;
       const area = sizes[4 * i]! * sizes[4 * i + 1]!;
       areas.set(cells[4 * i + 2]!, (areas.get(cells[4 * i + 2]!) ?? 0) + area);
       total += area;
     }
-    const { x, y } = plan.getSize(corner);
     let above = 0;
     for (const z of [...areas.keys()].sort((a, b) => b - a)) {
       above += areas.get(z)!;
       if (above < 0.5 * total) continue;
-      if (above < kLeastCeilings * x * y) break;
+      if (above * cell ** 2 < kLeastCeilings * plan || z <= lowest) break;
       return Math.max(this.low + 0.3 * (this.high - this.low), origin.z + (z - 1) * cell);
     }
     return this.high;

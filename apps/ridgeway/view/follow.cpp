@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "view/follow.hpp"
 
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <utility>
@@ -12,6 +13,15 @@
 #include "view/browser.hpp"
 
 namespace ridgeway::cli {
+
+namespace {
+
+/// Of each run another one: what a page has of one does not go on with the next.
+std::string word_for_run() {
+  return std::to_string(std::chrono::system_clock::now().time_since_epoch().count());
+}
+
+}  // namespace
 
 void add_follow_options(Command& command, FollowOptions& options) {
   command.flag(
@@ -34,7 +44,8 @@ FollowedRun::FollowedRun(const FollowOptions& options, const std::string& map,
   }
   require_page("--view");
   server_.emplace(
-      Served{[this](const Question& question) { return view_.answer(question); }, &view_},
+      Served{word_for_run(), [this](const Question& question) { return view_.answer(question); },
+             &view_},
       options.port.value_or(0), is_interrupted);
   const std::string address = address_of(server_->port());
   note(globals, "open " + address + " to see the map grow");

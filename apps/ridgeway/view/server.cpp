@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <exception>
 #include <string>
@@ -154,6 +155,7 @@ struct PageServer::Running {
 
   void respond(const httplib::Request& request, httplib::Response& response) {
     set_headers(response);
+    response.set_header("Ridgeway-Map", served.map);
     if (!is_from_here(request, port))
       return set_body(response,
                       json_reply(403, {{"error", "this server answers its own page alone"}}));
@@ -189,9 +191,13 @@ PageServer::PageServer(Served served, int port, std::function<bool()> is_over)
   });
   running_->port = port == 0 ? server.bind_to_any_port(kAddress)
                              : (server.bind_to_port(kAddress, port) ? port : -1);
-  if (running_->port <= 0)
-    throw InputError("--port " + std::to_string(port), "cannot be had: another program may use it",
+  if (running_->port <= 0) {
+    const bool is_refused = errno == EACCES;
+    throw InputError("--port " + std::to_string(port),
+                     is_refused ? "is for privileged programs alone"
+                                : "cannot be had: another program may use it",
                      "give another one, or leave it out");
+  }
   server.let_many_wait();
   server.set_pre_routing_handler(
       [running = running_.get()](const httplib::Request& request, httplib::Response& response) {

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "view/live_view.hpp"
 #include "view/map_answers.hpp"
@@ -12,6 +13,7 @@ namespace ridgeway::cli {
 
 /// What a server gives to its page.
 struct Served {
+  std::string map;                               ///< a word for it that another map has not
   std::function<Reply(const Question&)> answer;  ///< thread-safe
   LiveView* live = nullptr;                      ///< what /api/live follows; none: nothing
 };
