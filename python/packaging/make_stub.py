@@ -37,7 +37,7 @@ __version__: str
 PARAMETERS = {
     "start goal origin start_velocity start_acceleration": "_Point",
     "points path waypoints starts goals places transform T_world_camera T_world_sensor image states "
-    "voxels via": "ArrayLike",
+    "voxels via times": "ArrayLike",
     "bounds keep_in": "Optional[_Box]",
     "boxes keep_out exclude": "Sequence[_Box]",
     "voxel_size free_below occupied_above low high deepest step max_range range_sigma fx fy cx cy "
@@ -109,7 +109,7 @@ RETURNS = {
     "components": "List[Dict[str, Any]]",
     "check integrate_depth integrate_points set_voxels correct_poses finish_correcting catch_up":
         "Dict[str, Any]",
-    "sample": "TrajectorySamples", "surface": "Surface", "scan_with": "NDArray[np.float64]", "to_networkx": "Any",
+    "sample at": "TrajectorySamples", "surface": "Surface", "scan_with": "NDArray[np.float64]", "to_networkx": "Any",
     "snapshot settled": "Optional[Roadmap]", "render_depth": "NDArray[np.float32]",
     "__len__": "int", "__bool__ __eq__": "bool", "__repr__": "str", "__init__": "None",
     "map": "OccupancyMap",

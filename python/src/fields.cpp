@@ -179,7 +179,8 @@ const Fields<TrajectoryConfig>& trajectory_fields() {
           .add("robot_height", &Config::robot_height, "as in plan(), metres")
           .add("stop_and_go", &Config::stop_and_go, "straight from corner to corner")
           .add("via", &Config::via,
-               "corners of the path that are passed as they are (N, 3), metres; others are rounded")
+               "points of the path that are passed as they are (N, 3), metres; other corners are "
+               "rounded")
           .add("most_evaluations", &Config::most_evaluations,
                "of the cost, each time that a stretch is optimised");
   return fields;

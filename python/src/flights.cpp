@@ -4,6 +4,8 @@
 // Trajectories.
 #include "flights.hpp"
 
+#include <cmath>
+
 #include "config.hpp"
 #include "faces.hpp"
 #include "lock.hpp"
@@ -84,13 +86,14 @@ std::string flight_repr(const FlightFace& flight) {
 
 }  // namespace
 
-py::object samples_of(const Trajectory& trajectory, py::handle step) {
-  const double seconds = number_from(step, "step");
+namespace {
+
+py::object arrays_of(const std::vector<TrajectoryState>& states) {
   std::vector<double> time, yaw, yaw_rate;
   std::vector<Point> position, velocity, acceleration;
   {
     const Unlocked unlocked;
-    for (const TrajectoryState& s : trajectory.sample(seconds)) {
+    for (const TrajectoryState& s : states) {
       time.push_back(s.time);
       position.push_back(s.position);
       velocity.push_back(s.velocity);
@@ -105,6 +108,32 @@ py::object samples_of(const Trajectory& trajectory, py::handle step) {
           owning_array(std::move(time), shape), array_of(std::move(position)),
           array_of(std::move(velocity)), array_of(std::move(acceleration)),
           owning_array(std::move(yaw), shape), owning_array(std::move(yaw_rate), shape));
+}
+
+}  // namespace
+
+py::object samples_of(const Trajectory& trajectory, py::handle step) {
+  const double seconds = number_from(step, "step");
+  std::vector<TrajectoryState> states;
+  {
+    const Unlocked unlocked;
+    states = trajectory.sample(seconds);
+  }
+  return arrays_of(states);
+}
+
+py::object states_at(const Trajectory& trajectory, py::handle times) {
+  const std::string expected = "a time, or (N,) of them, seconds";
+  const Doubles array = doubles_from(times, "times", expected);
+  if (array.ndim() > 1) throw InputError("times", "is " + describe(times), "give " + expected);
+  std::vector<TrajectoryState> states;
+  for (py::ssize_t i = 0; i < array.size(); ++i) {
+    const double time = array.data()[i];
+    if (!std::isfinite(time))
+      throw InputError("times", "has one that is not finite", "give " + expected);
+    states.push_back(trajectory.at(time));
+  }
+  return arrays_of(states);
 }
 
 py::array durations_of(const Trajectory& trajectory) {
@@ -179,6 +208,15 @@ void add_flights(py::module_& module) {
           py::arg("step") = 0.05,
           "sample(self, step=0.05)\n--\n\nStates every `step` seconds, and at the end, as "
           "TrajectorySamples.")
+      .def(
+          "at",
+          [](const FlightFace& flight, py::handle times) {
+            require_ok(flight);
+            return states_at(flight.result.trajectory, times);
+          },
+          py::arg("times"),
+          "at(self, times)\n--\n\nStates at times (N,), seconds, or at one, as TrajectorySamples: "
+          "before the start and after the\nend those of the ends.")
       .def(
           "save",
           [](const FlightFace& flight, py::handle path, py::handle step) {

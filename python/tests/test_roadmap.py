@@ -282,6 +282,13 @@ def test_a_plan_is_flown_by_the_robot_and_within_the_limits_that_it_was_asked_fo
     assert not ((places > low) & (places < high)).all(axis=1).any()
     for flown in (roadmap.trajectory(around, flight_limits=ridgeway.FlightLimits()), roadmap.trajectory(around.waypoints)):
         assert flown.duration <= roadmap.trajectory(around).duration
+    samples = roadmap.trajectory(around).sample(0.5)
+    again = roadmap.trajectory(around).at(samples.time)
+    for one, other in zip(samples, again):
+        np.testing.assert_allclose(one, other, atol=1e-12)
+    np.testing.assert_array_equal(flight.at(-1.0).position, [START])
+    with pytest.raises(ValueError, match="times: has one that is not finite"):
+        flight.at([0.0, np.nan])
     tall = roadmap.plan(START, GOAL, robot_height=0.8)
     said = roadmap.trajectory(tall.waypoints, robot_height=0.8)
     np.testing.assert_array_equal(roadmap.trajectory(tall).coefficients, said.coefficients)

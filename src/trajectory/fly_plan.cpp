@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 #include <algorithm>
+#include <vector>
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/trajectory/plan_trajectory.hpp"
@@ -17,6 +18,7 @@ class Flights {
   bool add(std::span<const Point> path, double radius, bool counts) {
     TrajectoryConfig config = config_;
     config.radius = radius;
+    if (!counts) config.via.clear();  // an escape is straight
     if (!whole_.trajectory.segments.empty()) {
       config.start_velocity = config.start_acceleration = Point::Zero();
       config.start_yaw = whole_.trajectory.at(whole_.duration).yaw;
@@ -73,7 +75,10 @@ TrajectoryResult fly_plan(const EsdfMap& esdf, const PlanResult& path,
   if (leaves && !(config.start_velocity.isZero(0.0) && config.start_acceleration.isZero(0.0)))
     throw InputError("start_velocity", "is that of a robot in flight, which has nothing to escape",
                      "leave it out");
-  Flights flights(esdf, config);
+  TrajectoryConfig between = config;  // the flight ends at the ends anyway
+  std::erase_if(between.via,
+                [&](const Point& p) { return p == points.front() || p == points.back(); });
+  Flights flights(esdf, between);
   const std::size_t first = leaves ? 1 : 0, last = points.size() - (enters ? 2 : 1);
   bool holds = true;
   if (leaves) holds = flights.add(points.first(2), path.escape_start.clearance, false);

@@ -160,6 +160,10 @@ TrajectoryResult fly_locally(const EsdfMap& esdf, std::span<const Point> path,
   config.validate();
   detail::require_height_counts(esdf, config.robot_height);
   detail::require_known_radius(esdf, "radius", config.radius);
+  for (const Point& place : config.via)
+    if (std::find(path.begin(), path.end(), place) == path.end())
+      throw InputError("via", "has a place that is no point of the path",
+                       "give points of it, digit for digit, or plan over the place");
   std::vector<Point> points = distinct_points(path);
   const double began = detail::seconds_now();
   TrajectoryResult result;

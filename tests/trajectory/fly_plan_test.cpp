@@ -38,6 +38,9 @@ void expect_joined(const TrajectoryResult& flown, const PlanResult& path, int st
 TEST(FlyPlan, StopsWhereAnEscapeEnds) {
   const PlanResult path = between_escapes({{0.5, 5, 2}, {4, 7, 2}, {0.5, 9, 2}});
   expect_joined(fly_plan(esdf(), path, {}), path, 2);
+  TrajectoryConfig config;
+  config.via = path.waypoints;
+  expect_joined(fly_plan(esdf(), path, config), path, 2);
 }
 
 TEST(FlyPlan, StopsOnceWhereBothEscapesEndAtOnePlace) {

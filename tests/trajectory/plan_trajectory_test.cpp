@@ -184,6 +184,20 @@ TEST(PlanTrajectory, PassesThePlacesThatItIsToPass) {
     }
 }
 
+TEST(PlanTrajectory, RefusesToPassWhatIsNoPointOfThePath) {
+  const std::vector<Point> path{{2, 5, 2}, {6, 5, 2}, {6, 7, 2}};
+  for (const Point& place : {Point(4, 5, 2), Point(6, 5, 2 + 1e-9), Point(0, 0, 9)}) {
+    TrajectoryConfig config;
+    config.via = {path[1], place};
+    try {
+      plan_trajectory(esdf(), path, config);
+      ADD_FAILURE() << place.transpose();
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.where(), "via");
+    }
+  }
+}
+
 TEST(PlanTrajectory, PointsOnAStraightWayAreNoCorners) {
   TrajectoryConfig config;
   const auto seconds = [&](const std::vector<Point>& path) {

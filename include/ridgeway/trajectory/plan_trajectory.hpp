@@ -61,8 +61,8 @@ struct TrajectoryConfig {
   double robot_height = 0.0;        ///< as in PlanConfig
   bool stop_and_go = false;         ///< no smoothing: the last resort at once
   int most_evaluations = 120;       ///< of the cost, each time that a stretch is optimised
-  /// Corners of the path (as in it) that are passed as they are; others are rounded, and may be
-  /// missed by far where there is room.
+  /// Points of the path, digit for digit, that are passed as they are; other corners are rounded,
+  /// and may be missed by far where there is room.
   std::vector<Point> via = {};
 
   /// Throws InputError naming the bad field.
