@@ -33,6 +33,7 @@ struct Fused {
   std::size_t frames = 0, unreadable = 0, without_pose = 0;
   std::optional<PointCounts> points;  // of scans
   double seconds = 0.0;               // of fusing alone
+  std::string upward_axis;            // what a person should be told of it
 };
 
 SequenceConfig sequence_config(const FuseOptions& options) {
@@ -82,7 +83,7 @@ Fused fuse_images(const FuseOptions& options, const FusionConfig& config, const 
   if (fused.unreadable > 0)
     warn(globals,
          count_text(fused.unreadable) + " images were passed over, the first: " + first_problem);
-  note_upward_axis(globals, sequence);
+  fused.upward_axis = told_of_upward_axis(sequence);
   fused.map = fusion.map();
   return fused;
 }
@@ -169,6 +170,7 @@ int run(const FuseOptions& options, const Globals& globals) {
     throw InputError(options.folder, "shows no free space",
                      "check --min-range, --max-range and the scale of the recording");
   save_tsdf(fused.map, options.folder, options.output);
+  if (!fused.upward_axis.empty()) note(globals, fused.upward_axis);
   print(options, fused, voxels, globals);
   return kExitDone;
 }

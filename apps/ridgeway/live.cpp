@@ -180,7 +180,7 @@ void replay_images(Run& run, const Globals& globals) {
     if (options.follow == 0.0) break;
   }
   bar.clear();
-  note_upward_axis(globals, sequence);
+  run.replay.upward_axis = told_of_upward_axis(sequence);
   if (!options.until.empty() && !is_last)
     warn(globals, "no image " + options.until + " has come, so all of them were taken");
 }
@@ -259,6 +259,7 @@ int run(const LiveOptions& given, const Globals& globals) {
   if (replay.without_pose > 0)
     note(globals, count_text(replay.without_pose) + " frames have no pose and were passed over");
   save_roadmap(*snapshot, options.output);
+  if (!replay.upward_axis.empty()) note(globals, replay.upward_axis);
   if (!options.csv.empty()) write_text_file(options.csv, csv_of(replay));
   if (options.verify > 0 && replay.verified == 0)
     warn(globals, "nothing was verified, as the recording has less than " +

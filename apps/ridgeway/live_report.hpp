@@ -18,6 +18,7 @@ struct LiveReplay {
   std::vector<UpdateReport> updates;  ///< a scan each
   std::size_t unreadable = 0, without_pose = 0;
   std::string first_unreadable;             ///< which image it was, and what is the matter with it
+  std::string upward_axis;                  ///< what a person should be told of it
   std::size_t verified = 0, identical = 0;  ///< scans held against a batch build, and the same
   std::string first_other;                  ///< the frame of the first that was not
   std::vector<double> batch_seconds;        ///< of the builds that verified

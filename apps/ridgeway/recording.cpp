@@ -43,18 +43,18 @@ void note_passed_over(const Globals& globals, const PointCounts& points) {
                       count_text(points.not_finite) + " that are not finite were passed over");
 }
 
-void note_upward_axis(const Globals& globals, const DepthSequence& sequence) {
+std::string told_of_upward_axis(const DepthSequence& sequence) {
   Eigen::Vector3d up = Eigen::Vector3d::Zero();
   for (const DepthFrame& frame : sequence.frames) up -= frame.T_world_camera.linear().col(1);
   constexpr double kHalf = 0.5;  // the cosine of 60 degrees; of nearly nothing if they look around
-  if (up.norm() < kHalf * static_cast<double>(sequence.frames.size())) return;
+  if (up.norm() < kHalf * static_cast<double>(sequence.frames.size())) return {};
   up.normalize();
-  if (up.z() > kHalf) return;
+  if (up.z() > kHalf) return {};
   std::ostringstream text;
   text << std::setprecision(2) << up.x() << ',' << up.y() << ',' << up.z();
-  note(globals, "the cameras are upright along " + text.str() +
-                    " of the world of their poses, not along z, which maps and pictures take for "
-                    "up: `ridgeway build --transform` turns what `fuse` has made");
+  return "the cameras are upright along " + text.str() +
+         " of the world of their poses, not along z, which maps and pictures take for up: "
+         "`ridgeway build --transform` turns what `fuse` has made";
 }
 
 void require_outside(const std::filesystem::path& output, const std::filesystem::path& folder) {

@@ -31,8 +31,8 @@ void note_passed_over(const Globals& globals, const PointCounts& points);
 
 /// Maps, pictures and heights take the world's z for up; recordings by hand often have another
 /// axis, mostly that of the first image. Cameras are held upright more often than not: y is down.
-/// A note where they are not upright in the world.
-void note_upward_axis(const Globals& globals, const DepthSequence& sequence);
+/// What a person should be told where they are not upright in the world; else nothing.
+std::string told_of_upward_axis(const DepthSequence& sequence);
 
 /// Throws InputError where a file that is to be written is part of a recording.
 void require_outside(const std::filesystem::path& output, const std::filesystem::path& folder);

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <system_error>
 
 #include "commands.hpp"
 #include "console.hpp"
@@ -24,23 +25,21 @@ struct ViewOptions {
   bool open = false;
 };
 
-/// Of a file that is written again with other contents another one.
-std::string word_for_map(const std::string& file) {
-  const RidgeInfo info = read_ridge_info(file);
-  std::string text = file + info.header;
-  for (const RidgeSection& section : info.sections)
-    text +=
-        " " + std::to_string(section.raw_bytes) + " " + std::to_string(section.compressed_bytes);
+/// Of a file that is written again another one.
+std::string word_for_map(const std::string& file, std::filesystem::file_time_type written) {
+  const std::string text = file + ' ' + std::to_string(written.time_since_epoch().count());
   return std::to_string(std::hash<std::string>{}(text));
 }
 
 int run(const ViewOptions& options, const Globals& globals) {
+  std::error_code error;  // what is wrong with the file, loading tells
+  const auto written = std::filesystem::last_write_time(options.file, error);
   const Roadmap roadmap = load_roadmap(options.file);
   require_page("view");
   stop_if_interrupted();
   MapAnswers answers(roadmap, std::filesystem::path(options.file).filename().string());
   const PageServer server(
-      {.map = word_for_map(options.file),
+      {.map = word_for_map(options.file, written),
        .answer = [&](const Question& question) { return answers.answer(question); }},
       options.port, is_interrupted);
   const std::string address = address_of(server.port());

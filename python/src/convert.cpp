@@ -97,6 +97,7 @@ std::size_t place_from(py::handle index, std::size_t count, const char* what) {
 }
 
 py::object iterator_of(const py::object& sequence) {
+  if (!PySequence_Check(sequence.ptr())) wrong_type(sequence, "self", "a sequence");
   return py::reinterpret_steal<py::object>(PySeqIter_New(sequence.ptr()));
 }
 

@@ -4,6 +4,7 @@
 // Trajectories.
 #include "flights.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "config.hpp"
@@ -40,8 +41,9 @@ TrajectoryConfig config_for(const PlanConfig& plan, const RoadmapFace& face, py:
   TrajectoryConfig config = trajectory_fields().read_all(keywords);
   config.radius = radius.is_none() ? plan.radius.value_or(face.roadmap->min_clearance)
                                    : number_from(radius, "radius");
-  if (!keywords.contains("robot_height")) config.robot_height = plan.robot_height;
-  if (!keywords.contains("flight_limits")) config.flight_limits = plan.limits;
+  if (config.robot_height == 0.0) config.robot_height = plan.robot_height;
+  if (!keywords.contains("flight_limits") || keywords["flight_limits"].is_none())
+    config.flight_limits = plan.limits;
   config.validate();
   return config;
 }
@@ -84,23 +86,16 @@ std::string flight_repr(const FlightFace& flight) {
          ", segments=" + std::to_string(result.trajectory.segments.size()) + ")";
 }
 
-}  // namespace
-
-namespace {
-
 py::object arrays_of(const std::vector<TrajectoryState>& states) {
   std::vector<double> time, yaw, yaw_rate;
   std::vector<Point> position, velocity, acceleration;
-  {
-    const Unlocked unlocked;
-    for (const TrajectoryState& s : states) {
-      time.push_back(s.time);
-      position.push_back(s.position);
-      velocity.push_back(s.velocity);
-      acceleration.push_back(s.acceleration);
-      yaw.push_back(s.yaw);
-      yaw_rate.push_back(s.yaw_rate);
-    }
+  for (const TrajectoryState& s : states) {
+    time.push_back(s.time);
+    position.push_back(s.position);
+    velocity.push_back(s.velocity);
+    acceleration.push_back(s.acceleration);
+    yaw.push_back(s.yaw);
+    yaw_rate.push_back(s.yaw_rate);
   }
   const std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(time.size())};
   return py::module_::import("ridgeway._values")
@@ -126,12 +121,13 @@ py::object states_at(const Trajectory& trajectory, py::handle times) {
   const std::string expected = "a time, or (N,) of them, seconds";
   const Doubles array = doubles_from(times, "times", expected);
   if (array.ndim() > 1) throw InputError("times", "is " + describe(times), "give " + expected);
+  const std::vector<double> all(array.data(), array.data() + array.size());
+  if (!std::all_of(all.begin(), all.end(), [](double time) { return std::isfinite(time); }))
+    throw InputError("times", "has one that is not finite", "give " + expected);
   std::vector<TrajectoryState> states;
-  for (py::ssize_t i = 0; i < array.size(); ++i) {
-    const double time = array.data()[i];
-    if (!std::isfinite(time))
-      throw InputError("times", "has one that is not finite", "give " + expected);
-    states.push_back(trajectory.at(time));
+  {
+    const Unlocked unlocked;
+    for (const double time : all) states.push_back(trajectory.at(time));
   }
   return arrays_of(states);
 }
@@ -237,7 +233,8 @@ void add_trajectories(py::class_<RoadmapFace>& type) {
             ")\n--\n\nA verified Trajectory along a path: a PlanResult, or points (N, 3), metres, "
             "world.\n\n  radius: of the robot, metres; None: that which the plan was asked for, of "
             "points the "
-            "roadmap's;\n    flight_limits and robot_height are the plan's, too, unless given" +
+            "roadmap's;\n    flight_limits and robot_height are the plan's, too, unless given "
+            "(FlightLimits(): none)" +
             trajectory_fields().docs())
                .c_str());
 }

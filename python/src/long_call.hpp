@@ -17,15 +17,13 @@ namespace ridgeway::python {
 
 namespace py = pybind11;
 
-/// Asks Python, from within a call that holds no lock of its, whether to go on: not after Ctrl-C,
-/// and not where the caller's own function says False or throws.
+/// Asks Python, with its lock, whether to go on: not after Ctrl-C, and not where the caller's own
+/// function says False or throws.
 class Watch {
  public:
   explicit Watch(py::object callback) : callback_(std::move(callback)) {}
 
   bool go_on(std::string_view stage, double share) {
-    wait_where_python_ends();
-    const py::gil_scoped_acquire acquire;
     try {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       if (callback_.is_none()) return true;
@@ -61,11 +59,11 @@ class Watch {
 template <typename Work>
 auto run_long(const py::object& callback, int threads, Work&& work) {
   Watch watch(callback);
-  const Progress progress = [&](std::string_view stage, double share) {
-    return watch.go_on(stage, share);
-  };
   try {
-    const Unlocked unlocked;
+    Unlocked unlocked;
+    const Progress progress = [&](std::string_view stage, double share) {
+      return unlocked.locked([&] { return watch.go_on(stage, share); });
+    };
     return with_threads(threads, [&] { return work(progress); });
   } catch (const Cancelled&) {
     watch.rethrow();

@@ -8,7 +8,6 @@
 
 #include "convert.hpp"
 #include "faces.hpp"
-#include "lock.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/version.hpp"
 
@@ -58,7 +57,6 @@ static void add_all(py::module_& module) {
   options.disable_function_signatures();
   module.doc() = "The compiled part of ridgeway.";
   module.attr("__version__") = kVersion;
-  watch_for_the_end();
   add_errors(module);
   add_maps(module);
   add_fields(module);

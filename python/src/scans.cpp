@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "config.hpp"
+#include "faces.hpp"
 #include "lock.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/exploration/explorer.hpp"
@@ -181,7 +182,11 @@ void add_writer(py::module_& module) {
            "(4, 4). Points that are\nnot finite are left out.")
       .def("finish", method(&ScanWriterFace::finish),
            "finish(self)\n--\n\nPuts the folder in its place.")
-      .def("__enter__", [](const py::object& self) { return self; })
+      .def("__enter__",
+           [](const py::object& self) {
+             self.cast<const ScanWriterFace&>();  // None is none
+             return self;
+           })
       .def("__exit__", [](ScanWriterFace& writer, py::handle error, py::handle,
                           py::handle) { writer.leave(error); })
       .def("__len__", method(&ScanWriterFace::count))

@@ -95,7 +95,13 @@ def test_interrupts_are_heard_within_a_stage(side, setup, work):
 
 
 @pytest.mark.parametrize(
-    "work", ["roadmap.plan((1, 1, 1), (5, 3, 1))", "ridgeway.build(space, min_clearance=0.2)", "space.to_numpy()"]
+    "work",
+    [
+        "roadmap.plan((1, 1, 1), (5, 3, 1))",
+        "ridgeway.build(space, min_clearance=0.2)",
+        "ridgeway.build(space, min_clearance=0.2, progress=lambda stage, share: [0 for _ in range(10000)])",
+        "space.to_numpy()",
+    ],
 )
 def test_programs_end_while_daemons_are_at_work(work):
     script = SPACE.replace("{side}", "64") + f"""

@@ -159,7 +159,7 @@ class VoxelLook {
     return depth > 0.0f && std::abs(depth - foot.z()) < 0.5f * truncation_;
   }
 
-  /// Whether the ray of the pixel passes by farther off than a voxel: what the point is in may be
+  /// Whether at the point's depth the pixel's ray is farther off than a voxel: the point may be in
   /// something that all rays miss.
   bool is_between_rays(const Eigen::Vector3f& p, const Pixel& pixel) const {
     return (p - p.z() * ray_of(pixel)).squaredNorm() > nearby_ * nearby_;

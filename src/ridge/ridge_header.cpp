@@ -113,6 +113,8 @@ RidgeHeader header_from(const Json& json) {
       !(header.graph_min_clearance >= 0.0)) {
     throw std::out_of_range("a distance is negative");
   }
+  if (header.min_clearance > header.max_distance)
+    throw std::out_of_range("'min_clearance' is above 'max_distance'");
   if (header.blocks > 0 && header.min_clearance == 0.0)
     throw std::out_of_range("'min_clearance' is 0, which is no robot's");
   check_counts(header);

@@ -8,7 +8,8 @@ namespace ridgeway {
 
 /// The skeleton diagram of what is traversable at `min_clearance` (metres), stage by stage as
 /// build_roadmap makes it: ridges, thick edges, thinned edges, kernel, diagram. Throws InputError
-/// where nothing is traversable, or naming the bad field.
+/// where nothing is traversable, or naming the bad field; a clearance above largest_radius(esdf) is
+/// one.
 VoxelMask compute_skeleton(const EsdfMap& esdf, double min_clearance, const GvdConfig& config = {});
 
 }  // namespace ridgeway

@@ -125,7 +125,7 @@ TEST(ThinSurfaces, WhatIsThickIsAsItsSignsHaveIt) {
 }
 
 /// Sheets between the centres of voxels, and pipes: what knows the world loses them no more than
-/// what has seen them, and thick walls gain nothing.
+/// what has seen them. Walls gain nothing, thick things a voxel at corners.
 TEST(ThinSurfaces, OfAWorldAreInItsMap) {
   Random random(3);
   const Box room{{-kHalf, -kHalf, 0.0}, {kHalf, kHalf, kHeight}};
@@ -133,6 +133,14 @@ TEST(ThinSurfaces, OfAWorldAreInItsMap) {
   for (VoxelId id = 0; id < empty.layout.voxel_count(); ++id)
     if (empty.state[id] == VoxelState::kOccupied)
       ASSERT_LE(surface_distance(empty_room(), testing::centre_in_world(empty, id)).distance, 0.0);
+  World thick = empty_room();
+  thick.boxes.push_back({{0.09, -0.27, 1.51}, {1.13, 0.97, 1.21}});
+  const OccupancyMap solid = occupancy_of(thick, kRoomVoxel, room);
+  std::size_t gained = 0;
+  for (VoxelId id = 0; id < solid.layout.voxel_count(); ++id)
+    gained += solid.state[id] == VoxelState::kOccupied &&
+              surface_distance(thick, testing::centre_in_world(solid, id)).distance > 0.0;
+  EXPECT_LE(gained, 8u);
   for (std::uint64_t seed = 0; seed < 24; ++seed) {
     World world = empty_room();
     SolidBox thin = random_pipe(random, static_cast<Eigen::Index>(seed % 3));

@@ -10,9 +10,10 @@ import { rooms, view } from "./program.mjs";
 /** Where an answer is waited for that is never asked for. */
 const kLimit = { timeout: 60_000 };
 
-let served, browser, page;
+let map, served, browser, page;
 before(async () => {
-  served = await view(rooms());
+  map = rooms();
+  served = await view(map);
   browser = await launch();
   page = await open(browser, served.address);
   await set("from", "-2, 1, 1");
@@ -177,6 +178,13 @@ test("on a planar map, which has no floor, clicks between its walls are places",
   await other.stop();
 });
 
+test("reasons speak of the form, not of options of the command line", kLimit, async () => {
+  await planned(page, () => set("to", "2.95, 1.95, 0.05"));
+  await planned(page, () => set("snap", "0.05"));
+  assert.match(await text_of(page, "#result"), /larger Snap|a Snap of/);
+  assert.doesNotMatch(await text_of(page, "#result"), /--snap/);
+});
+
 test("nothing was complained about to the end but what was refused", () => {
   assert.deepEqual(page.complaints.filter((text) => !/status of 400/.test(text)), []);
 });
@@ -184,7 +192,7 @@ test("nothing was complained about to the end but what was refused", () => {
 test("where another map is served at the address, the page is loaded again in place of an answer of the other one", kLimit, async () => {
   await planned(page, () => set("to", "2, -1, 1"));
   await served.stop();
-  served = await view(rooms(), served.port); // the same again
+  served = await view(map, served.port); // the same again
   await planned(page, () => set("radius", "0.31"));
   assert.equal(await page.locator("#length").count(), 1, await text_of(page, "#result"));
   for (const other of [{ name: "closed", has_door: false }, { name: "closed", options: ["--min-clearance", "0.4"] }]) {
@@ -199,11 +207,4 @@ test("where another map is served at the address, the page is loaded again in pl
     await planned(page, () => set("to", "2, -1, 1"));
     assert.equal(await page.locator("#length").count(), other.has_door === false ? 0 : 1, await text_of(page, "#result"));
   }
-});
-
-test("reasons speak of the form, not of options of the command line", kLimit, async () => {
-  await planned(page, () => set("to", "2.95, 1.95, 0.05"));
-  await planned(page, () => set("snap", "0.05"));
-  assert.match(await text_of(page, "#result"), /larger Snap|a Snap of/);
-  assert.doesNotMatch(await text_of(page, "#result"), /--snap/);
 });

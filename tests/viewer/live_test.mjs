@@ -165,7 +165,16 @@ test("refuses other sites, and more followers than there is room for", async () 
   const answers = await Promise.all(many.map((one) => fetch(`${followed.address}api/live`, { signal: one.signal })));
   const statuses = answers.map((answer) => answer.status);
   assert.ok(statuses.includes(503) && statuses.includes(200), String(statuses));
+  // A page for which there is no room says so, and tries again.
+  const late = await open(browser, followed.address, { wait: false });
+  await late.waitForFunction(() => /as many pages as can/.test(document.getElementById("live").textContent), null, { timeout: 60_000 });
+  let is_refused = true;
+  await late.route("**/api/info", (route) => (is_refused ? route.abort() : route.continue()));
   for (const one of many) one.abort();
+  await late.waitForFunction(() => /cannot be shown yet/.test(document.getElementById("live").textContent), null, { timeout: 60_000 });
+  is_refused = false;
+  await late.waitForFunction(() => document.body.dataset.ready === "yes", null, { timeout: 60_000 });
+  await late.close();
   assert.equal((await fetch(`${followed.address}api/info`)).status, 200);
 });
 
@@ -260,13 +269,14 @@ test("where another run answers at the address, the page begins anew", async () 
   copyFileSync(join(recording, "camera-intrinsics.txt"), join(short, "camera-intrinsics.txt"));
   copyFileSync(join(recording, lines_of("depth.txt")[0].split(" ")[1]), join(short, lines_of("depth.txt")[0].split(" ")[1]));
   for (const list of ["depth.txt", "groundtruth.txt"]) writeFileSync(join(short, list), `${lines_of(list)[0]}\n`);
-  const run_at = (port, voxel_size) => follow("live", short, "-o", join(folder, "short.ridge"), "--voxel-size", voxel_size, "--min-clearance", "0.3", "--max-distance", "2", "--follow", "60", "--view", "--port", String(port));
-  const first = await run_at(0, "0.2");
+  const run_at = (port) => follow("live", short, "-o", join(folder, "short.ridge"), "--voxel-size", "0.2", "--min-clearance", "0.3", "--max-distance", "2", "--follow", "60", "--view", "--port", String(port));
+  const first = await run_at(0);
   const reader = await open(browser, first.address);
-  assert.match(await text_of(reader, "#facts"), /voxels of 0\.2 m/);
   await first.stop();
-  const second = await run_at(first.port, "0.25");
-  await reader.waitForFunction(() => /voxels of 0\.25 m/.test(document.getElementById("facts").textContent), null, { timeout: 60_000 });
+  const loaded = reader.waitForEvent("load", { timeout: 60_000 });
+  const second = await run_at(first.port);
+  await loaded;
+  await reader.waitForFunction(() => document.body.dataset.ready === "yes", null, { timeout: 60_000 });
   await reader.close();
   await second.stop();
 });

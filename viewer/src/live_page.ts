@@ -33,7 +33,7 @@ interface LiveEvent {
   graph?: string;
 }
 
-/** Milliseconds after which a run that has no room for this page is asked again. */
+/** Milliseconds after which a server that has not answered, or has no room for this page, is asked again. */
 const kAgain = 5000;
 
 /** A map that grows, and the drone that maps it. */
@@ -126,12 +126,8 @@ export class LivePage {
     this.tell_event(event);
     if (!event.bounds) return;
     this.beginning ??= this.begin(event.bounds);
-    try {
-      await this.beginning;
-    } catch {
-      this.beginning = undefined; // again with the next event
-      return;
-    }
+    await this.beginning;
+    if (!this.app) return; // it begins anew in a while
     this.show_map(event);
     this.show_drone(event);
     document.body.dataset.scan = String(event.scan);
@@ -139,7 +135,15 @@ export class LivePage {
   }
 
   private async begin(bounds: { min: Vector; max: Vector }): Promise<void> {
-    const info = await ask_json<Info>(this.source, "/api/info");
+    let info: Info;
+    try {
+      info = await ask_json<Info>(this.source, "/api/info");
+    } catch (error) {
+      this.tell(`The map cannot be shown yet: ${(error as Error).message}`);
+      this.beginning = undefined;
+      setTimeout(() => this.ask_refresh(), kAgain);
+      return;
+    }
     const base = new THREE.Vector3(...bounds.min);
     const height = bounds.max[2] - bounds.min[2];
     const surface = new SurfaceMesh(this.surface.whole(), base, height);

@@ -19,7 +19,7 @@ function message_of(bytes: ArrayBuffer, status: number): string {
 
 /** The server that the page came from. Where another map is served at its address later, the page is loaded again: all it shows is of the first. */
 export class ServerSource implements MapSource {
-  private map?: string; // that the answers are of
+  private map: string | null = null; // that the answers are of
 
   async ask(path: string, parameters: Record<string, string> = {}): Promise<ArrayBuffer> {
     const query = new URLSearchParams(parameters).toString();
@@ -29,9 +29,9 @@ export class ServerSource implements MapSource {
     } catch {
       throw new AnswerError("the server does not answer: is `ridgeway view` still running?");
     }
-    const map = response.headers.get("Ridgeway-Map") ?? undefined;
+    const map = response.headers.get("Ridgeway-Map"); // none where something else answers
     this.map ??= map;
-    if (map !== this.map) {
+    if (map && map !== this.map) {
       location.reload();
       throw new AnswerError("another map is served at this address now: the page is loaded again");
     }

@@ -13,7 +13,7 @@ namespace ridgeway::cli {
 
 /// What a server gives to its page.
 struct Served {
-  std::string map;                               ///< a word for it that another map has not
+  std::string map;                               ///< stands for it; another map has another one
   std::function<Reply(const Question&)> answer;  ///< thread-safe
   LiveView* live = nullptr;                      ///< what /api/live follows; none: nothing
 };

@@ -89,8 +89,9 @@ OccupancyMap normalised(OccupancyMap map);
 /// What perfect knowledge of a world would give: voxels are free where their centre lies outside of
 /// all solids and farther than half a voxel's diagonal from all meshes, which may be walls without
 /// an inside; occupied elsewhere, and where something thinner than a voxel is, as in fused maps
-/// (occupancy_of a TsdfMap). Known in `bounds` (metres) and a voxel around it. Throws
-/// InputError for a voxel size or bounds that are none, or more voxels than memory holds.
+/// (occupancy_of a TsdfMap), which takes a voxel more at some convex corners, too. Known in
+/// `bounds` (metres) and a voxel around it. Throws InputError for a voxel size or bounds that are
+/// none, or more voxels than memory holds.
 OccupancyMap occupancy_of(const World& world, double voxel_size, const Box& bounds);
 
 }  // namespace ridgeway

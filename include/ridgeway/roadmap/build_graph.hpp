@@ -26,7 +26,7 @@ struct GraphConfig {
 /// Fits the sparse graph to a diagram (paper: Sparse Graph Generation): vertices, pruning,
 /// following, splitting, and the contract that every edge is free along all of it. It follows all
 /// of the diagram; simplify_graph leaves out what does not matter. Throws InputError naming the bad
-/// field.
+/// field; a clearance above largest_radius(esdf) is one.
 SparseGraph build_graph(const EsdfMap& esdf, const VoxelMask& diagram,
                         const GraphConfig& config = {});
 
@@ -69,7 +69,7 @@ struct SimplifyConfig {
 /// What the graph connects at a radius, a whole number of steps up to `widest_kept`, it connects
 /// after, too; for radii between them ways that have become narrower may be missing.
 /// The contract of SparseGraph holds for the result. Components stay. Deterministic. Throws
-/// InputError naming the bad field.
+/// InputError naming the bad field; a clearance of the graph above largest_radius(esdf) is one.
 SparseGraph simplify_graph(const EsdfMap& esdf, const SparseGraph& graph,
                            const SimplifyConfig& config = {});
 

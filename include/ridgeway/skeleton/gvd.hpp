@@ -20,8 +20,8 @@ struct GvdConfig {
 
 /// Voxels that are free (unknown ones too, where those are taken for free) and at least `radius`
 /// metres from every obstacle (inclusive). `within_limits`: only
-/// those within the map's flight limits. Throws InputError where the radius is below 0 or not
-/// finite.
+/// those within the map's flight limits. Throws InputError where the radius is below 0, not finite
+/// or above the map's max_distance.
 VoxelMask traversable_voxels(const EsdfMap& esdf, double radius, bool within_limits = true);
 
 /// Voxels on the generalized Voronoi diagram (paper: GVD Generation): those with a free

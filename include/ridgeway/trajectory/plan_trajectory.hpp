@@ -117,7 +117,7 @@ struct TrajectoryResult {
 ///
 /// Thread-safe on one map, deterministic. Throws InputError for a path without points, a point that
 /// is not finite, a start faster than the limits, a radius larger than the map knows distances for,
-/// or a bad configuration.
+/// a place to be passed that is none of the path's points, or a bad configuration.
 TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> path,
                                  const TrajectoryConfig& config);
 
