@@ -182,6 +182,7 @@ TEST_F(HostileRidge, WrongHeadersAreRefused) {
            {"\"voxel_size\": 0.1", "\"voxel_size\": null"},
            {"\"voxel_size\": 0.1", "\"voxel_size\": 1e300"},
            {"\"min_clearance\": ", "\"min_clearance\": 0.0, \"once\": "},
+           {"\"max_distance\": ", "\"max_distance\": 0.01, \"once\": "},
            {"\"voxel_size\": 0.1", "\"voxel_size\": \"big\""},
            {"\"obstacle\"", "\"maybe\""},
            {"\"vertices\": 40", "\"vertices\": 41"},
