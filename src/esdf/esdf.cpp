@@ -9,7 +9,6 @@
 
 #include "common/number_text.hpp"
 #include "distance_sweeps.hpp"
-#include "known_radius.hpp"
 #include "mapping/memory_limit.hpp"
 #include "mapping/planar.hpp"
 #include "ridgeway/common/error.hpp"
@@ -120,12 +119,6 @@ void drop_far_sites(EsdfMap& map, double farthest) {
       16);
 }
 
-[[noreturn]] void refuse_radius(const char* name, double radius) {
-  throw InputError(std::string(name) + " " + number_text(radius),
-                   "is beyond the distances that the map holds",
-                   "build the map with a larger max_distance, or without one");
-}
-
 }  // namespace
 
 void validate_policy(UnknownPolicy policy) {
@@ -177,19 +170,6 @@ EsdfMap compute_esdf(OccupancyMap map, const EsdfConfig& config) {
   esdf.site = std::move(nearest.offset);
   drop_far_sites(esdf, farthest);
   return esdf;
-}
-
-double largest_radius(const EsdfMap& esdf) {
-  constexpr double kRounding = 1.0 + 1e-9;
-  return (esdf.max_distance - 2.0 * esdf.voxel_size) * kRounding;
-}
-
-void detail::require_known_distance(const EsdfMap& esdf, double radius) {
-  if (radius > esdf.max_distance) refuse_radius("radius", radius);
-}
-
-void detail::require_known_radius(const EsdfMap& esdf, const char* name, double radius) {
-  if (radius > largest_radius(esdf)) refuse_radius(name, radius);
 }
 
 OccupancyMap occupancy_of(const EsdfMap& esdf) {
