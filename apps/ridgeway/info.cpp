@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "commands.hpp"
@@ -14,6 +15,7 @@
 #include "example_query.hpp"
 #include "json.hpp"
 #include "limit_options.hpp"
+#include "recording_facts.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/planning/blocked_route.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
@@ -305,9 +307,14 @@ int run(const InfoOptions& options, const Globals& globals) {
     throw InputError("--at", "is of roadmaps", "build one of " + options.file + " first");
   if (options.at) return run_place(options, globals);
   if (is_roadmap_file(options.file)) return run_roadmap(options, globals);
-  const Json json = describe_source(options.file, globals);
+  std::error_code error;
+  const bool is_recording = std::filesystem::is_directory(options.file, error);
+  const Json json = is_recording ? describe_recording(options.file, globals)
+                                 : describe_source(options.file, globals);
   if (globals.json)
     print_json(json);
+  else if (is_recording)
+    print_recording(json);
   else
     print_source(json);
   return kExitDone;
@@ -317,8 +324,11 @@ int run(const InfoOptions& options, const Globals& globals) {
 
 void add_info_command(Command& program) {
   const auto options = std::make_shared<InfoOptions>();
-  Command command = program.add("info", "Tell what a roadmap or a map holds");
-  command.path("file", options->file, "Roadmap .ridge, or a map that build reads").required();
+  Command command = program.add("info", "Tell what a roadmap, a map or a recording holds");
+  command
+      .path("file", options->file,
+            "Roadmap .ridge, a map that build reads, or the folder of a recording")
+      .required();
   command.point("--at", options->at,
                 "A place X,Y,Z of a roadmap, metres: the component that it is in, its clearance, "
                 "and what is in the way to the other components");

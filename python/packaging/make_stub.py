@@ -70,6 +70,7 @@ TYPES = {name: kind for names, kind in PARAMETERS.items() for name in names.spli
 # Where a name means something else than usually.
 PARTICULAR = {
     "load_map.path": "_Path", "load.path": "_Path", "load_tsdf.path": "_Path", "load_world.path": "_Path",
+    "read_path.path": "_Path",
     "Roadmap.save.path": "_Path", "Roadmap.export_graph.path": "_Path", "TsdfMap.save.path": "_Path",
     "Trajectory.save.path": "_Path", "PlanResult.save.path": "_Path", "PlanResult.save_mission.path": "_Path",
     "Roadmap.export_voxblox.path": "_Path", "TsdfMap.export_voxblox.path": "_Path",
@@ -92,7 +93,7 @@ PARTICULAR = {
 }
 RETURNS = {
     "build load": "Roadmap", "load_map": "OccupancyMap", "load_tsdf": "TsdfMap", "load_world": "World",
-    "open_sequence": "DepthSequence", "open_scans": "ScanSequence",
+    "read_path": "NDArray[np.float64]", "open_sequence": "DepthSequence", "open_scans": "ScanSequence",
     "field_of_view surroundings describe": "Dict[str, Any]", "decide": "ExplorationStep",
     "unseen frontiers": "List[Dict[str, Any]]", "compute_esdf": "EsdfMap", "delta_between": "GraphDelta",
     "traversable_voxels compute_gvd extract_edges thin compute_skeleton": "VoxelMask",

@@ -750,6 +750,8 @@ def simplify_graph(
     stretch: float = ...,
 ) -> SparseGraph: ...
 
+def read_path(path: _Path) -> NDArray[np.float64]: ...
+
 def build(
     map: Union[OccupancyMap, _Path],
     *,

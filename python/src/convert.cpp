@@ -59,8 +59,10 @@ std::string describe(py::handle value) {
 double number_from(py::handle value, const char* name) {
   if (!is_text(value)) {
     const double number = PyFloat_AsDouble(value.ptr());
-    if (!PyErr_Occurred()) return number;
+    if (PyErr_Occurred() == nullptr) return number;
+    const bool is_too_large = PyErr_ExceptionMatches(PyExc_OverflowError) != 0;
     PyErr_Clear();
+    if (is_too_large) throw InputError(name, "is " + describe(value), "give a smaller number");
   }
   wrong_type(value, name, "a number");
 }

@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 //
-// Queries on roadmaps and their answers.
+// The answers to queries.
 #include "plans.hpp"
 
 #include <cmath>
-#include <map>
 
 #include "config.hpp"
-#include "long_call.hpp"
+#include "lock.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/formats/path_io.hpp"
 #include "ridgeway/planning/alternatives.hpp"
 #include "ridgeway/planning/blocked_route.hpp"
-#include "ridgeway/planning/many_goals.hpp"
-#include "ridgeway/planning/plan.hpp"
 
 namespace ridgeway::python {
 namespace {
@@ -69,15 +66,6 @@ std::string reason_of(const PlanFace& plan) {
          " moves it to where the robot fits)";
 }
 
-PlanFace plan_face(const std::shared_ptr<const Roadmap>& roadmap, const Point& start,
-                   const Point& goal, const PlanConfig& config, PlanResult plan) {
-  PlanFace face{std::move(plan), config};
-  if (face.status == PlanStatus::kStartInCollision || face.status == PlanStatus::kGoalInCollision)
-    face.question =
-        std::make_shared<const PlanFace::Question>(PlanFace::Question{roadmap, start, goal});
-  return face;
-}
-
 std::string plan_repr(const PlanResult& plan) {
   if (!plan.ok()) return "PlanResult(status='" + std::string(name_of(plan.status)) + "')";
   return "PlanResult(status='ok', length=" + literal(plan.length) +
@@ -95,133 +83,7 @@ py::dict plan_seconds(const PlanFace& plan) {
   return seconds;
 }
 
-PlanFace plan_one(const RoadmapFace& face, py::handle start, py::handle goal,
-                  const py::kwargs& keywords) {
-  const PlanConfig config = plan_fields().read_all(keywords);
-  const Point from = point_from(start, "start"), to = point_from(goal, "goal");
-  const Unlocked unlocked;
-  return plan_face(face.roadmap, from, to, config, plan(*face.roadmap, from, to, config));
-}
-
-/// One place for each of `count` queries.
-Point at(const std::vector<Point>& points, std::size_t i) {
-  return points.size() == 1 ? points.front() : points[i];
-}
-
-std::vector<Point> one_or_many(py::handle value, const char* name) {
-  const Doubles array = doubles_from(value, name, "(3,) or (N, 3) numbers, metres");
-  if (array.ndim() == 1 && array.size() == 3) return {point_from(value, name)};
-  return points_from(value, name);
-}
-
-/// Runs `count` pieces of work on so many threads; Ctrl-C ends it after those under way.
-template <typename Work>
-void run_many(int threads, std::size_t count, const Work& work) {
-  run_stage(
-      [&] {
-        parallel_for_each_index(count, [&](std::size_t i) {
-          detail::stop_if_cancelled();
-          work(i);
-        });
-        return true;
-      },
-      threads);
-}
-
-py::list list_of(std::vector<PlanFace> plans) {
-  py::list list;
-  for (PlanFace& plan : plans) list.append(py::cast(std::move(plan)));
-  return list;
-}
-
-py::list plan_many(const RoadmapFace& face, py::handle starts, py::handle goals, py::handle threads,
-                   const py::kwargs& keywords) {
-  const PlanConfig config = plan_fields().read_all(keywords);
-  const std::vector<Point> from = one_or_many(starts, "starts"), to = one_or_many(goals, "goals");
-  if (from.size() != to.size() && from.size() != 1 && to.size() != 1)
-    throw InputError("starts and goals",
-                     "are " + std::to_string(from.size()) + " and " + std::to_string(to.size()),
-                     "give as many of both, or one of either");
-  int count = 0;
-  read(threads, "threads", count);
-  const std::size_t queries = from.empty() || to.empty() ? 0 : std::max(from.size(), to.size());
-  std::vector<PlanFace> plans(queries);
-  run_many(count, queries, [&](std::size_t i) {
-    plans[i] = plan_face(face.roadmap, at(from, i), at(to, i), config,
-                         plan(*face.roadmap, at(from, i), at(to, i), config));
-  });
-  return list_of(std::move(plans));
-}
-
-py::array goal_distances(const RoadmapFace& face, py::handle start, py::handle goals,
-                         py::handle radius) {
-  const Point from = point_from(start, "start");
-  const std::vector<Point> to = points_from(goals, "goals");
-  std::optional<double> r;
-  read(radius, "radius", r);
-  std::vector<double> lengths;
-  {
-    const Unlocked unlocked;
-    lengths = distances_to_goals(*face.roadmap, from, to, r);
-  }
-  return owning_array(std::move(lengths), {static_cast<py::ssize_t>(to.size())});
-}
-
-py::tuple plan_nearest(const RoadmapFace& face, py::handle start, py::handle goals,
-                       const py::kwargs& keywords) {
-  const PlanConfig config = plan_fields().read_all(keywords);
-  const Point from = point_from(start, "start");
-  const std::vector<Point> to = points_from(goals, "goals");
-  NearestGoal nearest;
-  {
-    const Unlocked unlocked;
-    nearest = plan_to_nearest(*face.roadmap, from, to, config);
-  }
-  return py::make_tuple(nearest.goal ? py::cast(*nearest.goal) : py::none(),
-                        py::cast(PlanFace{std::move(nearest.plan), config}));
-}
-
-py::tuple plan_over(const RoadmapFace& face, py::handle places, const py::kwargs& keywords) {
-  const PlanConfig config = plan_fields().read_all(keywords);
-  const std::vector<Point> points = points_from(places, "places");
-  ViaPlan via;
-  {
-    const Unlocked unlocked;
-    via = plan_via(*face.roadmap, points, config);
-  }
-  const py::object leg = via.plan.ok() ? py::none() : py::cast(via.leg);
-  return py::make_tuple(
-      py::cast(PlanFace{std::move(via.plan), config, {points.begin() + 1, points.end() - 1}}), leg);
-}
-
-AlternativesFace alternatives(const RoadmapFace& face, py::handle start, py::handle goal,
-                              py::handle count, const py::kwargs& keywords) {
-  const PlanConfig config = plan_fields().read_all(keywords);
-  const Point from = point_from(start, "start"), to = point_from(goal, "goal");
-  int routes = 0;
-  read(count, "count", routes);
-  if (routes == 0) throw InputError("count", "is 0", "ask for at least one route");
-  const Unlocked unlocked;
-  return {plan_alternatives(*face.roadmap, from, to, static_cast<std::size_t>(routes), config),
-          config};
-}
-
-py::object explain(const RoadmapFace& face, py::handle start, py::handle goal, py::handle radius,
-                   py::handle limits) {
-  const Point from = point_from(start, "start"), to = point_from(goal, "goal");
-  std::optional<double> given;
-  read(radius, "radius", given);
-  FlightLimits flight;
-  read(limits, "limits", flight);
-  std::optional<BlockedRoute> blocked = run_stage([&] {
-    return RouteBlocks(*face.roadmap)
-        .between(from, to, given.value_or(face.roadmap->min_clearance), flight);
-  });
-  if (!blocked) return py::none();
-  return py::cast(*std::move(blocked));
-}
-
-void add_results(py::module_& module) {
+void add_plan_result(py::module_& module) {
   py::class_<PlanFace>(module, "PlanResult",
                        "A path, or the one reason why there is none: true where there is one.")
       .def_property_readonly(
@@ -272,7 +134,9 @@ void add_results(py::module_& module) {
             const Unlocked unlocked;
             write_plan(plan, file);
           },
-          py::arg("path"), "save(self, path)\n--\n\nAs .csv or .json, as the command line does.")
+          py::arg("path"),
+          "save(self, path)\n--\n\nAs .csv or .json, as the command line does; a plan without a "
+          "path as .json only.")
       .def(
           "save_mission",
           [](const PlanFace& plan, py::handle path, py::handle latitude, py::handle longitude,
@@ -293,7 +157,9 @@ void add_results(py::module_& module) {
           "clockwise "
           "from north.")
       .def("__repr__", [](const PlanFace& plan) { return plan_repr(plan); });
+}
 
+void add_alternatives(py::module_& module) {
   py::class_<AlternativesFace>(module, "Alternatives",
                                "Routes on other sides of obstacles, shortest first; a sequence of "
                                "PlanResult.")
@@ -320,7 +186,9 @@ void add_results(py::module_& module) {
           text += (i == 0 ? "" : ", ") + literal(all.routes[i].length);
         return text + "], complete=" + literal(all.complete) + ")";
       });
+}
 
+void add_blocked_route(py::module_& module) {
   py::class_<BlockedRoute>(module, "BlockedRoute", "Why there is no route at a radius.")
       .def_readonly("radius", &BlockedRoute::radius,
                     "Largest radius at which there is a way, metres; 0: there is none at all.")
@@ -354,53 +222,24 @@ std::vector<Point> path_points_from(py::handle path, const char* name) {
   return points_from(path, name);
 }
 
-void add_plans(py::module_& module) { add_results(module); }
-
-void add_queries(py::class_<RoadmapFace>& type) {
-  const std::string fields = plan_fields().signature(), docs = plan_fields().docs();
-  const std::string keywords = ", *, " + fields.substr(2);
-  type.def("plan", &plan_one, py::arg("start"), py::arg("goal"),
-           ("plan(self, start, goal" + keywords +
-            ")\n--\n\nThe path from start to goal, (x, y, z), metres, world: a PlanResult. Every "
-            "segment is verified.\n" +
-            docs)
-               .c_str());
-  type.def("plan_many", &plan_many, py::arg("starts"), py::arg("goals"), py::kw_only(),
-           py::arg("threads") = 0,
-           ("plan_many(self, starts, goals, *, threads=0" + fields +
-            ")\n--\n\nThe paths from each start to each goal, (N, 3), or one of either for all: a "
-            "list of PlanResult,\nthe same as `plan` gives. On so many threads (0: all). Ctrl-C "
-            "stops it.\n" +
-            docs)
-               .c_str());
-  type.def("plan_nearest", &plan_nearest, py::arg("start"), py::arg("goals"),
-           ("plan_nearest(self, start, goals" + keywords +
-            ")\n--\n\nThe nearest of goals (N, 3): its index (None where none can be reached) and "
-            "its PlanResult.\n" +
-            docs)
-               .c_str());
-  type.def("plan_via", &plan_over, py::arg("places"),
-           ("plan_via(self, places" + keywords +
-            ")\n--\n\nA path over places (N, 3): a PlanResult, and the leg that has none, or "
-            "None. Its `trajectory` passes\nthem.\n" +
-            docs)
-               .c_str());
-  type.def(
-      "alternatives", &alternatives, py::arg("start"), py::arg("goal"), py::arg("count") = 3,
-      ("alternatives(self, start, goal, count=3" + keywords +
-       ")\n--\n\nUp to `count` routes on different sides of obstacles, as Alternatives.\n" + docs)
-          .c_str());
-  type.def("distances", &goal_distances, py::arg("start"), py::arg("goals"),
-           py::arg("radius") = py::none(),
-           "distances(self, start, goals, radius=None)\n--\n\n"
-           "Lengths along the graph from start to goals (N, 3): (N,), metres; inf where it has no "
-           "way.");
-  type.def("explain", &explain, py::arg("start"), py::arg("goal"), py::arg("radius") = py::none(),
-           py::arg("limits") = py::none(),
-           "explain(self, start, goal, radius=None, limits=None)\n--\n\n"
-           "Why there is no route at a radius (metres), as BlockedRoute: at which there would be "
-           "one, and where it\nis too narrow. None where start or goal themselves are no place to "
-           "be. Takes longer than a plan.");
+void add_plans(py::module_& module) {
+  add_plan_result(module);
+  add_alternatives(module);
+  add_blocked_route(module);
+  module.def(
+      "read_path",
+      [](py::handle path) {
+        const std::filesystem::path file = path_from(path, "path");
+        std::vector<Point> points;
+        {
+          const Unlocked unlocked;
+          points = read_path(file);
+        }
+        return array_of(std::move(points));
+      },
+      py::arg("path"),
+      "read_path(path)\n--\n\nThe points (N, 3), metres, of a path that was saved, or of any .csv "
+      "with columns x, y, z or .json list\nof [x, y, z].");
 }
 
 }  // namespace ridgeway::python

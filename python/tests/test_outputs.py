@@ -27,6 +27,7 @@ def test_pictures_are_those_of_the_command_line(roadmap, program, tmp_path):
     plan.save(tmp_path / "path.json")
     subprocess.run([program, "export", tmp_path / "rooms.ridge", "--picture", tmp_path / "b.png",
                     "--path", tmp_path / "path.json"], check=True)
+    assert np.array_equal(ridgeway.read_path(tmp_path / "path.json"), plan.waypoints)
     roadmap.draw(tmp_path / "c.png", plan, title="rooms.ridge")
     assert size_of_png(tmp_path / "b.png") == size_of_png(tmp_path / "c.png")
     roadmap.draw(tmp_path / "c.svg", plan.waypoints, {"one": plan, "two": [START, GOAL]}, sides=True,
@@ -50,6 +51,8 @@ def test_pictures_are_those_of_the_command_line(roadmap, program, tmp_path):
         (lambda r, f: r.plan(START, GOAL).save_mission(f / "a.csv", 47, 8), ValueError, ".plan"),
         (lambda r, f: r.plan(START, GOAL).save_mission(f / "a.plan", 97, 8), ValueError, "latitude"),
         (lambda r, f: r.plan((0, 0, 0), GOAL).save_mission(f / "a.plan", 47, 8), ValueError, "no waypoints"),
+        (lambda r, f: r.plan((0, 0, 0), GOAL).save(f / "a.csv"), ValueError, "has none"),
+        (lambda r, f: ridgeway.read_path(f / "a.csv"), ValueError, "a.csv"),
         (lambda r, f: r.describe((0, np.nan, 0)), ValueError, "point"),
         (lambda r, f: r.esdf.surroundings([], 0.3), ValueError, "path"),
         (lambda r, f: r.esdf.surroundings([START], -1), ValueError, "radius"),

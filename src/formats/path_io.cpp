@@ -157,6 +157,11 @@ void require_path_format(const std::filesystem::path& path) {
 void write_plan(const PlanResult& result, const std::filesystem::path& path) {
   require_path_format(path);
   const bool is_json = path.extension() == ".json";
+  if (!is_json && !result.ok())
+    throw InputError(
+        path.string(),
+        "is for waypoints, and the plan has none: " + std::string(name_of(result.status)),
+        "use .json to write why");
   write_text_file(path, is_json ? plan_json(result) + "\n" : plan_csv(result));
 }
 

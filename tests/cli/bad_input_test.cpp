@@ -73,7 +73,7 @@ TEST_F(CliBadInput, MapInPlaceOfARoadmap) {
 
 TEST_F(CliBadInput, FolderInPlaceOfAFile) {
   expect_build_refused(folder_.path().string(), {}, {"is a folder", "fused"});
-  expect_refused({"info", folder_.path().string()}, {"is a folder"});
+  expect_refused({"info", folder_.path().string()}, {"holds no recording"});
   expect_refused({"check", folder_.path().string()}, {folder_.path().string()});
 }
 

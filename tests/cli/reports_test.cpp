@@ -51,6 +51,31 @@ TEST_F(CliCheck, MeasuresTheAnswersOfAQuality) {
   EXPECT_LE(length_of("1.5"), quick);
 }
 
+TEST_F(CliInfo, TellsWhatARecordingHolds) {
+  const std::string house = RIDGEWAY_WORLDS_DIR "/house.yaml", images = path("images");
+  ASSERT_EQ(run({"simulate", house, "-o", images, "--frames", "5"}).code, 0);
+  const Json json = run({"info", images, "--json"}).json();
+  EXPECT_EQ(json["layout"], "tum");
+  EXPECT_EQ(json["topics"][0], Json({{"name", "depth"}, {"type", "depth_image"}, {"count", 5}}));
+  EXPECT_EQ(json["camera"]["width"], 320);
+  EXPECT_NEAR(json["seconds"].get<double>(), 0.4, 1e-6);
+  EXPECT_GT(json["sensor"]["length"].get<double>(), 0.0);
+  EXPECT_NE(run({"info", images}).out.find("5 with a pose, 0 without"), std::string::npos);
+
+  std::filesystem::remove(folder_ / "images/camera-intrinsics.txt");
+  const Outcome without = run({"info", images});
+  EXPECT_NE(without.out.find("--intrinsics"), std::string::npos) << without.out;
+  EXPECT_NE(without.err.find("camera-intrinsics.txt"), std::string::npos) << without.err;
+  std::filesystem::remove(folder_ / "images/groundtruth.txt");
+  expect_refused({"info", images}, {"groundtruth.txt"});
+
+  std::filesystem::create_directory(folder_ / "scans");
+  write_whole(folder_ / "scans/a.xyz", "1 2 3\n");
+  write_whole(folder_ / "scans/poses.txt", "a.xyz 0 0 0 0 0 0 1\n");
+  EXPECT_EQ(run({"info", path("scans"), "--json"}).json()["topics"][0],
+            Json({{"name", "scans"}, {"type", "point_cloud"}, {"count", 1}}));
+}
+
 TEST_F(CliInfo, TellsOfARoadmap) {
   const std::string map = rooms();
   const Outcome told = run({"info", map, "--json"});

@@ -52,6 +52,14 @@ TEST(PathIo, JsonHasThePlansKeys) {
   EXPECT_TRUE(without.at("clearance").is_null());
 }
 
+TEST(PathIo, NoPathIsNoTable) {
+  const TemporaryFolder folder;
+  write_plan({}, folder / "none.json");
+  EXPECT_EQ(nlohmann::json::parse(read_whole(folder / "none.json")).at("status"), "no_route");
+  EXPECT_THROW(write_plan({}, folder / "none.csv"), InputError);
+  EXPECT_FALSE(std::filesystem::exists(folder / "none.csv"));
+}
+
 TEST(PathIo, ColumnsAreFoundByName) {
   const TemporaryFolder folder;
   write_whole(folder / "a.csv", "t, z, y, x\r\n# comment\r\n0, 3, 2, 1\r\n\r\n1, 6, 5, 4\r\n");

@@ -23,8 +23,8 @@ std::string plan_json(const PlanResult& result);
 void require_path_format(const std::filesystem::path& path);
 
 /// Writes a plan to a file, whole or not at all: as plan_json to .json; as a header line "x,y,z"
-/// and a line for each waypoint to .csv. Throws InputError for another extension, and where the
-/// file cannot be written.
+/// and a line for each waypoint to .csv. Throws InputError for another extension, for a plan
+/// without a path to .csv, and where the file cannot be written.
 void write_plan(const PlanResult& result, const std::filesystem::path& path);
 
 /// Waypoints of a file that write_plan wrote, or of a JSON list of [x, y, z], or of a CSV file

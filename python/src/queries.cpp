@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+//
+// Queries on roadmaps.
+#include <algorithm>
+
+#include "config.hpp"
+#include "long_call.hpp"
+#include "plans.hpp"
+#include "ridgeway/planning/alternatives.hpp"
+#include "ridgeway/planning/blocked_route.hpp"
+#include "ridgeway/planning/many_goals.hpp"
+#include "ridgeway/planning/plan.hpp"
+
+namespace ridgeway::python {
+namespace {
+
+PlanFace plan_face(const std::shared_ptr<const Roadmap>& roadmap, const Point& start,
+                   const Point& goal, const PlanConfig& config, PlanResult plan) {
+  PlanFace face{std::move(plan), config};
+  if (face.status == PlanStatus::kStartInCollision || face.status == PlanStatus::kGoalInCollision)
+    face.question =
+        std::make_shared<const PlanFace::Question>(PlanFace::Question{roadmap, start, goal});
+  return face;
+}
+
+PlanFace plan_one(const RoadmapFace& face, py::handle start, py::handle goal,
+                  const py::kwargs& keywords) {
+  const PlanConfig config = plan_fields().read_all(keywords);
+  const Point from = point_from(start, "start"), to = point_from(goal, "goal");
+  const Unlocked unlocked;
+  return plan_face(face.roadmap, from, to, config, plan(*face.roadmap, from, to, config));
+}
+
+/// One place for each of `count` queries.
+Point at(const std::vector<Point>& points, std::size_t i) {
+  return points.size() == 1 ? points.front() : points[i];
+}
+
+std::vector<Point> one_or_many(py::handle value, const char* name) {
+  const Doubles array = doubles_from(value, name, "(3,) or (N, 3) numbers, metres");
+  if (array.ndim() == 1 && array.size() == 3) return {point_from(value, name)};
+  return points_from(value, name);
+}
+
+/// Runs `count` pieces of work on so many threads; Ctrl-C ends it after those under way.
+template <typename Work>
+void run_many(int threads, std::size_t count, const Work& work) {
+  run_stage(
+      [&] {
+        parallel_for_each_index(count, [&](std::size_t i) {
+          detail::stop_if_cancelled();
+          work(i);
+        });
+        return true;
+      },
+      threads);
+}
+
+py::list list_of(std::vector<PlanFace> plans) {
+  py::list list;
+  for (PlanFace& plan : plans) list.append(py::cast(std::move(plan)));
+  return list;
+}
+
+py::list plan_many(const RoadmapFace& face, py::handle starts, py::handle goals, py::handle threads,
+                   const py::kwargs& keywords) {
+  const PlanConfig config = plan_fields().read_all(keywords);
+  const std::vector<Point> from = one_or_many(starts, "starts"), to = one_or_many(goals, "goals");
+  if (from.size() != to.size() && from.size() != 1 && to.size() != 1)
+    throw InputError("starts and goals",
+                     "are " + std::to_string(from.size()) + " and " + std::to_string(to.size()),
+                     "give as many of both, or one of either");
+  int count = 0;
+  read(threads, "threads", count);
+  const std::size_t queries = from.empty() || to.empty() ? 0 : std::max(from.size(), to.size());
+  std::vector<PlanFace> plans(queries);
+  run_many(count, queries, [&](std::size_t i) {
+    plans[i] = plan_face(face.roadmap, at(from, i), at(to, i), config,
+                         plan(*face.roadmap, at(from, i), at(to, i), config));
+  });
+  return list_of(std::move(plans));
+}
+
+py::array goal_distances(const RoadmapFace& face, py::handle start, py::handle goals,
+                         py::handle radius) {
+  const Point from = point_from(start, "start");
+  const std::vector<Point> to = points_from(goals, "goals");
+  std::optional<double> r;
+  read(radius, "radius", r);
+  std::vector<double> lengths;
+  {
+    const Unlocked unlocked;
+    lengths = distances_to_goals(*face.roadmap, from, to, r);
+  }
+  return owning_array(std::move(lengths), {static_cast<py::ssize_t>(to.size())});
+}
+
+py::tuple plan_nearest(const RoadmapFace& face, py::handle start, py::handle goals,
+                       const py::kwargs& keywords) {
+  const PlanConfig config = plan_fields().read_all(keywords);
+  const Point from = point_from(start, "start");
+  const std::vector<Point> to = points_from(goals, "goals");
+  NearestGoal nearest;
+  {
+    const Unlocked unlocked;
+    nearest = plan_to_nearest(*face.roadmap, from, to, config);
+  }
+  return py::make_tuple(nearest.goal ? py::cast(*nearest.goal) : py::none(),
+                        py::cast(PlanFace{std::move(nearest.plan), config}));
+}
+
+py::tuple plan_over(const RoadmapFace& face, py::handle places, const py::kwargs& keywords) {
+  const PlanConfig config = plan_fields().read_all(keywords);
+  const std::vector<Point> points = points_from(places, "places");
+  ViaPlan via;
+  {
+    const Unlocked unlocked;
+    via = plan_via(*face.roadmap, points, config);
+  }
+  const py::object leg = via.plan.ok() ? py::none() : py::cast(via.leg);
+  return py::make_tuple(
+      py::cast(PlanFace{std::move(via.plan), config, {points.begin() + 1, points.end() - 1}}), leg);
+}
+
+AlternativesFace alternatives(const RoadmapFace& face, py::handle start, py::handle goal,
+                              py::handle count, const py::kwargs& keywords) {
+  const PlanConfig config = plan_fields().read_all(keywords);
+  const Point from = point_from(start, "start"), to = point_from(goal, "goal");
+  int routes = 0;
+  read(count, "count", routes);
+  if (routes == 0) throw InputError("count", "is 0", "ask for at least one route");
+  const Unlocked unlocked;
+  return {plan_alternatives(*face.roadmap, from, to, static_cast<std::size_t>(routes), config),
+          config};
+}
+
+py::object explain(const RoadmapFace& face, py::handle start, py::handle goal, py::handle radius,
+                   py::handle limits) {
+  const Point from = point_from(start, "start"), to = point_from(goal, "goal");
+  std::optional<double> given;
+  read(radius, "radius", given);
+  FlightLimits flight;
+  read(limits, "limits", flight);
+  std::optional<BlockedRoute> blocked = run_stage([&] {
+    return RouteBlocks(*face.roadmap)
+        .between(from, to, given.value_or(face.roadmap->min_clearance), flight);
+  });
+  if (!blocked) return py::none();
+  return py::cast(*std::move(blocked));
+}
+
+}  // namespace
+
+void add_queries(py::class_<RoadmapFace>& type) {
+  const std::string fields = plan_fields().signature(), docs = plan_fields().docs();
+  const std::string keywords = ", *, " + fields.substr(2);
+  type.def("plan", &plan_one, py::arg("start"), py::arg("goal"),
+           ("plan(self, start, goal" + keywords +
+            ")\n--\n\nThe path from start to goal, (x, y, z), metres, world: a PlanResult. Every "
+            "segment is verified.\n" +
+            docs)
+               .c_str());
+  type.def("plan_many", &plan_many, py::arg("starts"), py::arg("goals"), py::kw_only(),
+           py::arg("threads") = 0,
+           ("plan_many(self, starts, goals, *, threads=0" + fields +
+            ")\n--\n\nThe paths from each start to each goal, (N, 3), or one of either for all: a "
+            "list of PlanResult,\nthe same as `plan` gives. On so many threads (0: all). Ctrl-C "
+            "stops it.\n" +
+            docs)
+               .c_str());
+  type.def("plan_nearest", &plan_nearest, py::arg("start"), py::arg("goals"),
+           ("plan_nearest(self, start, goals" + keywords +
+            ")\n--\n\nThe nearest of goals (N, 3): its index (None where none can be reached) and "
+            "its PlanResult.\n" +
+            docs)
+               .c_str());
+  type.def("plan_via", &plan_over, py::arg("places"),
+           ("plan_via(self, places" + keywords +
+            ")\n--\n\nA path over places (N, 3): a PlanResult, and the leg that has none, or "
+            "None. Its `trajectory` passes\nthem.\n" +
+            docs)
+               .c_str());
+  type.def(
+      "alternatives", &alternatives, py::arg("start"), py::arg("goal"), py::arg("count") = 3,
+      ("alternatives(self, start, goal, count=3" + keywords +
+       ")\n--\n\nUp to `count` routes on different sides of obstacles, as Alternatives.\n" + docs)
+          .c_str());
+  type.def("distances", &goal_distances, py::arg("start"), py::arg("goals"),
+           py::arg("radius") = py::none(),
+           "distances(self, start, goals, radius=None)\n--\n\n"
+           "Lengths along the graph from start to goals (N, 3): (N,), metres; inf where it has no "
+           "way.");
+  type.def("explain", &explain, py::arg("start"), py::arg("goal"), py::arg("radius") = py::none(),
+           py::arg("limits") = py::none(),
+           "explain(self, start, goal, radius=None, limits=None)\n--\n\n"
+           "Why there is no route at a radius (metres), as BlockedRoute: at which there would be "
+           "one, and where it\nis too narrow. None where start or goal themselves are no place to "
+           "be. Takes longer than a plan.");
+}
+
+}  // namespace ridgeway::python
