@@ -40,6 +40,24 @@ if(needed OR NOT dynamic MATCHES "libzstd\\.so" OR NOT dynamic MATCHES "libtbb\\
   message(FATAL_ERROR "a program that loads a .ridge and plans links more or less than it needs: ${needed}")
 endif()
 
+# Each component alone, as another would have looked for what it forgets to look for.
+file(
+  WRITE "${WORK_DIR}/alone/CMakeLists.txt"
+  "cmake_minimum_required(VERSION 3.22)\n"
+  "project(alone LANGUAGES CXX)\n"
+  "find_package(ridgeway REQUIRED COMPONENTS \${COMPONENT})\n"
+  "add_executable(alone \${SOURCE})\n"
+  "target_link_libraries(alone PRIVATE ridgeway::\${COMPONENT})\n")
+foreach(component IN ITEMS ridge pictures sampling trajectory exploration formats recordings shared)
+  run(
+    "${CMAKE_COMMAND}" -S "${WORK_DIR}/alone" -B "${WORK_DIR}/alone/${component}" -G "${GENERATOR}"
+    "-DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix" "-DCMAKE_CXX_COMPILER=${CXX}"
+    "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}" "-DCMAKE_BUILD_TYPE=${BUILD_TYPE}"
+    "-DCOMPONENT=${component}" "-DSOURCE=${SOURCE_DIR}/formats.cpp")
+endforeach()
+run("${CMAKE_COMMAND}" --build "${WORK_DIR}/alone/formats")
+run("${WORK_DIR}/alone/formats/alone")
+
 # By pkg-config, from where it was installed.
 find_program(PKG_CONFIG pkg-config)
 if(PKG_CONFIG)
@@ -48,8 +66,9 @@ if(PKG_CONFIG)
   file(GLOB_RECURSE pc_file "${WORK_DIR}/prefix/*/ridgeway.pc")
   get_filename_component(pc_folder "${pc_file}" DIRECTORY)
   separate_arguments(cxx_flags UNIX_COMMAND "${CXX_FLAGS}")
-  foreach(package IN ITEMS ridge exploration)
+  foreach(package IN ITEMS ridge exploration formats)
     set(source_ridge "${SOURCE_DIR}/ridge.cpp")
+    set(source_formats "${SOURCE_DIR}/formats.cpp")
     set(source_exploration "${WORK_DIR}/explorer.cpp")
     execute_process(
       COMMAND "${CMAKE_COMMAND}" -E env "PKG_CONFIG_PATH=${pc_folder}" "${PKG_CONFIG}" --cflags
