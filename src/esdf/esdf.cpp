@@ -138,6 +138,7 @@ void EsdfConfig::validate() const {
 EsdfMap compute_esdf(OccupancyMap map, const EsdfConfig& config) {
   config.validate();
   validate_voxel_size(map.voxel_size, "voxel_size");
+  detail::require_states(map);
   EsdfMap esdf;
   esdf.voxel_size = map.voxel_size;
   esdf.origin = map.origin;

@@ -102,7 +102,7 @@ DistanceAndGradient interpolate_distance(const EsdfMap& esdf, const Point& point
 
 std::optional<DistanceAndGradient> distance_at(const EsdfMap& esdf, const Point& point_world,
                                                double deepest) {
-  const Point local = to_local(esdf, point_world);
+  const Point local = flight_place(esdf, point_world);
   if (!has_voxel(local, esdf.voxel_size)) return std::nullopt;
   const VoxelId id = esdf.layout.find(voxel_at(local, esdf.voxel_size));
   if (id == kNoVoxel || esdf.state[id] == VoxelState::kUnknown) return std::nullopt;

@@ -10,9 +10,10 @@
 namespace ridgeway {
 namespace {
 
-[[noreturn]] void refuse_radius(const char* name, double radius) {
+[[noreturn]] void refuse_radius(const EsdfMap& esdf, const char* name, double radius) {
   throw InputError(std::string(name) + " " + number_text(radius),
-                   "is beyond the distances that the map holds",
+                   "is beyond the distances that the map holds, which are known up to " +
+                       number_text(esdf.max_distance) + " m (radii up to two voxels less)",
                    "build the map with a larger max_distance, or without one");
 }
 
@@ -24,11 +25,11 @@ double largest_radius(const EsdfMap& esdf) {
 }
 
 void detail::require_known_distance(const EsdfMap& esdf, double radius) {
-  if (radius > esdf.max_distance) refuse_radius("radius", radius);
+  if (radius > esdf.max_distance) refuse_radius(esdf, "radius", radius);
 }
 
 void detail::require_known_radius(const EsdfMap& esdf, const char* name, double radius) {
-  if (radius > largest_radius(esdf)) refuse_radius(name, radius);
+  if (radius > largest_radius(esdf)) refuse_radius(esdf, name, radius);
 }
 
 }  // namespace ridgeway

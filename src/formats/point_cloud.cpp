@@ -109,6 +109,7 @@ void tell_of_points_left_out(const PointCloud& cloud, std::size_t outside, const
 OccupancyMap map_from_points(const PointCloud& cloud, const CloudMapConfig& config,
                              const std::string& name, LoadNotes* notes) {
   validate_voxel_size(config.voxel_size, "voxel_size");
+  validate_transform(config.T_map_cloud);
   const VoxelRange known = checked_range(config.bounds, config.voxel_size);
   // With voxels that stick out of the bounds, or touch them: points on them are obstacles, too.
   OccupancyBuilder builder(config.voxel_size,

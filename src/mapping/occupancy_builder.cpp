@@ -42,11 +42,18 @@ OccupancyBuilder::Block& OccupancyBuilder::find_or_add(const BlockIndex& index) 
   return *place->second;
 }
 
+void OccupancyBuilder::refuse(VoxelState state) const {
+  throw InputError(config_.name,
+                   "gets a voxel whose state is " + std::to_string(static_cast<int>(state)),
+                   "give VoxelState::kUnknown (0), kFree (1) or kOccupied (2)");
+}
+
 void OccupancyBuilder::require_reach_of(const VoxelRange& range) const {
   if (config_.clip == kAllVoxels) require_within_reach(range, config_.name);
 }
 
 void OccupancyBuilder::fill(const VoxelRange& range, VoxelState state) {
+  if (state > VoxelState::kOccupied) refuse(state);
   require_reach_of(range);
   const VoxelRange clipped = intersection(range, config_.clip);
   if (clipped.empty() || state == VoxelState::kUnknown) return;

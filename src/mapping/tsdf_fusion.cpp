@@ -36,7 +36,12 @@ void require_fits(const DepthImage& image, const PinholeCamera& camera) {
   camera.validate();
   const auto pixels =
       static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
-  if (image.width != camera.width || image.height != camera.height || image.depth.size() != pixels)
+  if (image.width == camera.width && image.height == camera.height && image.depth.size() != pixels)
+    throw InputError(
+        "depth image",
+        "has " + std::to_string(image.depth.size()) + " depths, not " + std::to_string(pixels),
+        "give width times height of them, row by row");
+  if (image.width != camera.width || image.height != camera.height)
     throw InputError("depth image",
                      "is " + std::to_string(image.width) + " x " + std::to_string(image.height) +
                          " where the camera is " + std::to_string(camera.width) + " x " +

@@ -12,6 +12,7 @@
 #include "common/require.hpp"
 #include "graph_of_curves.hpp"
 #include "mapping/memory_limit.hpp"
+#include "mapping/planar.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/esdf.hpp"
@@ -317,6 +318,7 @@ BuildResult build_by_stages(OccupancyMap map, const BuildConfig& config, const P
 BuildResult build_roadmap(OccupancyMap map, const BuildConfig& config, const Progress& progress) {
   config.validate();
   detail::require_suits(config, map.voxel_size);
+  detail::require_states(map);
   return with_progress(progress, "esdf", [&](const Progress& report) {
     return build_by_stages(std::move(map), config, report);
   });

@@ -155,6 +155,18 @@ void BlockLayout::hash_blocks() {
   }
 }
 
+void BlockLayout::swap(BlockLayout& other) noexcept {
+  std::swap(blocks_, other.blocks_);
+  std::swap(neighbours_, other.neighbours_);
+  std::swap(rank_, other.rank_);
+  std::swap(by_rank_, other.by_rank_);
+  std::swap(table_, other.table_);
+  std::swap(stamp_, other.stamp_);
+  std::swap(low_, other.low_);
+  std::swap(extent_, other.extent_);
+  std::swap(is_spread_, other.is_spread_);
+}
+
 std::uint32_t BlockLayout::find_hashed(const BlockIndex& block) const {
   const std::size_t mask = table_.size() - 1;
   for (std::size_t place = hash_of(block) & mask;; place = (place + 1) & mask) {

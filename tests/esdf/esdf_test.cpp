@@ -4,8 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <type_traits>
+#include <utility>
+
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/esdf/surroundings.hpp"
 #include "support/brute_force.hpp"
 #include "support/random_maps.hpp"
 
@@ -149,6 +154,25 @@ TEST(Esdf, RefusesAPolicyThatIsNone) {
 TEST(Esdf, RefusesAMaxDistanceThatIsNoLength) {
   for (const double bad : {0.0, -1.0, std::nan("")})
     EXPECT_THROW(compute_esdf(random_map(1), {.max_distance = bad}), InputError);
+}
+
+TEST(Esdf, MapsThatWereMovedOrPutTogetherWrongAreRefused) {
+  OccupancyMap map = testing::random_map(1, 16);
+  const OccupancyMap moved = std::move(map);
+  EXPECT_EQ(map.at({1, 1, 1}), VoxelState::kUnknown);  // NOLINT(bugprone-use-after-move)
+  OccupancyMap without = moved;
+  without.state = {};
+  EXPECT_THROW(compute_esdf(without), InputError);
+  OccupancyMap grown = moved;
+  grown.layout.add(std::vector<BlockIndex>{{99, 99, 99}});
+  EXPECT_THROW(compute_esdf(grown), InputError);
+  // A view of what is gone once it is made.
+  static_assert(!std::is_constructible_v<FreeSpace, EsdfMap>);
+  static_assert(!std::is_constructible_v<FreeSpace, const EsdfMap&, FlightLimits>);
+  static_assert(!std::is_constructible_v<FreeSpace, EsdfMap, const FlightLimits&, double, double>);
+  static_assert(!std::is_constructible_v<Surroundings, EsdfMap>);
+  static_assert(std::is_constructible_v<FreeSpace, const EsdfMap&>);
+  static_assert(std::is_constructible_v<Surroundings, EsdfMap&>);
 }
 
 }  // namespace

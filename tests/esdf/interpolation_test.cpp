@@ -5,6 +5,7 @@
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/distance_field.hpp"
 #include "ridgeway/esdf/esdf.hpp"
+#include "ridgeway/mapping/map_edits.hpp"
 #include "support/brute_force.hpp"
 #include "support/random_maps.hpp"
 
@@ -137,6 +138,22 @@ TEST(SignedDistance, ADepthThatIsNoneIsRefused) {
     EXPECT_THROW(signed_distance(esdf, {3, 3, 3}, deepest), InputError);
     EXPECT_THROW(interpolate_distance(esdf, {0.4, 0.4, 0.4}, deepest), InputError);
     EXPECT_THROW(distance_at(esdf, {0.4, 0.4, 0.4}, deepest), InputError);
+  }
+}
+
+TEST(DistanceAt, InAPlaneHeightsPlayNoPart) {
+  const OccupancyMap room = testing::make_map(0.1, {0, 0, 0}, {31, 31, 9}, [](const VoxelIndex& v) {
+    return v.x == 0 || v.y == 31 ? VoxelState::kOccupied : VoxelState::kFree;
+  });
+  const EsdfMap esdf = compute_esdf(flatten(room, 0.2, 0.6));
+  const auto expected = distance_at(esdf, {1.03, 1.0, 0.4});
+  ASSERT_TRUE(expected);
+  EXPECT_NEAR(expected->distance, 0.93, 1e-6);
+  for (const double z : {-100.0, 0.0, 0.3, 0.81, 7.0}) {
+    const auto found = distance_at(esdf, {1.03, 1.0, z});
+    ASSERT_TRUE(found) << z;
+    EXPECT_EQ(found->distance, expected->distance) << z;
+    EXPECT_EQ(found->gradient.z(), 0.0) << z;
   }
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <random>
+#include <type_traits>
 
 #include "mapping/random_map.hpp"
 #include "ridgeway/common/error.hpp"
@@ -147,6 +148,16 @@ TEST(Normalised, RefusesWhatLiesBeyondTheLimitOfTheLattice) {
     else
       EXPECT_NO_THROW(normalised(map));
   }
+}
+
+TEST(OccupancyBuilder, TakesNoStatesOfOthers) {
+  OccupancyBuilder builder(0.1);
+  for (const int state : {3, 100, 255}) {
+    EXPECT_THROW(builder.set({1, 2, 3}, static_cast<VoxelState>(state)), InputError) << state;
+    EXPECT_THROW(builder.fill({{0, 0, 0}, {1, 1, 1}}, static_cast<VoxelState>(state)), InputError);
+  }
+  static_assert(!std::is_copy_constructible_v<OccupancyBuilder>);  // it points into itself
+  static_assert(!std::is_move_constructible_v<OccupancyBuilder>);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "common/random.hpp"
 #include "ridgeway/common/error.hpp"
@@ -259,6 +260,19 @@ TEST(TsdfFusion, RangesOfNothingAreNone) {
   const TsdfMap map = fusion.map();
   for (VoxelId id = 0; id < map.layout.voxel_count(); ++id)
     ASSERT_LE(std::abs(map.distance[id]), static_cast<float>(map.truncation));
+}
+
+TEST(TsdfFusion, ImagesWithoutAllTheirDepthsAreCalledSo) {
+  TsdfFusion fusion({.voxel_size = 0.1});
+  const PinholeCamera camera{8, 6, 4.0, 4.0, 3.5, 2.5};
+  try {
+    fusion.integrate(DepthImage{8, 6, std::vector<float>(10)}, camera,
+                     Eigen::Isometry3d::Identity());
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("has 10 depths, not 48"), std::string::npos)
+        << error.what();
+  }
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <memory>
 #include <random>
 #include <set>
+#include <utility>
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/voxel/voxel_field.hpp"
@@ -269,6 +270,21 @@ TEST(BlockLayout, EmptyHoldsNothing) {
   EXPECT_EQ(BlockLayout(std::vector<BlockIndex>{}).find({0, 0, 0}), kNoVoxel);
   EXPECT_EQ(VoxelFinder(empty).find({0, 0, 0}), kNoVoxel);
   EXPECT_EQ(VoxelField<int>(empty).size(), 0u);
+}
+
+TEST(BlockLayout, IsEmptyOnceItIsMovedFrom) {
+  for (const int apart : {1, 1'000'000}) {  // in one box, and spread
+    BlockLayout layout({{0, 0, 0}, {apart, 0, 0}, {0, apart, 0}});
+    const BlockLayout moved = std::move(layout);
+    EXPECT_EQ(moved.block_count(), 3u);
+    EXPECT_NE(moved.find({8 * apart, 0, 0}), kNoVoxel);
+    EXPECT_EQ(layout.block_count(), 0u);  // NOLINT(bugprone-use-after-move): what is asked
+    EXPECT_EQ(layout.find({0, 0, 0}), kNoVoxel);
+    EXPECT_TRUE(layout == BlockLayout{});
+    EXPECT_TRUE(VoxelField<int>(layout).is_of(BlockLayout{}));
+    layout.add(std::vector<BlockIndex>{{5, 5, 5}});
+    EXPECT_EQ(layout.find({40, 40, 40}), 0u);
+  }
 }
 
 }  // namespace

@@ -31,8 +31,8 @@ class CylinderRoom;
 /// margin its height grows by as much at both ends, for a smaller one it shrinks in proportion.
 /// Where flights are limited, free also means within the limits; distances and clearances are to
 /// obstacles alone.
-/// All points are in the map's local frame: take to_local(esdf, point) of those of the world. One
-/// that is no number, or too far out for a voxel (has_voxel), is in an obstacle, and nothing is
+/// All points are in the map's local frame: take flight_place(esdf, point) of those of the world.
+/// One that is no number, or too far out for a voxel (has_voxel), is in an obstacle, and nothing is
 /// free for a radius below 0. A view: the EsdfMap and the limits must outlive it. Thread-safe.
 class FreeSpace {
  public:
@@ -41,6 +41,12 @@ class FreeSpace {
   /// Within other limits (local frame), which should hold where those of the map hold.
   FreeSpace(const EsdfMap& esdf, const FlightLimits& limits)
       : esdf_(esdf), limits_(limits.any() ? &limits : nullptr) {}
+  /// Maps and limits that are gone once it is made are refused.
+  template <typename... Rest>
+  FreeSpace(const EsdfMap&&, const Rest&...) = delete;
+  /// The same.
+  template <typename... Rest>
+  FreeSpace(const EsdfMap&, const FlightLimits&&, const Rest&...) = delete;
   /// For an upright cylinder of a radius and a height, metres; a sphere where the height is 0.
   FreeSpace(const EsdfMap& esdf, const FlightLimits& limits, double radius, double height)
       : esdf_(esdf),

@@ -30,6 +30,7 @@ struct PathSurroundings {
 class Surroundings {
  public:
   explicit Surroundings(const EsdfMap& esdf);  ///< Looks through all states of the map.
+  explicit Surroundings(const EsdfMap&&) = delete;
 
   /// `path`: points joined by straight segments, metres, world frame. `radius`: metres, above 0.
   /// Throws InputError for points beyond all maps.

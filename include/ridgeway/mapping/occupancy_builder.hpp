@@ -36,12 +36,18 @@ class OccupancyBuilder {
   /// The same with a configuration of its own.
   OccupancyBuilder(double voxel_size, Config config);
 
+  /// It stays where it is, as it looks at parts of itself.
+  OccupancyBuilder(const OccupancyBuilder&) = delete;
+  OccupancyBuilder& operator=(const OccupancyBuilder&) = delete;
+
   /// Voxels of the lattice that are taken.
   const VoxelRange& clip() const { return config_.clip; }
 
   /// Raises a voxel to a state. Throws InputError where memory would not do, or where a voxel that
-  /// is not clipped away lies outside kAllVoxels.
+  /// is not clipped away lies outside kAllVoxels, or the state is no enumerator (100, say, which is
+  /// occupied elsewhere).
   void set(const VoxelIndex& voxel, VoxelState state) {
+    if (state > VoxelState::kOccupied) refuse(state);
     if (state == VoxelState::kUnknown) return;
     if (!config_.clip.contains(voxel)) return require_reach_of({voxel, voxel});
     VoxelState& current = block_at(block_of(voxel))[static_cast<std::size_t>(local_of(voxel))];
@@ -66,6 +72,7 @@ class OccupancyBuilder {
   }
   Block& find_or_add(const BlockIndex& index);
   void require_reach_of(const VoxelRange& range) const;
+  [[noreturn]] void refuse(VoxelState state) const;
 
   double voxel_size_;
   Config config_;

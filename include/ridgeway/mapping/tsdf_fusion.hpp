@@ -58,7 +58,7 @@ struct FusionConfig {
   double truncation = 0.0;    ///< 0: four voxels
   double depth_behind = 0.0;  ///< behind a surface space is solid so far; 0: two voxels
   double min_range = 0.1;     ///< measurements nearer along the ray are passed over
-  double max_range = 10.0;    ///< and those farther
+  double max_range = 10.0;    ///< and those farther, whole: they free nothing on the way there
   bool carve = true;          ///< what lies before a surface becomes free, not only near it
   double max_weight = 1e4;    ///< a voxel never knows better: old measurements fade
   /// Measurements in a row that find a voxel on the other side of the surface than it is taken to

@@ -54,6 +54,7 @@ class SpaceParts {
  public:
   /// `within_limits`: of the flights on the map, if it has some; else as if it had none.
   explicit SpaceParts(const EsdfMap& esdf, bool within_limits = true);
+  explicit SpaceParts(const EsdfMap&&, bool = true) = delete;
 
   /// Parts of the voxels that are traversable at a radius, and where a smaller robot would find
   /// them joined. `asked`: traversable voxels whose parts are wanted.

@@ -143,6 +143,15 @@ constinit typename SharedPages<Value>::Page SharedPages<Value>::nobodys_page;
 class BlockLayout {
  public:
   BlockLayout() = default;
+  BlockLayout(const BlockLayout&) = default;
+  BlockLayout(BlockLayout&& other) noexcept { swap(other); }  ///< Leaves an empty layout.
+  BlockLayout& operator=(const BlockLayout&) = default;
+  /// Leaves an empty layout.
+  BlockLayout& operator=(BlockLayout&& other) noexcept {
+    BlockLayout(std::move(other)).swap(*this);
+    return *this;
+  }
+  ~BlockLayout() = default;
 
   /// Takes the blocks in any order; doubles count once.
   explicit BlockLayout(std::vector<BlockIndex> blocks);
@@ -238,6 +247,7 @@ class BlockLayout {
   std::uint64_t stamp_of_first(std::uint32_t count) const;
 
  private:
+  void swap(BlockLayout& other) noexcept;
   /// From one number up to another; downwards more than any extent.
   static std::uint32_t steps(int from, int to) {
     return static_cast<std::uint32_t>(to) - static_cast<std::uint32_t>(from);
