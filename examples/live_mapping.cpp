@@ -25,8 +25,7 @@ void plan_meanwhile(const ridgeway::LiveRoadmap& live, const ridgeway::Point& st
     if (!now || now == last) continue;
     if (path.ok() && last) {
       const ridgeway::GraphDelta delta = ridgeway::delta_between(*last, *now);
-      if (ridgeway::may_be_invalid(path.waypoints, now->min_clearance, delta) &&
-          !ridgeway::still_safe(path.waypoints, now->min_clearance, *now))
+      if (ridgeway::may_be_invalid(path, delta) && !ridgeway::still_safe(path, *now))
         std::printf("the path is blocked now\n");
     }
     const std::size_t at = done > 0 ? done - 1 : 0;

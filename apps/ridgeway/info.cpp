@@ -165,7 +165,7 @@ void print_components(const EsdfMap& esdf, const ComponentReport& report) {
     const Component& c = report.components[i];
     print_row("component " + std::to_string(i + 1),
               size_text(c.volume, esdf) + ", " + count_text(c.voxels) + " voxels, widest " +
-                  text_of(c.clearance) + " m at " + point_text(c.widest));
+                  text_of(rounded_down(c.clearance)) + " m at " + point_text(c.widest));
   }
   if (shown < report.components.size())
     print_row("", "and " + count_text(report.components.size() - shown) + " smaller ones, " +

@@ -14,7 +14,7 @@ namespace {
 void print_escape(const std::string& end, const Escape& escape) {
   if (escape.length > 0.0)
     print_row("escape", text_of(escape.length) + " m at the " + end + ", clearance " +
-                            text_of(escape.clearance) + " m");
+                            text_of(rounded_down(escape.clearance)) + " m");
 }
 
 void print_moved(const std::string& end, const Moved& moved) {
@@ -57,17 +57,20 @@ void print_result(AnswerFacts& facts, const Answer& answer, const Query& query) 
   const PlanSeconds& s = result.seconds;
   print_row("path", text_of(result.length) + " m, " + count_text(result.waypoints.size()) +
                         " waypoints, answered by the " + std::string(name_of(result.answered_by)));
-  print_row("within", text_of(result.within, 3) + " times the shortest path at most");
+  print_row("within", std::isinf(result.within) ? "no bound: start and goal are one place"
+                                                : text_of(rounded_up(result.within)) +
+                                                      " times the shortest path at most");
   const PathSurroundings around = facts.surroundings(result.waypoints, query.radius);
-  print_row("clearance",
-            text_of(result.clearance) + " m, robot radius " + text_of(query.radius) + " m");
-  print_row("known obstacles",
-            std::isinf(around.known) ? "none" : text_of(around.known) + " m away at the nearest");
+  print_row("clearance", text_of(rounded_down(result.clearance)) + " m, robot radius " +
+                             text_of(query.radius) + " m");
+  print_row("known obstacles", std::isinf(around.known) ? "none"
+                                                        : text_of(rounded_down(around.known)) +
+                                                              " m away at the nearest");
   print_moved("start", result.moved_start);
   print_moved("goal", result.moved_goal);
   print_escape("start", result.escape_start);
   print_escape("goal", result.escape_goal);
-  print_row("unknown space", text_of(around.unknown) + " m away at the nearest, " +
+  print_row("unknown space", text_of(rounded_down(around.unknown)) + " m away at the nearest, " +
                                  text_of(100.0 * around.unknown_share, 1) +
                                  " % of the length nearer than the radius; asked to " +
                                  (result.unknown == UnknownPolicy::kObstacle ? "keep clear of it"
@@ -85,7 +88,8 @@ void print_result(AnswerFacts& facts, const Answer& answer, const Query& query) 
 
 void print_line(const PlanResult& result, const std::string& reason) {
   if (result.ok())
-    print_row("ok", text_of(result.length) + " m, clearance " + text_of(result.clearance) + " m, " +
+    print_row("ok", text_of(result.length) + " m, clearance " +
+                        text_of(rounded_down(result.clearance)) + " m, " +
                         seconds_text(result.seconds.total));
   else
     print_row(name_of(result.status), reason);

@@ -63,8 +63,8 @@ int run_alternatives(const PlanOptions& options, const Roadmap& roadmap, const G
   if (!found.ok()) print_row(name_of(found.status), facts.reason(planned, found.status));
   for (std::size_t i = 0; i < found.routes.size(); ++i) {
     const PlanResult& route = found.routes[i];
-    print_row("route " + count_text(i + 1),
-              text_of(route.length) + " m, clearance " + text_of(route.clearance) + " m");
+    print_row("route " + count_text(i + 1), text_of(route.length) + " m, clearance " +
+                                                text_of(rounded_down(route.clearance)) + " m");
     if (i < files.size())
       print_row("written to", files[i].string());
     else

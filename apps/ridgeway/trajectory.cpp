@@ -103,9 +103,9 @@ void print_result(const PlanResult& path, const TrajectoryResult& flown, double 
     if (moved.distance > 0.0)
       print_row("moved", std::string("the ") + end + " by " + text_of(moved.distance) + " m, to " +
                              point_text(moved.place));
-  print_row("at most", text_of(flown.peaks.speed) + " m/s, " + text_of(flown.peaks.acceleration) +
-                           " m/s^2, yaw " + text_of(flown.peaks.yaw_rate / kDegree, 1) +
-                           " degrees/s");
+  print_row("at most", text_of(rounded_up(flown.peaks.speed)) + " m/s, " +
+                           text_of(rounded_up(flown.peaks.acceleration)) + " m/s^2, yaw " +
+                           text_of(rounded_up(flown.peaks.yaw_rate / kDegree)) + " degrees/s");
   print_row("clearance",
             text_of(rounded_down(flown.clearance)) + " m, robot radius " + text_of(radius) + " m");
   print_row("time", seconds_text(flown.seconds.total) + " (optimise " +
@@ -182,8 +182,6 @@ void require_one_course(const TrajectoryOptions& options) {
 
 int run(const TrajectoryOptions& options, const Globals& globals) {
   require_one_course(options);
-  if (options.stop_and_go && options.from_velocity && *options.from_velocity != Point::Zero())
-    throw InputError("--stop-and-go", "begins at rest", "leave out --from-velocity");
   trajectory_config(options, options.radius.value_or(1.0));  // bad limits, before the file is read
   plan_config(options, options.radius.value_or(1.0));
   std::vector<std::filesystem::path> written, read{options.file};
@@ -218,7 +216,9 @@ int run(const TrajectoryOptions& options, const Globals& globals) {
 
   stop_if_interrupted();
   constexpr double kMostSamples = 1e6;
-  if (!(flown.duration / options.step <= kMostSamples))
+  const auto extension = std::filesystem::path(options.output).extension();
+  const bool is_sampled = globals.json || extension == ".csv" || extension == ".json";
+  if (is_sampled && !(flown.duration / options.step <= kMostSamples))
     throw InputError("--step " + text_of(options.step, 6),
                      "gives more than a million samples of " + text_of(flown.duration) + " s",
                      "give a larger one");
@@ -271,7 +271,8 @@ void add_trajectory_command(Command& program) {
                 "Velocity X,Y,Z at the start, metres a second (default: at rest)");
   command.number("--yaw", options->yaw, kDegrees,
                  "Constant yaw, degrees (default: the direction of travel)");
-  command.flag("--stop-and-go", options->stop_and_go, "Straight legs from stop to stop");
+  command.flag("--stop-and-go", options->stop_and_go,
+               "Straight legs from stop to stop; from a motion it brakes first");
   command.number("--step", options->step, {1e-4, 1e4}, "Seconds between samples");
   command.path("-o,--output", options->output,
                "Trajectory to write, .csv, .json, or .yaml of mav_trajectory_generation");

@@ -43,7 +43,7 @@ PARAMETERS = {
     "voxel_size free_below occupied_above low high deepest step max_range range_sigma fx fy cx cy "
     "min_clearance max_distance theta least_apart prune_radius split_deviation significance "
     "widest_kept steepness width_step stretch within time_limit prefer_clearance snap robot_height "
-    "horizontal vertical nearest range spacing persistence resolved_below kept_clearance until share_of_range time yaw min_volume latitude longitude altitude x_heading "
+    "horizontal vertical nearest range spacing persistence resolved_below kept_clearance until period share_of_range time yaw min_volume latitude longitude altitude x_heading "
     "max_speed max_acceleration max_jerk max_yaw_rate truncation depth_behind min_range max_weight "
     "clear_radius window": "float",
     "radius start_yaw units section_x section_y row_gap": "Optional[float]",
@@ -89,7 +89,8 @@ PARTICULAR = {
     "EsdfMap.surroundings.path": "Union[PlanResult, ArrayLike]",
     "GraphDelta.may_invalidate.path": "Union[PlanResult, ArrayLike]",
     "EsdfMap.is_free.radius": "float", "EsdfMap.path_is_free.radius": "float",
-    "traversable_voxels.radius": "float", "GraphDelta.may_invalidate.radius": "float",
+    "traversable_voxels.radius": "float", "GraphDelta.may_invalidate.radius": "Optional[float]",
+    "Roadmap.still_safe.path": "PlanResult",
 }
 RETURNS = {
     "build load": "Roadmap", "load_map": "OccupancyMap", "load_tsdf": "TsdfMap", "load_world": "World",
@@ -101,7 +102,7 @@ RETURNS = {
     "from_numpy from_points resampled cropped with_no_fly without_isolated without_pockets flattened transformed "
     "occupancy": "OccupancyMap",
     "to_numpy distances states": "Grid", "state_at": "NDArray[np.uint8]",
-    "is_free": "NDArray[np.bool_]", "path_is_free may_invalidate is_correction_ready": "bool", "clearance": "float",
+    "is_free": "NDArray[np.bool_]", "path_is_free may_invalidate still_safe is_correction_ready": "bool", "clearance": "float",
     "distance_at": "Tuple[NDArray[np.float64], NDArray[np.float64]]", "block": "NDArray[np.uint32]",
     "plan": "PlanResult", "plan_many": "List[PlanResult]",
     "plan_nearest": "Tuple[Optional[int], PlanResult]", "plan_via": "Tuple[PlanResult, Optional[int]]",

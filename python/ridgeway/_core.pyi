@@ -306,6 +306,7 @@ class Roadmap:
         snap: float = ...,
         robot_height: float = ...,
     ) -> Alternatives: ...
+    def still_safe(self, path: PlanResult) -> bool: ...
     def distances(
         self,
         start: _Point,
@@ -564,7 +565,11 @@ class GraphDelta:
     def is_empty(self) -> bool: ...
     @property
     def counts(self) -> Dict[str, int]: ...
-    def may_invalidate(self, path: Union[PlanResult, ArrayLike], radius: float) -> bool: ...
+    def may_invalidate(
+        self,
+        path: Union[PlanResult, ArrayLike],
+        radius: Optional[float] = ...,
+    ) -> bool: ...
     def __repr__(self) -> str: ...
 
 class LiveRoadmap:
@@ -671,6 +676,7 @@ class Explorer:
         most_looks: int = ...,
         home: Optional[_Point] = ...,
         until: float = ...,
+        period: float = ...,
     ) -> None: ...
     def decide(
         self,

@@ -253,7 +253,8 @@ const Fields<ExplorerConfig>& explorer_fields() {
           .add("most_looks", &Config::most_looks,
                "in vain, after which an unknown voxel is left alone")
           .add("home", &Config::home, "where to be at the end, (x, y, z), metres; None: anywhere")
-          .add("until", &Config::until, "time until which to be home, seconds; needs home");
+          .add("until", &Config::until, "time until which to be home, seconds; needs home")
+          .add("period", &Config::period, "seconds between decisions, where they count for until");
   return fields;
 }
 

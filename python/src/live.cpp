@@ -162,14 +162,17 @@ void add_deltas(py::module_& module) {
       .def(
           "may_invalidate",
           [](const GraphDelta& delta, py::handle path, py::handle radius) {
+            if (radius.is_none() && py::isinstance<PlanFace>(path))
+              return may_be_invalid(path.cast<const PlanFace&>(), delta);
             return may_be_invalid(path_points_from(path, "path"), number_from(radius, "radius"),
                                   delta);
           },
-          py::arg("path"), py::arg("radius"),
-          "may_invalidate(self, path, radius)\n--\n\n"
-          "Whether a path (N, 3), or a PlanResult, that was free may not be so any more; False is "
-          "certain. Then ask\n"
-          "EsdfMap.path_is_free of the new snapshot.")
+          py::arg("path"), py::arg("radius") = py::none(),
+          "may_invalidate(self, path, radius=None)\n--\n\n"
+          "Whether a path (N, 3), or a PlanResult, for which no radius need be given, that was "
+          "free "
+          "may not be so any\nmore; False is certain. Then ask Roadmap.still_safe of the new "
+          "snapshot, or EsdfMap.path_is_free.")
       .def("__repr__", [](const GraphDelta& delta) {
         return "GraphDelta(came_edges=" + std::to_string(delta.came_edges.size()) +
                ", gone_edges=" + std::to_string(delta.gone_edges.size()) +

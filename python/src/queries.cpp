@@ -7,6 +7,7 @@
 #include "config.hpp"
 #include "long_call.hpp"
 #include "plans.hpp"
+#include "ridgeway/live/graph_delta.hpp"
 #include "ridgeway/planning/alternatives.hpp"
 #include "ridgeway/planning/blocked_route.hpp"
 #include "ridgeway/planning/many_goals.hpp"
@@ -186,6 +187,16 @@ void add_queries(py::class_<RoadmapFace>& type) {
       ("alternatives(self, start, goal, count=3" + keywords +
        ")\n--\n\nUp to `count` routes on different sides of obstacles, as Alternatives.\n" + docs)
           .c_str());
+  type.def(
+      "still_safe",
+      [](const RoadmapFace& face, const PlanFace& path) {
+        const Unlocked unlocked;
+        return still_safe(path, *face.roadmap);
+      },
+      py::arg("path"),
+      "still_safe(self, path)\n--\n\n"
+      "Whether a PlanResult of an older snapshot still holds, for the robot and the limits that it "
+      "was asked for;\nits escapes keep no radius and do not count.");
   type.def("distances", &goal_distances, py::arg("start"), py::arg("goals"),
            py::arg("radius") = py::none(),
            "distances(self, start, goals, radius=None)\n--\n\n"

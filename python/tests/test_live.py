@@ -41,6 +41,7 @@ def test_live_snapshots_are_what_build_makes(tmp_path):
     delta = ridgeway.delta_between(open_door, shut)
     assert not delta.is_empty and delta.counts["closed"] > 0
     assert delta.may_invalidate(path.waypoints, 0.25)
+    assert delta.may_invalidate(path) and open_door.still_safe(path) and not shut.still_safe(path)
     assert not shut.esdf.path_is_free(path.waypoints, 0.25)
     assert open_door.plan(START, GOAL).length == path.length  # a snapshot stays as it is
     states[31:33, 18:26, 2:22] = ridgeway.OCCUPIED

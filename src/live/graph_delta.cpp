@@ -7,6 +7,7 @@
 #include <cstring>
 #include <map>
 
+#include "paths/world_rounding.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 
@@ -105,6 +106,22 @@ void require_path(std::span<const Point> path, double radius, double voxel_size)
     throw InputError("radius", "is no distance", "give metres, 0 or more");
 }
 
+const PlannedFor& robot_of(const PlanResult& path) {
+  if (!path.ok() || path.planned_for.radius == 0.0)
+    throw InputError("path", path.ok() ? "is not said to be for a robot" : "is none",
+                     "give what plan() found, or points and a radius");
+  return path.planned_for;
+}
+
+bool is_free(const FreeSpace& space, std::span<const Point> path_world, double radius) {
+  std::vector<Point> path;
+  for (const Point& p : path_world) path.push_back(flight_place(space.map(), p));
+  if (!space.is_free(path.front(), radius)) return false;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i)
+    if (!space.is_free(path[i], path[i + 1], radius)) return false;
+  return true;
+}
+
 }  // namespace
 
 GraphDelta delta_between(const Roadmap& before, const Roadmap& now) {
@@ -134,15 +151,25 @@ bool may_be_invalid(std::span<const Point> path, double radius, const GraphDelta
   });
 }
 
+bool may_be_invalid(const PlanResult& path, const GraphDelta& delta) {
+  const PlannedFor& robot = robot_of(path);
+  return may_be_invalid(path.waypoints, std::hypot(robot.radius, 0.5 * robot.robot_height), delta);
+}
+
 bool still_safe(std::span<const Point> path, double radius, const Roadmap& now) {
   require_path(path, radius, now.esdf.voxel_size);
-  const FreeSpace space(now.esdf);
-  std::vector<Point> local;
-  for (const Point& p : path) local.push_back(flight_place(now.esdf, p));
-  if (!space.is_free(local.front(), radius)) return false;
-  for (std::size_t i = 0; i + 1 < local.size(); ++i)
-    if (!space.is_free(local[i], local[i + 1], radius)) return false;
-  return true;
+  return is_free(FreeSpace(now.esdf), path, detail::radius_less_rounding(radius, path));
+}
+
+bool still_safe(const PlanResult& path, const Roadmap& now) {
+  const auto& [radius, height, limits_world] = robot_of(path);
+  require_path(path.waypoints, radius, now.esdf.voxel_size);
+  const FlightLimits limits = both_of(now.esdf.limits, limits_in_local(now.esdf, limits_world));
+  std::span<const Point> points = path.waypoints;
+  if (path.escape_start.length > 0.0) points = points.subspan(1);
+  if (path.escape_goal.length > 0.0) points = points.first(points.size() - 1);
+  return is_free(FreeSpace(now.esdf, limits, radius, height), points,
+                 detail::radius_less_rounding(radius, points));
 }
 
 }  // namespace ridgeway

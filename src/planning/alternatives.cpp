@@ -137,7 +137,8 @@ Alternatives alternatives_locally(const Roadmap& roadmap, const Point& start, co
   if (config.planner != Planner::kGraph || !config.shorten || config.prefer_clearance != 0.0 ||
       config.escape)
     throw InputError("alternatives", "are planned on the graph and pulled tight",
-                     "leave out the planner, escapes and the preference for clearance");
+                     "leave out the planner, raw paths (shorten), escapes and the preference for "
+                     "clearance");
   if (count == 0) throw InputError("alternatives", "are none", "ask for at least 1");
   const double began = detail::seconds_now();
   const Deadline deadline(config.time_limit);
@@ -169,6 +170,7 @@ Alternatives alternatives_locally(const Roadmap& roadmap, const Point& start, co
       tight.unknown = esdf.unknown;
       tight.moved_start = moved_start;
       tight.moved_goal = moved_goal;
+      if (others.time_is_up()) break;
       if (!meets_itself(tight.waypoints, radius) && detail::is_verified(esdf, space, tight, radius))
         routes.add(std::move(tight));
     }
@@ -188,7 +190,10 @@ Alternatives plan_alternatives(const Roadmap& roadmap, const Point& start, const
   const Point from = detail::place_in_local(esdf, start, radius);
   const Point to = detail::place_in_local(esdf, goal, radius);
   Alternatives result = alternatives_locally(roadmap, from, to, count, config);
-  for (PlanResult& route : result.routes) detail::move_to_world(esdf, start, goal, route);
+  for (PlanResult& route : result.routes) {
+    detail::move_to_world(esdf, start, goal, route);
+    route.planned_for = {radius, config.robot_height, config.limits};
+  }
   return result;
 }
 

@@ -171,6 +171,7 @@ class Answering {
       lap(result_.seconds.shorten);
       return PlanStatus::kOk;
     }
+    if (found.status == SearchStatus::kTimeout) return PlanStatus::kTimeout;
     // What the search found holds move by move, whatever became of it since.
     return accept(std::move(found.route), found.known) ? PlanStatus::kOk : PlanStatus::kNoRoute;
   }
@@ -252,18 +253,29 @@ class Answering {
                                       short_config, deadline_)
                                 .run();
     if (!short_path.ok()) return short_path.status;
-    const double began = seconds_now();
+    double began = seconds_now();
+    const auto lap = [&](double& seconds) {
+      const double now = seconds_now();
+      seconds += now - std::exchange(began, now);
+    };
+    result_.seconds = short_path.seconds;
+    result_.answered_by = short_path.answered_by;
+    attachment();
+    lap(result_.seconds.attach);
     std::vector<Route> routes;
     for (const double preference : {query_.prefer_clearance, 0.0}) {
       RouteQuery query = query_;
       query.prefer_clearance = preference;
-      routes.push_back(
-          find_route(roadmap_, space_, query, attachment(), config_.planner, deadline_).route);
-      if (routes.back().empty()) routes.pop_back();
+      RouteResult found =
+          find_route(roadmap_, space_, query, attachment(), config_.planner, deadline_);
+      if (found.route.empty()) continue;
+      if (routes.empty()) result_.answered_by = found.answered_by;
+      routes.push_back(std::move(found.route));
     }
+    lap(result_.seconds.search);
     Route best = cheapest(space_, query_, std::move(routes), short_path.waypoints, deadline_);
     if (!accept(std::move(best), {})) result_ = std::move(short_path);
-    result_.seconds.shorten = seconds_now() - began;
+    lap(result_.seconds.shorten);
     return PlanStatus::kOk;
   }
 

@@ -41,8 +41,9 @@ class Along {
 bool deforms_into(const FreeSpace& space, std::span<const Point> a, std::span<const Point> b,
                   double radius) {
   const Along on_a(a), on_b(b);
-  const double steps =
-      std::ceil(std::max(on_a.length(), on_b.length()) / (kPlanning.look_step * radius));
+  // Obstacles are whole voxels, however small the robot.
+  const double apart = kPlanning.look_step * std::max(radius, 0.25 * space.map().voxel_size);
+  const double steps = std::ceil(std::max(on_a.length(), on_b.length()) / apart);
   const auto looks = steps > 1.0 ? static_cast<std::size_t>(steps) - 1 : 0;
   // Paths of two classes mostly begin and end alike: from the middle on, at half the distance each
   // time, it is sooner seen that something is between them.

@@ -151,7 +151,7 @@ ViaPlan plan_via(const Roadmap& roadmap, std::span<const Point> places, const Pl
     straight += (leg.waypoints.back() - leg.waypoints.front()).norm();
     append_leg(leg, via.plan);
   }
-  if (straight > 0.0) via.plan.within = std::max(via.plan.length / straight, 1.0);
+  via.plan.within = detail::within_bound(via.plan.length, straight);
   return via;
 }
 

@@ -136,6 +136,7 @@ PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
   const Point to = detail::place_in_local(esdf, goal, radius);
   PlanResult result = detail::plan_locally(roadmap, from, to, config);
   detail::move_to_world(esdf, start, goal, result);
+  result.planned_for = {radius, config.robot_height, config.limits};
   return result;
 }
 
@@ -156,10 +157,7 @@ PlanResult given_plan(const EsdfMap& esdf, std::vector<Point> waypoints) {
   }
   path.length = length_of(path.waypoints);
   path.clearance = FreeSpace(esdf).clearance(local);
-  const double straight = (path.waypoints.back() - path.waypoints.front()).norm();
-  path.within = straight > 0.0      ? std::max(path.length / straight, 1.0)
-                : path.length > 0.0 ? std::numeric_limits<double>::infinity()
-                                    : 1.0;
+  path.within = detail::length_over_bound(path.waypoints);
   return path;
 }
 

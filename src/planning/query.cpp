@@ -93,9 +93,13 @@ FlightLimits limits_of(const EsdfMap& esdf, const FlightLimits& limits_world) {
   return limits;
 }
 
+double within_bound(double length, double bound) {
+  if (bound > 0.0) return std::max(length / bound, 1.0);
+  return length > 0.0 ? std::numeric_limits<double>::infinity() : 1.0;
+}
+
 double length_over_bound(std::span<const Point> path) {
-  const double straight = (path.back() - path.front()).norm();
-  return straight > 0.0 ? std::max(length_of(path) / straight, 1.0) : 1.0;
+  return within_bound(length_of(path), (path.back() - path.front()).norm());
 }
 
 void describe(const FreeSpace& space, const KnownStretch& known, PlanResult& result) {

@@ -48,8 +48,10 @@ struct KnownStretch {
   double clearance = std::numeric_limits<double>::infinity();  ///< smallest, metres
 };
 
-/// A path's length over a bound that no path between its ends is below, the straight line; 1 and
-/// more.
+/// A length over a bound that no shorter path is below; 1 and more, infinite where the bound is 0
+/// and the length is not.
+double within_bound(double length, double bound);
+/// The same of a path and the straight line between its ends.
 double length_over_bound(std::span<const Point> path);
 
 /// Length, clearance and bound of the result's waypoints.

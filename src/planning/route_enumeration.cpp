@@ -14,6 +14,7 @@
 #include "voxel_route.hpp"
 
 namespace ridgeway::detail {
+
 RouteEnumeration::RouteEnumeration(const Roadmap& roadmap, const FreeSpace& space,
                                    const RouteQuery& query, const Deadline& deadline)
     : roadmap_(roadmap),
@@ -30,7 +31,7 @@ RouteEnumeration::RouteEnumeration(const Roadmap& roadmap, const FreeSpace& spac
 }
 
 std::optional<Route> RouteEnumeration::next() {
-  while (!open_.empty() && expansions_ < kPlanning.most_forks && !deadline_.has_passed()) {
+  while (!open_.empty() && expansions_ < kPlanning.most_forks && !time_is_up()) {
     const std::uint32_t piece = open_.top().piece;
     open_.pop();
     ++expansions_;
@@ -40,7 +41,7 @@ std::optional<Route> RouteEnumeration::next() {
   return std::nullopt;
 }
 
-RouteEnumeration::Legs RouteEnumeration::legs_from(const Point& end, VoxelId voxel) const {
+RouteEnumeration::Legs RouteEnumeration::legs_from(const Point& end, VoxelId voxel) {
   const AttachWay way = follow_attach(roadmap_, voxel, space_.inner_radius(query_.radius));
   if (!way.reached()) return {};
   RouteQuery leg = query_;
@@ -50,10 +51,12 @@ RouteEnumeration::Legs RouteEnumeration::legs_from(const Point& end, VoxelId vox
   Legs legs;
   for (std::size_t i = 1; i < route.size(); ++i) route[i] = space_.nearest_within(route[i]);
   if (!space_.is_narrowed() || is_free(route)) legs.emplace(way.vertex, std::move(route));
+  constexpr std::uint32_t kBetweenLooks = 256;  // at the clock
   std::vector<bool> seen(roadmap_.graph.vertices.size());
-  for (std::uint32_t v = 0; v < seen.size(); ++v)
+  for (std::uint32_t v = 0; v < seen.size() && (v % kBetweenLooks != 0 || !time_is_up()); ++v)
     seen[v] = space_.is_free(end, place_of(VertexId{v}), query_.radius);
-  for (std::uint32_t v = 0; v < seen.size(); ++v) {
+  for (std::uint32_t v = 0; v < seen.size() && !time_is_up(); ++v) {
+    if (!seen[v]) continue;
     const Point position = place_of(VertexId{v});
     const auto leads_here = [&](const Link& link) {
       const Point nearer = place_of(link.vertex);
@@ -63,10 +66,14 @@ RouteEnumeration::Legs RouteEnumeration::legs_from(const Point& end, VoxelId vox
                           query_.radius);
     };
     const auto links = roadmap_.graph.links_of(VertexId{v});
-    if (seen[v] && std::none_of(links.begin(), links.end(), leads_here))
-      legs[VertexId{v}] = {end, position};
+    if (std::none_of(links.begin(), links.end(), leads_here)) legs[VertexId{v}] = {end, position};
   }
   return legs;
+}
+
+bool RouteEnumeration::time_is_up() {
+  is_cut_short_ = is_cut_short_ || deadline_.has_passed();
+  return is_cut_short_;
 }
 
 bool RouteEnumeration::is_wide_enough(const Link& link) const {
@@ -143,6 +150,7 @@ bool RouteEnumeration::is_redundant(std::uint32_t piece) {
       if (std::includes(here.vertices.begin(), here.vertices.end(), other.vertices.begin(),
                         other.vertices.end()) != is_over_fewer)
         continue;
+      if (time_is_up()) return true;
       if (!deforms_into(space_, other.route, here.route, query_.radius)) continue;
       if (is_over_fewer || ++alike == kPlanning.most_alike) return true;
     }

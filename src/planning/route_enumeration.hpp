@@ -29,7 +29,9 @@ class RouteEnumeration {
 
   /// Nothing when there are no more, or too many were looked at; see `complete`.
   std::optional<Route> next();
-  bool complete() const { return open_.empty(); }
+  bool complete() const { return open_.empty() && !is_cut_short_; }
+  /// Whether time is up: what came last may not be what it would have been.
+  bool time_is_up();
 
  private:
   static constexpr std::uint32_t kNone = 0xffffffffu;
@@ -54,7 +56,7 @@ class RouteEnumeration {
   };
   using Legs = std::map<VertexId, Route>;  ///< from an end of the query to a vertex
 
-  Legs legs_from(const Point& end, VoxelId voxel) const;
+  Legs legs_from(const Point& end, VoxelId voxel);
   bool is_wide_enough(const Link& link) const;
   bool may_be_taken(VertexId from, const Link& link) const;
   /// As limits that the graph was not made for move it.
@@ -70,6 +72,7 @@ class RouteEnumeration {
   const FreeSpace space_;
   const RouteQuery query_;
   const Deadline deadline_;
+  bool is_cut_short_ = false;
   Legs starts_, goals_;
   std::vector<double> rest_;  ///< length from each vertex to the goal
   std::vector<Piece> pieces_;

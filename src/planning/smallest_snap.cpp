@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 #include <algorithm>
+#include <cmath>
 
+#include "common/number_text.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/planning/blocked_route.hpp"
 
 namespace ridgeway {
 
 std::optional<double> smallest_snap(const Roadmap& roadmap, const Point& start, const Point& goal,
                                     double farthest, PlanConfig config) {
+  if (!(farthest >= 0.0 && std::isfinite(farthest)))
+    throw InputError("farthest", "is " + number_text(farthest), "give metres, 0 or more");
   const auto needed = [&](double snap) -> std::optional<double> {
     config.snap = snap;
     const PlanResult result = plan(roadmap, start, goal, config);

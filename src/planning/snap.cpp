@@ -28,7 +28,8 @@ class EndPlaces {
 
   /// Of the next part; nothing where there are no more, or time is up.
   std::optional<Point> next(const Deadline& deadline) {
-    if (tried_ != kNoVoxel) flood(std::exchange(tried_, kNoVoxel));  // it was of no use
+    if (tried_ != kNoVoxel && !flood(std::exchange(tried_, kNoVoxel), deadline))  // of no use
+      return std::nullopt;
     if (stays_) return std::exchange(is_given_, true) ? std::nullopt : std::optional(end_);
     if (!is_given_) {
       is_given_ = true;
@@ -57,11 +58,12 @@ class EndPlaces {
            (centre - end_).norm() <= snap_ && space_.is_free(centre, radius_);
   }
 
-  /// All places around that moves join with one are as good, or as bad.
-  void flood(VoxelId from) {
+  /// All places around that moves join with one are as good, or as bad. False where time is up.
+  bool flood(VoxelId from, const Deadline& deadline) {
     std::vector<VoxelId> open{from};
     seen_.insert(from);
-    while (!open.empty()) {
+    for (int step = 0; !open.empty(); ++step) {
+      if (deadline.has_passed(step)) return false;
       const VoxelId here = open.back();
       open.pop_back();
       for (int d = 0; d < 27; ++d) {
@@ -73,6 +75,7 @@ class EndPlaces {
         open.push_back(next);
       }
     }
+    return true;
   }
 
   const FreeSpace& space_;

@@ -194,6 +194,7 @@ SamplingResult plan_by_sampling(const EsdfMap& esdf, const Point& start, const P
   const Point to = detail::place_in_local(esdf, goal, config.radius);
   SamplingResult result = sample_locally(esdf, from, to, config, progress);
   detail::move_to_world(esdf, start, goal, result.plan);
+  result.plan.planned_for = {config.radius, config.robot_height, config.limits};
   return result;
 }
 

@@ -65,10 +65,19 @@ class Flights {
   TrajectoryResult whole_;
 };
 
+/// With the robot and the limits of the plan where it has none of its own.
+TrajectoryConfig for_robot_of(const PlannedFor& planned_for, TrajectoryConfig config) {
+  if (config.radius == 0.0) config.radius = planned_for.radius;
+  if (config.robot_height == 0.0) config.robot_height = planned_for.robot_height;
+  if (!config.flight_limits.any()) config.flight_limits = planned_for.limits;
+  return config;
+}
+
 }  // namespace
 
 TrajectoryResult fly_plan(const EsdfMap& esdf, const PlanResult& path,
-                          const TrajectoryConfig& config) {
+                          const TrajectoryConfig& given) {
+  const TrajectoryConfig config = for_robot_of(path.planned_for, given);
   const std::span<const Point> points = path.waypoints;
   const bool leaves = path.escape_start.length > 0.0, enters = path.escape_goal.length > 0.0;
   if (points.size() < 2 || (!leaves && !enters)) return plan_trajectory(esdf, points, config);

@@ -14,8 +14,10 @@
 #include "common/rounding.hpp"
 #include "esdf/known_radius.hpp"
 #include "initial_spline.hpp"
+#include "paths/world_rounding.hpp"
 #include "planning/query.hpp"
 #include "ridgeway/common/error.hpp"
+#include "shaped_trajectory.hpp"
 #include "smooth_path.hpp"
 #include "speed_scaling.hpp"
 #include "straight_motion.hpp"
@@ -136,9 +138,8 @@ void TrajectoryConfig::validate() const {
   if (!(robot_height >= 0.0 && std::isfinite(robot_height)))
     throw InputError("robot_height", "is " + number_text(robot_height),
                      "give metres above 0, or 0 for a robot that is a sphere");
-  if (!(radius > 0.0 && std::isfinite(radius)))
-    throw InputError("radius", "is " + number_text(radius),
-                     "give the robot's radius in metres, above 0");
+  if (!(radius >= 0.0 && std::isfinite(radius)))
+    throw InputError("radius", "is " + number_text(radius), "give the robot's radius in metres");
   if (!start_velocity.allFinite() || !start_acceleration.allFinite())
     throw InputError("start_velocity", "or start_acceleration is not finite",
                      "give three finite numbers each");
@@ -154,10 +155,16 @@ void TrajectoryConfig::validate() const {
 
 namespace {
 
+void require_radius(const TrajectoryConfig& config) {
+  config.validate();
+  if (config.radius == 0.0)
+    throw InputError("radius", "is 0", "give the robot's radius in metres, above 0");
+}
+
 /// plan_trajectory() along a path of the local frame, with a trajectory there.
 TrajectoryResult fly_locally(const EsdfMap& esdf, std::span<const Point> path,
                              const TrajectoryConfig& config) {
-  config.validate();
+  require_radius(config);
   detail::require_height_counts(esdf, config.robot_height);
   detail::require_known_radius(esdf, "radius", config.radius);
   for (const Point& place : config.via)
@@ -197,15 +204,6 @@ TrajectoryResult fly_locally(const EsdfMap& esdf, std::span<const Point> path,
   return finish(TrajectoryStatus::kOk);
 }
 
-constexpr double kExact = 1e-10;  // of the radius: a tenth of what free means leaves for rounding
-
-/// By how much a point may be off whose coordinates were rounded where they are this large.
-double rounding_of(std::span<const Point> path_world) {
-  double largest = 0.0;
-  for (const Point& p : path_world) largest = std::max(largest, p.cwiseAbs().maxCoeff());
-  return 2.0 * std::numeric_limits<double>::epsilon() * largest;
-}
-
 }  // namespace
 
 TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> path,
@@ -215,8 +213,7 @@ TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> pat
   for (const Point& p : path) path_local.push_back(flight_place(esdf, p));
   TrajectoryConfig as_rounded = config;
   for (Point& p : as_rounded.via) p = flight_place(esdf, p);
-  const double share = rounding_of(path) / config.radius;
-  if (share > kExact && share < 0.5) as_rounded.radius *= 1.0 - share;
+  as_rounded.radius = detail::radius_less_rounding(config.radius, path);
   TrajectoryResult result = fly_locally(esdf, path_local, as_rounded);
   for (TrajectorySegment& segment : result.trajectory.segments) {
     const Point begin = segment.coefficients.col(0).head<3>();
@@ -225,8 +222,33 @@ TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> pat
   return result;
 }
 
+Trajectory to_local(const EsdfMap& esdf, Trajectory trajectory) {
+  for (TrajectorySegment& segment : trajectory.segments) {
+    const Point begin = segment.coefficients.col(0).head<3>();
+    segment.coefficients.col(0).head<3>() = flight_place(esdf, begin);
+  }
+  return trajectory;
+}
+
+bool still_safe(const Trajectory& trajectory, const TrajectoryConfig& config, const EsdfMap& now,
+                double from) {
+  require_radius(config);
+  detail::require_height_counts(now, config.robot_height);
+  detail::require_known_radius(now, "radius", config.radius);
+  if (trajectory.segments.empty())
+    throw InputError("trajectory", "is empty", "give one that is ok");
+  const FlightLimits limits = both_of(now.limits, limits_in_local(now, config.flight_limits));
+  const FreeSpace space(now, limits, config.radius, config.robot_height);
+  std::vector<Point> places;
+  for (const TrajectorySegment& segment : trajectory.segments)
+    places.emplace_back(segment.coefficients.col(0).head<3>());
+  return find_doubts(space, to_local(now, detail::tail_of(trajectory, from)),
+                     detail::radius_less_rounding(config.radius, places))
+      .empty();
+}
+
 Trajectory plain_spline(std::span<const Point> path, const TrajectoryConfig& config) {
-  config.validate();
+  require_radius(config);
   const std::vector<Point> points = distinct_points(path);
   if (points.size() == 1) return {{standing_at(points.front())}};
   const MotionLimits along = detail::limits_along(points, 0.0, config.limits);

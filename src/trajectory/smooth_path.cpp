@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
 #include "common/clock.hpp"
 #include "initial_spline.hpp"
@@ -112,8 +111,9 @@ std::optional<Trajectory> SmoothPath::run(std::span<const Point> path, const Sta
     result_.stops = std::max(0, static_cast<int>(path.size()) - 2);
     return stop_and_go(path);
   }
+  if (path.size() == 1 && start.is_rest()) return Trajectory{};  // it stands
+  if (config_.stop_and_go) return brake_first(path, start);
   auto found = path.size() > 1 ? smooth_or_stop(path, start) : std::nullopt;
-  if (!found && start.is_rest()) return Trajectory{};  // one point: it stands
   if (!found) {
     result_.stops = 0;  // of stretches behind one that cannot be flown
     return brake_first(path, start);
@@ -244,57 +244,6 @@ SmoothPath::Attempt SmoothPath::verify(Trajectory trajectory) {
   if (!keeps_limits(attempt.trajectory, config_.limits))
     attempt.doubts.push_back(attempt.trajectory.at(0.0).position);
   return attempt;
-}
-
-/// Where the path cannot be followed from a motion: to rest, and from there to the path.
-std::optional<Trajectory> SmoothPath::brake_first(std::span<const Point> path,
-                                                  const StartState& start) {
-  auto braking = brake(path.front(), start);
-  if (!braking) return std::nullopt;
-  const Point stop = braking->at(braking->duration()).position;
-  std::vector<Point> rest{stop};
-  const bool skips_start = path.size() > 1 && space_.is_free(stop, path[1], config_.radius);
-  rest.insert(rest.end(), path.begin() + (skips_start ? 1 : 0), path.end());
-  if (!space_.is_free(rest[0], rest[1], config_.radius)) return std::nullopt;
-  result_.braked = true;
-  note(TrajectoryStep::kWithStops);
-  ++result_.stops;
-  if (config_.stop_and_go) result_.stops += static_cast<int>(rest.size()) - 2;
-  const Trajectory onward =
-      config_.stop_and_go ? stop_and_go(rest) : smooth_or_stop(rest, {}).value();
-  append(*braking, onward.segments);
-  return braking;
-}
-
-/// Braking and starting anew, where that takes less time than a trajectory without a halt.
-Trajectory SmoothPath::brake_if_quicker(const Trajectory& found, std::span<const Point> path,
-                                        const StartState& start) {
-  const TrajectoryStep step = std::exchange(result_.step, TrajectoryStep::kSmooth);
-  const int stops = std::exchange(result_.stops, 0);
-  auto braking = brake_first(path, start);
-  if (braking && braking->duration() < found.duration() && holds(*braking)) return *braking;
-  result_.step = step;
-  result_.stops = stops;
-  result_.braked = false;
-  return found;
-}
-
-/// The smoothest way to rest, wherever that is, in as short a time as the limits allow.
-std::optional<Trajectory> SmoothPath::brake(const Point& from, const StartState& start) const {
-  const MotionLimits& limits = config_.limits;
-  const int rows = knot_size(config_.smoothness);
-  constexpr DerivativeMask kStopped = kAllFixed & ~kPositionFixed;
-  Eigen::MatrixXd derivatives = Eigen::MatrixXd::Zero(2 * static_cast<Eigen::Index>(rows), 3);
-  derivatives.row(0) = from.transpose();
-  derivatives.row(1) = start.velocity.transpose();
-  derivatives.row(2) = start.acceleration.transpose();
-  const double duration = (start.velocity.norm() +
-                           start.acceleration.norm() * limits.max_speed / limits.max_acceleration) /
-                          limits.max_acceleration;
-  Trajectory trajectory =
-      stretch_to_limits(config_.smoothness, {duration}, std::array{kStateFixed, kStopped},
-                        std::move(derivatives), limits);
-  return holds(trajectory) ? std::optional(std::move(trajectory)) : std::nullopt;
 }
 
 }  // namespace ridgeway::detail

@@ -51,6 +51,8 @@ class SmoothPath {
   std::optional<Trajectory> brake_first(std::span<const Point> path, const StartState& start);
   Trajectory brake_if_quicker(const Trajectory& found, std::span<const Point> path,
                               const StartState& start);
+  std::optional<Trajectory> come_to_rest(const Point& from, const StartState& start,
+                                         DerivativeMask fixed_at_start) const;
   std::optional<Trajectory> brake(const Point& from, const StartState& start) const;
   void note(TrajectoryStep step);
 

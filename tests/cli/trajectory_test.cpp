@@ -97,7 +97,8 @@ TEST_F(CliTrajectory, RefusesBadInput) {
   refused({"--from-velocity", "1,2"}, {"--from-velocity"});
   refused({"--from-velocity", "3,0,0"}, {"--from-velocity"});
   refused({"-o", path("t.txt")}, {"t.txt"});
-  refused({"--max-speed", "1e-6"}, {"--step"});
+  refused({"--max-speed", "1e-6", "-o", path("t.csv")}, {"--step"});
+  EXPECT_FALSE(exists("t.csv"));
 }
 
 TEST_F(CliTrajectory, SaysWhichPartOfACourseHasNoPath) {
@@ -124,10 +125,21 @@ TEST_F(CliTrajectory, SaysWhereAGivenPathIsNotFree) {
   EXPECT_EQ(round.json()["answered_by"], "given");
 }
 
-TEST_F(CliTrajectory, RefusesStopAndGoInMotion) {
-  expect_refused({"trajectory", rooms(), "--from", "-2,1.5,1", "--to", "-2,-1,1", "--stop-and-go",
-                  "--from-velocity", "1,0,0"},
-                 {"--stop-and-go", "--from-velocity"});
+TEST_F(CliTrajectory, StopsAndGoesFromAMotion) {
+  const Outcome flown = run({"trajectory", rooms(), "--from", "-2,1.5,1", "--to", "-2,-1,1",
+                             "--stop-and-go", "--from-velocity", "0.5,0,0", "--json"});
+  ASSERT_EQ(flown.code, 0) << flown.out;
+  EXPECT_EQ(flown.json()["optimisations"], 0);
+}
+
+TEST_F(CliTrajectory, SlowFlightsNeedNoSamples) {
+  const std::vector<std::string> slow = {"trajectory", rooms(),   "--from",      "-2,1.5,1",
+                                         "--to",       "2,1.5,1", "--max-speed", "1e-5"};
+  const Outcome flown = run(slow);
+  EXPECT_EQ(flown.code, 0) << flown.err;
+  std::vector<std::string> pieces = slow;
+  pieces.insert(pieces.end(), {"-o", path("t.yaml")});
+  EXPECT_EQ(run(pieces).code, 0);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ OccupancyMap room(VoxelState middle = VoxelState::kFree) {
 
 /// From one end of the room to the other, stopping on the way.
 TrajectoryResult good_flight() {
-  TrajectoryConfig config;
+  TrajectoryConfig config{.radius = 0.3};
   config.stop_and_go = true;
   TrajectoryResult result = plan_trajectory(
       compute_esdf(room()), std::vector<Point>{kStart, Point(3.05, 1.3, 1.05), kGoal}, config);
@@ -72,7 +72,7 @@ TEST(FlightJudge, PassesAGoodFlightAndMeasuresIt) {
 TEST(FlightJudge, ComplainsOfAFlightBeyondItsLimits) {
   EXPECT_EQ(complaint(slowed_down(good_flight(), 1.01)), "");
   EXPECT_EQ(complaint(slowed_down(good_flight(), 0.999)).substr(0, 12), "acceleration");
-  TrajectoryConfig config;
+  TrajectoryConfig config{.radius = 0.3};
   config.limits.max_speed = 0.5;
   const FlightJudge judge(room(), UnknownPolicy::kObstacle);
   const auto words = [&] {
@@ -90,7 +90,7 @@ TEST(FlightJudge, ComplainsOfAFlightThatJerksAtAJoint) {
   TrajectoryResult flown;
   flown.trajectory.segments = {piece(kStart, kGoal, 10.0)};
   EXPECT_EQ(complaint(flown).substr(0, 12), "acceleration");
-  TrajectoryConfig moving;
+  TrajectoryConfig moving{.radius = 0.3};
   moving.start_velocity = Point(0.4, 0.0, 0.0);
   const Point corner(3.05, 1.05, 1.05), aside(3.05, 1.45, 1.05);
   flown.trajectory.segments = {piece(kStart, corner, 5.0), piece(corner, aside, 1.0)};
@@ -120,7 +120,7 @@ TEST(FlightJudge, ComplainsOfWrongEndsAndAClearanceTooGood) {
   flown.trajectory.segments.clear();
   EXPECT_EQ(complaint(flown), "no segments");
   TrajectoryResult close = good_flight();
-  TrajectoryConfig wide;
+  TrajectoryConfig wide{.radius = 0.3};
   wide.radius = 0.58;  // of 0.6 m beside the stop
   EXPECT_EQ(judge.judge(close, kStart, kGoal, wide).complaint, "");
   close.clearance = 0.61;

@@ -166,7 +166,7 @@ void expect_same_check(Shifted& maps, std::size_t queries) {
 /// Paths that plan() gives are flown, and planned on from each waypoint, wherever they are, though
 /// the world rounds their waypoints.
 void expect_flights(Shifted& maps, unsigned seed, std::size_t queries) {
-  TrajectoryConfig config;
+  TrajectoryConfig config{.radius = 0.3};
   config.radius = maps.far.min_clearance;
   for (const Ends& ends : draw_ends(maps.near, queries, seed)) {
     const PlanResult path = plan(maps.far, maps.shift(ends.first), maps.shift(ends.second));
@@ -348,7 +348,7 @@ TEST(FarMap, PlacesThatJustFitAreFoundWhereverTheMapLies) {
     const PlanResult path = plan(roadmap, centre(1), centre(29));
     ASSERT_TRUE(path.ok()) << name_of(path.status);
     EXPECT_NEAR(path.length, 2.8, 1e-6);
-    TrajectoryConfig config;
+    TrajectoryConfig config{.radius = 0.3};
     config.radius = 0.05;
     EXPECT_TRUE(plan_trajectory(roadmap.esdf, path.waypoints, config).ok());
   }

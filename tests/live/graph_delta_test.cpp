@@ -198,5 +198,35 @@ TEST(GraphDelta, RefusesPathsAndRadiiThatAreNone) {
   }
 }
 
+/// What a path was planned for goes with it: the height of a cylinder, limits, and that escapes
+/// keep no radius.
+TEST(GraphDelta, PathsAreHeldAgainstNewerMapsAsTheyWerePlanned) {
+  LiveRoadmap live = two_rooms();
+  const auto open = live.snapshot();
+  const Point start(0.5, 2.05, 1.0), goal(3.5, 2.05, 1.0);
+  const PlanResult tall = plan(*open, start, goal, {.robot_height = 1.2});
+  const PlanResult out = plan(*open, {0.08, 2.05, 1.0}, goal, {.escape = true});
+  const PlanResult low = plan(
+      *open, start, goal, {.limits = {.keep_out = {{Point(1.5, 0.0, 1.2), Point(2.5, 3.9, 2.0)}}}});
+  ASSERT_TRUE(tall.ok() && out.ok() && low.ok());
+  ASSERT_GT(out.escape_start.length, 0.0);
+  for (const PlanResult& path : {tall, out, low}) EXPECT_TRUE(still_safe(path, *open));
+  EXPECT_FALSE(still_safe(out.waypoints, kRadius, *open));
+
+  live.set_voxels(box({20, 20, 5}, {20, 20, 5}, VoxelState::kOccupied));  // half a metre below
+  const auto below = live.snapshot();
+  const GraphDelta delta = delta_between(*open, *below);
+  EXPECT_TRUE(may_be_invalid(tall, delta));
+  EXPECT_FALSE(still_safe(tall, *below));
+  EXPECT_FALSE(may_be_invalid(out, delta));
+  EXPECT_TRUE(still_safe(out, *below));
+  PlanResult raised = low;
+  for (Point& p : raised.waypoints) p.z() = 1.3;
+  EXPECT_FALSE(still_safe(raised, *below));  // through what was kept out
+
+  EXPECT_THROW(still_safe(PlanResult{}, *below), InputError);
+  EXPECT_THROW(still_safe(given_plan(open->esdf, {start, goal}), *below), InputError);
+}
+
 }  // namespace
 }  // namespace ridgeway

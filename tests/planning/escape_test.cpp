@@ -5,12 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <tuple>
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/esdf.hpp"
 #include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/planning/many_goals.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "support/brute_force.hpp"
@@ -213,6 +215,16 @@ TEST(Escape, GoesOutAndBackFromOnePlace) {
   ASSERT_TRUE(result.ok());
   EXPECT_EQ(result.waypoints.size(), 3u);
   EXPECT_NEAR(result.length, 2.0 * result.escape_start.length, 1e-12);
+}
+
+TEST(Escape, BackToTheSamePlaceHasNoBound) {
+  const Roadmap roadmap =
+      build_roadmap(room_with_boxes(0, 0), {.min_clearance = kEscapeRadius}).roadmap;
+  const Point close(0.15, 0.95, 0.7), free(1.25, 1.25, 0.7);
+  EXPECT_TRUE(std::isinf(plan(roadmap, close, close, {.escape = true}).within));
+  EXPECT_EQ(plan(roadmap, free, free, {.escape = true}).within, 1.0);
+  const std::vector<Point> round{close, free, close};
+  EXPECT_GT(plan_via(roadmap, round, {.escape = true}).plan.within, 1.0);
 }
 
 }  // namespace

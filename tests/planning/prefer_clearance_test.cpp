@@ -109,5 +109,20 @@ TEST(PreferClearance, AnAnswerThatIsOkHasAPathOfFiniteLengthAtAnyWeight) {
       }
 }
 
+TEST(PreferClearance, SaysWhatAnswered) {
+  const Roadmap roadmap = hall_of_pillars(3);
+  const Point start(0.5, 2.9, 0.4), goal(7.4, 3.1, 0.4);
+  for (const Planner planner : {Planner::kGraph, Planner::kDiagram, Planner::kEsdf}) {
+    const PlanResult result =
+        plan(roadmap, start, goal, {.planner = planner, .prefer_clearance = 3.0});
+    ASSERT_TRUE(result.ok());
+    EXPECT_EQ(result.answered_by, planner);
+    EXPECT_GT(result.seconds.search, 0.0);
+    EXPECT_GT(result.seconds.shorten, 0.0);
+    EXPECT_LE(result.seconds.attach + result.seconds.search + result.seconds.shorten,
+              result.seconds.total);
+  }
+}
+
 }  // namespace
 }  // namespace ridgeway

@@ -211,7 +211,8 @@ void expect_equals_dijkstra_within(const EsdfMap& esdf, const FlightLimits& limi
     ASSERT_NEAR(lattice_length(esdf, path.voxels), cost->second, 1e-9);
     for (const VoxelId id : path.voxels) ASSERT_TRUE(within.test(id));
     ASSERT_NEAR(search(space, {.longest = cost->second + 1e-6}).cost, cost->second, 1e-9);
-    routes.longer += search(FreeSpace(esdf, FlightLimits{}), {}).cost < cost->second - 1e-9;
+    const FlightLimits none;
+    routes.longer += search(FreeSpace(esdf, none), {}).cost < cost->second - 1e-9;
   }
 }
 

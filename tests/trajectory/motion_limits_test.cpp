@@ -18,7 +18,7 @@ TEST(PlanTrajectory, StaysWithinTheLimitsOfTheFlight) {
   int smooth = 0;
   for (const double width : {0.05, 0.4, 2.0}) {
     SCOPED_TRACE(width);
-    TrajectoryConfig config;
+    TrajectoryConfig config{.radius = 0.3};
     config.flight_limits.keep_in.min.z() = 1.0;
     config.flight_limits.keep_in.max.z() = 1.0 + width;
     config.flight_limits.keep_out = {{Point(4, 4, 0), Point(7, 7, 4)}};
@@ -48,7 +48,7 @@ TEST(PlanTrajectory, LimitsHoldForAnyLimits) {
   std::uniform_real_distribution<double> exponent(-1.0, 1.0), place(1.0, 6.0);
   for (int i = 0; i < 40; ++i) {
     SCOPED_TRACE(i);
-    TrajectoryConfig config;
+    TrajectoryConfig config{.radius = 0.3};
     config.limits.max_speed = 2.0 * std::pow(10.0, exponent(random));
     config.limits.max_acceleration = 2.0 * std::pow(10.0, exponent(random));
     if (i % 2 == 0) config.limits.max_jerk = 10.0 * std::pow(10.0, exponent(random));
@@ -69,7 +69,7 @@ TEST(PlanTrajectory, ExtremeLimitsGetATrajectory) {
     for (const double acceleration : {1e-9, 1e-3, 1.0, 1e3, 1e9})
       for (const double jerk : {1e-9, 1.0, 1e9}) {
         SCOPED_TRACE(::testing::Message() << speed << " " << acceleration << " " << jerk);
-        TrajectoryConfig config;
+        TrajectoryConfig config{.radius = 0.3};
         config.limits.max_speed = speed;
         config.limits.max_acceleration = acceleration;
         config.limits.max_jerk = jerk;
@@ -82,7 +82,7 @@ TEST(PlanTrajectory, ExtremeLimitsGetATrajectory) {
 }
 
 TEST(PlanTrajectory, LongPathsOfTinyRobotsGetNoMoreKnotsThanAreOfUse) {
-  TrajectoryConfig config;
+  TrajectoryConfig config{.radius = 0.3};
   config.radius = 1e-5;
   config.limits.max_speed = 1e-3;
   const std::vector<Point> path{{2, 2, 2}, {2, 7, 2}, {7, 7, 2}, {7, 2, 2}};
@@ -104,7 +104,7 @@ TEST(PlanTrajectory, MoreSpeedThanCanBeReachedCostsNothing) {
       const double x = place(random), y = place(random);
       path.emplace_back(x, y, 2.0);
     }
-    TrajectoryConfig config;
+    TrajectoryConfig config{.radius = 0.3};
     std::vector<double> seconds;
     for (const double speed : {3.0, 10.0, 15.0, 1000.0}) {
       config.limits.max_speed = speed;

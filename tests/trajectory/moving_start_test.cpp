@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "trajectory/pillar_room.hpp"
@@ -20,7 +21,7 @@ TEST(PlanTrajectory, StartsFromAMotion) {
   int braked = 0;
   for (int i = 0; i < 40; ++i) {
     SCOPED_TRACE(i);
-    TrajectoryConfig config;
+    TrajectoryConfig config{.radius = 0.3};
     config.start_velocity = 1.8 * Point(part(random), part(random), 0.3 * part(random)) / 1.5;
     config.start_acceleration = Point(part(random), part(random), 0.0);
     const std::vector<Point> path{{4, 6, 2}, {7, 6.5, 2}, {8, 12, 1}};
@@ -41,7 +42,7 @@ TEST(PlanTrajectory, DoesNotCrawlFromAMotion) {
   std::uniform_real_distribution<double> part(-1.0, 1.0);
   const std::vector<Point> path{{4, 6, 2},   {7, 6.5, 2}, {8, 12, 1}, {12, 17, 2},
                                 {16, 16, 2}, {17, 10, 2}, {14, 4, 2}, {17, 2, 1}};
-  TrajectoryConfig config;
+  TrajectoryConfig config{.radius = 0.3};
   config.most_evaluations = 30;
   const double from_rest = plan_trajectory(esdf(), path, config).duration;
   double slowest = 0.0;
@@ -57,7 +58,7 @@ TEST(PlanTrajectory, DoesNotCrawlFromAMotion) {
 }
 
 TEST(PlanTrajectory, BrakesWhereItCannotFollowAndSaysWhereItCannotStop) {
-  TrajectoryConfig config;
+  TrajectoryConfig config{.radius = 0.3};
   config.start_velocity = {2.0, 0.0, 0.0};
   config.stop_and_go = true;  // straight legs cannot be joined in motion
   const std::vector<Point> away{{3, 6, 2}, {3, 9, 2}};
@@ -69,9 +70,56 @@ TEST(PlanTrajectory, BrakesWhereItCannotFollowAndSaysWhereItCannotStop) {
   EXPECT_TRUE(too_late.trajectory.segments.empty());
 }
 
+/// As a robot does that plans anew at every scan: what it is flying shows that it can be flown.
+TEST(PlanTrajectory, GoesOnFromEveryStateOfItsOwn) {
+  const Point from(2, 4, 2), to(17, 4, 2);
+  for (const double jerk : {std::numeric_limits<double>::infinity(), 20.0})
+    for (const bool stops : {false, true}) {
+      TrajectoryConfig config{.radius = 0.3};
+      config.limits.max_jerk = jerk;
+      config.stop_and_go = stops;
+      const std::vector<Point> path =
+          stops ? std::vector<Point>{from, {9, 3, 2}, to} : std::vector<Point>{from, to};
+      const Trajectory flown = plan_trajectory(esdf(), path, config).trajectory;
+      TrajectoryConfig anew = config;
+      anew.stop_and_go = false;
+      for (double time = 0.05; time <= flown.duration(); time += 0.05) {
+        SCOPED_TRACE(::testing::Message() << time << " s, jerk " << jerk << ", stops " << stops);
+        const TrajectoryState state = flown.at(time);
+        anew.start_velocity = state.velocity;
+        anew.start_acceleration = state.acceleration;
+        const std::vector<Point> rest{state.position, to};
+        const TrajectoryResult result = plan_trajectory(esdf(), rest, anew);
+        expect_flown(result, rest, anew);
+      }
+    }
+}
+
+TEST(PlanTrajectory, StopsFromNextToNoMotion) {
+  const std::vector<Point> here{{17, 4, 2}};
+  for (const double speed : {1e-3, 1e-5, 1e-7, 1e-12, 1e-300}) {
+    SCOPED_TRACE(speed);
+    TrajectoryConfig config{.radius = 0.3};
+    config.start_velocity = {speed, 0.0, 0.0};
+    expect_flown(plan_trajectory(esdf(), here, config), here, config);
+  }
+}
+
+TEST(PlanTrajectory, StopsAndGoesFromAMotionToo) {
+  const std::vector<Point> path{{3, 6, 2}, {7, 6.5, 2}, {8, 12, 1}};
+  TrajectoryConfig config{.radius = 0.3};
+  config.start_velocity = {0.0, 0.5, 0.0};
+  config.stop_and_go = true;
+  const TrajectoryResult result = plan_trajectory(esdf(), path, config);
+  expect_flown(result, path, config);
+  EXPECT_TRUE(result.braked);
+  EXPECT_EQ(result.step, TrajectoryStep::kStopAndGo);
+  EXPECT_EQ(result.optimisations, 0);
+}
+
 TEST(PlanTrajectory, PassesPlacesOnAStraightWayFromAMotionAside) {
   const std::vector<Point> path{{2, 5, 2}, {3.2, 5, 2}, {8, 5, 2}};
-  TrajectoryConfig config;
+  TrajectoryConfig config{.radius = 0.3};
   config.via = {path[1]};
   config.start_velocity = {0.0, 1.5, 0.0};
   const TrajectoryResult result = plan_trajectory(esdf(), path, config);

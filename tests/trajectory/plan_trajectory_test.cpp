@@ -20,7 +20,7 @@ using testing::esdf;
 using testing::expect_flown;
 
 TEST(PlanTrajectory, AStraightPathTakesTheTimeOfItsProfile) {
-  TrajectoryConfig config;
+  TrajectoryConfig config{.radius = 0.3};
   const double v = 2.0, a = 2.0;
   for (const double length : {1e-6, 0.01, 0.3, 1.0, 2.0, 2.5, 3.0, 10.0, 16.0}) {
     SCOPED_TRACE(length);
@@ -38,7 +38,7 @@ TEST(PlanTrajectory, AStraightPathTakesTheTimeOfItsProfile) {
 
 TEST(PlanTrajectory, RoundsAPillarWithoutStopping) {
   const std::vector<Point> path{{5, 10, 2}, {8.7, 8.6, 2}, {11.3, 8.6, 2}, {15, 10, 2}};
-  const TrajectoryConfig config;
+  const TrajectoryConfig config{.radius = 0.3};
   const TrajectoryResult result = plan_trajectory(esdf(), path, config);
   expect_flown(result, path, config);
   EXPECT_EQ(result.stops, 0);
@@ -49,7 +49,7 @@ TEST(PlanTrajectory, RoundsAPillarWithoutStopping) {
 
 TEST(PlanTrajectory, ThePlainSplinePassesTheCornersWithinTheLimits) {
   const std::vector<Point> path{{5, 10, 2}, {8.7, 8.6, 2}, {11.3, 8.6, 2}, {15, 10, 2}};
-  const TrajectoryConfig config;
+  const TrajectoryConfig config{.radius = 0.3};
   const Trajectory spline = plain_spline(path, config);
   EXPECT_TRUE(config.limits.hold(find_peaks(spline)));
   std::vector<double> nearest(path.size(), 1e9);
@@ -64,7 +64,7 @@ TEST(PlanTrajectory, ThePlainSplinePassesTheCornersWithinTheLimits) {
 
 TEST(PlanTrajectory, StopAndGoFollowsThePathExactly) {
   const std::vector<Point> path{{5, 10, 2}, {8.7, 8.6, 2}, {11.3, 8.6, 2}, {15, 10, 2}};
-  TrajectoryConfig config;
+  TrajectoryConfig config{.radius = 0.3};
   config.stop_and_go = true;
   const TrajectoryResult result = plan_trajectory(esdf(), path, config);
   expect_flown(result, path, config);
@@ -85,7 +85,7 @@ TEST(PlanTrajectory, StopAndGoFollowsThePathExactly) {
 
 TEST(PlanTrajectory, PassesADoorOfExactlyTheRobotsWidth) {
   const EsdfMap map = compute_esdf(testing::test_shape("door_of_the_robots_width").map());
-  TrajectoryConfig config;
+  TrajectoryConfig config{.radius = 0.3};
   config.radius = 0.35;  // between 1.2 and 1.9
   const std::vector<Point> path{
       {1.0, 0.8, 0.5}, {2.5, 1.55, 0.5}, {3.6, 1.55, 0.5}, {5.0, 2.2, 0.5}};
@@ -98,7 +98,7 @@ TEST(PlanTrajectory, PassesADoorOfExactlyTheRobotsWidth) {
 TEST(PlanTrajectory, JoinsFourTimesContinuouslyAndStartsAndEndsAtRest) {
   const std::vector<Point> path{{2, 2, 1}, {9, 3, 2}, {14, 8, 3}, {15, 16, 1}};
   for (const bool stop_and_go : {false, true}) {
-    TrajectoryConfig config;
+    TrajectoryConfig config{.radius = 0.3};
     config.stop_and_go = stop_and_go;
     const TrajectoryResult result = plan_trajectory(esdf(), path, config);
     ASSERT_TRUE(result.ok());
@@ -117,7 +117,7 @@ TEST(PlanTrajectory, JoinsFourTimesContinuouslyAndStartsAndEndsAtRest) {
 }
 
 TEST(PlanTrajectory, DegeneratePathsGetATrajectory) {
-  const TrajectoryConfig config;
+  const TrajectoryConfig config{.radius = 0.3};
   const Point a(3, 3, 2), b(6, 3, 2), c(6, 7, 2);
   const std::vector<std::vector<Point>> paths = {
       {a},
@@ -143,7 +143,7 @@ TEST(PlanTrajectory, DegeneratePathsGetATrajectory) {
 
 /// A way out that is shorter than the knots are apart, and back to where it began.
 TEST(PlanTrajectory, ThereAndBackGetsATrajectory) {
-  const TrajectoryConfig config;
+  const TrajectoryConfig config{.radius = 0.3};
   for (const double way : {1e-3, 0.05, 0.2, 0.3, 0.6, 2.0}) {
     SCOPED_TRACE(way);
     const std::vector<Point> path{{2, 5, 2}, {2 + way, 5, 2}, {2, 5, 2}};
@@ -168,7 +168,7 @@ TEST(PlanTrajectory, PassesThePlacesThatItIsToPass) {
   for (const Smoothness smoothness : {Smoothness::kSnap, Smoothness::kJerk})
     for (const double speed : {1.0, 2.0, 5.0}) {
       SCOPED_TRACE(speed);
-      TrajectoryConfig config;
+      TrajectoryConfig config{.radius = 0.3};
       config.smoothness = smoothness;
       config.limits.max_speed = speed;
       const TrajectoryResult rounded = plan_trajectory(esdf(), path, config);
@@ -187,7 +187,7 @@ TEST(PlanTrajectory, PassesThePlacesThatItIsToPass) {
 TEST(PlanTrajectory, RefusesToPassWhatIsNoPointOfThePath) {
   const std::vector<Point> path{{2, 5, 2}, {6, 5, 2}, {6, 7, 2}};
   for (const Point& place : {Point(4, 5, 2), Point(6, 5, 2 + 1e-9), Point(0, 0, 9)}) {
-    TrajectoryConfig config;
+    TrajectoryConfig config{.radius = 0.3};
     config.via = {path[1], place};
     try {
       plan_trajectory(esdf(), path, config);
@@ -199,7 +199,7 @@ TEST(PlanTrajectory, RefusesToPassWhatIsNoPointOfThePath) {
 }
 
 TEST(PlanTrajectory, PointsOnAStraightWayAreNoCorners) {
-  TrajectoryConfig config;
+  TrajectoryConfig config{.radius = 0.3};
   const auto seconds = [&](const std::vector<Point>& path) {
     const TrajectoryResult result = plan_trajectory(esdf(), path, config);
     expect_flown(result, path, config);
@@ -225,7 +225,7 @@ TEST(PlanTrajectory, ThousandWaypointsTakeSeconds) {
     dense.emplace_back(2.0 + 0.01 * i, 5.0 + 0.02 * (i % 2), 2.0);
   }
   for (const auto& path : {spiral, dense}) {
-    const TrajectoryConfig config;
+    const TrajectoryConfig config{.radius = 0.3};
     const TrajectoryResult result = plan_trajectory(esdf(), path, config);
     expect_flown(result, path, config);
     EXPECT_LT(result.duration, 0.5 * result.stop_and_go_duration);
@@ -236,7 +236,7 @@ TEST(PlanTrajectory, RefusesBadInputByName) {
   const std::vector<Point> path{{3, 3, 2}, {6, 3, 2}};
   const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
   const auto refused = [&](const std::string& field, auto&& change) {
-    TrajectoryConfig config;
+    TrajectoryConfig config{.radius = 0.3};
     change(config);
     try {
       plan_trajectory(esdf(), path, config);
@@ -258,17 +258,18 @@ TEST(PlanTrajectory, RefusesBadInputByName) {
   refused("start_acceleration", [&](auto& c) { c.start_acceleration.x() = 2.1; });
   refused("start_yaw", [&](auto& c) { c.start_yaw = nan; });
   refused("most_evaluations", [&](auto& c) { c.most_evaluations = 0; });
-  EXPECT_THROW(plan_trajectory(esdf(), {}, {}), InputError);
-  EXPECT_THROW(plan_trajectory(esdf(), std::vector<Point>{{1, nan, 1}}, {}), InputError);
+  EXPECT_THROW(plan_trajectory(esdf(), {}, {.radius = 0.3}), InputError);
+  EXPECT_THROW(plan_trajectory(esdf(), std::vector<Point>{{1, nan, 1}}, {.radius = 0.3}),
+               InputError);
 }
 
 TEST(PlanTrajectory, KnowsHallsLargerThanMaxDistance) {
   const EsdfMap near = compute_esdf(testing::pillar_room(), {.max_distance = 0.8});
   const std::vector<Point> path{{3, 3, 2}, {16, 4, 2}, {16, 16, 2}};
-  const TrajectoryResult result = plan_trajectory(near, path, {});
-  expect_flown(result, path, {});
+  const TrajectoryResult result = plan_trajectory(near, path, {.radius = 0.3});
+  expect_flown(result, path, {.radius = 0.3});
   EXPECT_EQ(result.step, TrajectoryStep::kSmooth);
-  TrajectoryConfig config;
+  TrajectoryConfig config{.radius = 0.3};
   config.radius = 0.7;
   EXPECT_THROW(plan_trajectory(near, path, config), InputError);
 }
@@ -278,7 +279,7 @@ TEST(PlanTrajectory, SaysWhenThePathIsNotFree) {
                                          {{5, 10, 2}, {50, 10, 2}},
                                          {{10, 10, 2}},
                                          {{5, 10, 2}, {1e300, 10, 2}}}) {
-    const TrajectoryResult result = plan_trajectory(esdf(), path, {});
+    const TrajectoryResult result = plan_trajectory(esdf(), path, {.radius = 0.3});
     EXPECT_EQ(name_of(result.status), "path_not_free");
     EXPECT_TRUE(result.trajectory.segments.empty());
   }
@@ -291,12 +292,12 @@ TEST(PlanTrajectory, StatusesAndStepsMadeByACastHaveNoName) {
 
 TEST(PlanTrajectory, IsTheSameFromManyThreads) {
   const std::vector<Point> path{{5, 10, 2}, {8.7, 8.6, 2}, {11.3, 8.6, 2}, {15, 10, 2}};
-  const TrajectoryResult alone = plan_trajectory(esdf(), path, {});
+  const TrajectoryResult alone = plan_trajectory(esdf(), path, {.radius = 0.3});
   std::vector<TrajectoryResult> results(4);
   std::vector<std::thread> threads;
   threads.reserve(results.size());
   for (TrajectoryResult& mine : results)
-    threads.emplace_back([&] { mine = plan_trajectory(esdf(), path, {}); });
+    threads.emplace_back([&] { mine = plan_trajectory(esdf(), path, {.radius = 0.3}); });
   for (std::thread& thread : threads) thread.join();
   for (const TrajectoryResult& result : results) {
     ASSERT_EQ(result.trajectory.segments.size(), alone.trajectory.segments.size());
@@ -332,7 +333,7 @@ TEST(PlanTrajectory, InAPlaneHeightsPlayNoPartAndRobotsHaveNone) {
   });
   plane.planar = true;
   const EsdfMap map = compute_esdf(plane);
-  TrajectoryConfig config;
+  TrajectoryConfig config{.radius = 0.3};
   const std::vector<Point> path = {{1, 1, -5}, {4, 3, 7}};
   const TrajectoryResult flown = plan_trajectory(map, path, config);
   ASSERT_TRUE(flown.ok()) << name_of(flown.status);

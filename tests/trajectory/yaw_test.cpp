@@ -19,7 +19,7 @@ TEST(PlanTrajectory, StopAndGoHoldsTheLimitOfYawWhereAPieceWouldTakeNoTime) {
   for (const double speed : {0.2, 0.5, 1.0, 2.0})
     for (const double acceleration : {0.3, 1.0, 3.0, 10.0})
       for (const double jerk : {0.5, 1.0, 5.0, 20.0}) {
-        TrajectoryConfig config;
+        TrajectoryConfig config{.radius = 0.3};
         config.stop_and_go = true;
         config.limits.max_speed = speed;
         config.limits.max_acceleration = acceleration;
@@ -41,7 +41,7 @@ TEST(PlanTrajectory, YawFollowsTheDirectionOfTravelWithoutJumps) {
     const double angle = 0.1 * i;
     path.emplace_back(10 + 5 * std::cos(angle), 10 + 5 * std::sin(angle), 2.0);
   }
-  TrajectoryConfig config;
+  TrajectoryConfig config{.radius = 0.3};
   const TrajectoryResult result = plan_trajectory(esdf(), path, config);
   expect_flown(result, path, config);
   double before = result.trajectory.at(0.0).yaw, worst = 0.0;
@@ -59,7 +59,7 @@ TEST(PlanTrajectory, YawFollowsTheDirectionOfTravelWithoutJumps) {
   // From stop to stop over a right angle: it has turned a second and a half after the stop, however
   // long the leg.
   const std::vector<Point> corner{{3, 3, 2}, {6, 3, 2}, {6, 17, 2}};
-  TrajectoryConfig stopping;
+  TrajectoryConfig stopping{.radius = 0.3};
   stopping.stop_and_go = true;
   const TrajectoryResult stopped = plan_trajectory(esdf(), corner, stopping);
   expect_flown(stopped, corner, stopping);
@@ -76,7 +76,7 @@ TEST(PlanTrajectory, YawFollowsTheDirectionOfTravelWithoutJumps) {
 TEST(PlanTrajectory, YawWithoutALimitBeginsWhereItIs) {
   const std::vector<Point> path = {{3, 3, 1}, {7, 5, 1}, {7, 9, 1}};
   for (const double rate : {1e3, 1e9, 1e40, HUGE_VAL}) {
-    TrajectoryConfig config;
+    TrajectoryConfig config{.radius = 0.3};
     config.limits.max_yaw_rate = rate;
     config.start_yaw = 2.5;
     const TrajectoryResult flown = plan_trajectory(esdf(), path, config);

@@ -43,6 +43,7 @@ struct BlockedRoute {
 class RouteBlocks {
  public:
   explicit RouteBlocks(const Roadmap& roadmap);  ///< Finds the basins of all free space.
+  explicit RouteBlocks(const Roadmap&&) = delete;
 
   /// Between points of the world, for a sphere of a radius in metres. Nothing where start or goal
   /// have no place at the radius: then plan() says which and why. `limits`: as in PlanConfig.
@@ -58,7 +59,8 @@ class RouteBlocks {
 
 /// The smallest PlanConfig::snap with which there is a path, metres, to a billionth; 0 where there
 /// is one without. Nothing where `farthest`, metres, does not do. `config.snap` does not count.
-/// Takes some plans, more the farther it is. Thread-safe; throws what plan() does.
+/// Takes some plans, more the farther it is. Thread-safe; throws what plan() does, and InputError
+/// where `farthest` is negative or not finite.
 std::optional<double> smallest_snap(const Roadmap& roadmap, const Point& start, const Point& goal,
                                     double farthest, PlanConfig config = {});
 

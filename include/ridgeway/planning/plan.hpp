@@ -77,8 +77,10 @@ struct PlanConfig {
   /// be (PlanResult::within), or the time limit has passed, or all is searched that there is:
   /// seconds, where the bound is far from what is possible. 0: only as long as that mostly pays.
   double within = 0.0;
-  static constexpr double kBestWithin = 1.02;                   ///< as near as pays at any price
-  double time_limit = std::numeric_limits<double>::infinity();  ///< seconds
+  static constexpr double kBestWithin = 1.02;  ///< as near as pays at any price
+  /// Seconds, after which the best path that is known is the answer, or PlanStatus::kTimeout where
+  /// none is.
+  double time_limit = std::numeric_limits<double>::infinity();
   /// What distance from walls is worth: a metre of a path at a distance d from the nearest obstacle
   /// costs 1 + prefer_clearance * (radius / d)^2. At 0 paths are as short as can be; at 1 they keep
   /// some distance where that is cheap; at 10 they follow the middle. The graph's edges count with
@@ -128,6 +130,13 @@ struct Moved {
   Point place = Point::Zero();  ///< world
 };
 
+/// The robot that a path was planned for, and where it may be.
+struct PlannedFor {
+  double radius = 0.0;        ///< metres; 0: not said, as of a path of one's own
+  double robot_height = 0.0;  ///< as in PlanConfig
+  FlightLimits limits = {};   ///< as in PlanConfig
+};
+
 /// A path, or the one reason why there is none.
 struct PlanResult {
   PlanStatus status = PlanStatus::kNoRoute;          ///< kOk, or why there is no path
@@ -138,17 +147,19 @@ struct PlanResult {
   std::vector<Point> waypoints;
   double length = 0.0;  ///< metres
   /// The length is at most so many times that of the shortest path: over a bound that none is
-  /// below, the straight line between start and goal. 1: there is no shorter one.
+  /// below, the straight line between start and goal. 1: there is no shorter one; infinite where
+  /// start and goal are one place and the path leads out of it, as escapes do.
   double within = 1.0;
   /// Smallest distance along the path, without its escapes, to an obstacle, metres: to what is
   /// occupied and, under UnknownPolicy::kObstacle, to what is unknown. How near the path comes to
   /// either of them under any policy: Surroundings (esdf/surroundings.hpp).
   double clearance = 0.0;
-  Escape escape_start;  ///< of the first segment
-  Escape escape_goal;   ///< of the last one
-  Moved moved_start;    ///< by PlanConfig::snap
-  Moved moved_goal;     ///< by PlanConfig::snap
-  PlanSeconds seconds;  ///< what it took
+  Escape escape_start;     ///< of the first segment
+  Escape escape_goal;      ///< of the last one
+  Moved moved_start;       ///< by PlanConfig::snap
+  Moved moved_goal;        ///< by PlanConfig::snap
+  PlanSeconds seconds;     ///< what it took
+  PlannedFor planned_for;  ///< what fly_plan and still_safe go by
 
   /// Whether there is a path.
   bool ok() const { return status == PlanStatus::kOk; }

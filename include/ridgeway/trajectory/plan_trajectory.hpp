@@ -48,8 +48,8 @@ std::string_view name_of(TrajectoryStep step);  ///< The same of a step.
 
 /// The robot, its limits of motion, and how it starts.
 struct TrajectoryConfig {
-  double radius = 0.3;                        ///< of the robot, metres
-  MotionLimits limits;                        ///< of the robot
+  double radius = 0.0;       ///< of the robot, metres; 0: as the path was planned for (fly_plan)
+  MotionLimits limits = {};  ///< of the robot
   Smoothness smoothness = Smoothness::kSnap;  ///< what is made least along the way
   Point start_velocity = Point::Zero();       ///< m/s
   Point start_acceleration = Point::Zero();   ///< m/s^2
@@ -123,7 +123,8 @@ TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> pat
 
 /// The same along a path of plan() with its escapes, each flown straight from rest to rest at the
 /// clearance that it has; `clearance` of the result is without them. From a motion only where the
-/// path begins without one: else InputError.
+/// path begins without one: else InputError. For the robot and the flight limits that the path was
+/// planned for (PlanResult::planned_for), as far as the configuration has none of its own.
 TrajectoryResult fly_plan(const EsdfMap& esdf, const PlanResult& path,
                           const TrajectoryConfig& config);
 
@@ -132,7 +133,14 @@ TrajectoryResult fly_plan(const EsdfMap& esdf, const PlanResult& path,
 /// free. Throws InputError for the same paths and configurations.
 Trajectory plain_spline(std::span<const Point> path, const TrajectoryConfig& config);
 
-/// Here trajectories are in the map's local frame.
+/// Whether the rest of a trajectory (world) from a time on, seconds, is free on a map, as
+/// plan_trajectory verifies it: what is being flown, held against a newer map. `config`: as it was
+/// planned for, with its radius; motion plays no part.
+bool still_safe(const Trajectory& trajectory, const TrajectoryConfig& config, const EsdfMap& now,
+                double from = 0.0);
+
+/// A trajectory of the world in the map's local frame, in which the following take them.
+Trajectory to_local(const EsdfMap& esdf, Trajectory trajectory);
 
 /// Times, seconds from the start, from which on it cannot be shown that a sphere of the radius
 /// fits: the first in each segment that has one. Empty: the robot fits for certain, all along. Each
