@@ -17,8 +17,6 @@
 #include "console.hpp"
 #include "experiments/live_queries.hpp"
 #include "files/atomic_file.hpp"
-#include "files/read_file.hpp"
-#include "files/temporary.hpp"
 #include "formats/build_record.hpp"
 #include "growing_recording.hpp"
 #include "json.hpp"
@@ -90,33 +88,6 @@ struct Run {
         pace(given.realtime) {}
 };
 
-/// Whether two roadmaps have the same file, made beside the output.
-bool have_same_file(const Roadmap& a, const Roadmap& b, const std::string& output) {
-  const Temporary folder(output, Temporary::Kind::kFolder);
-  if (folder.error() != 0)
-    throw InputError(output, "has no room for files beside it", "give another folder");
-  save_roadmap(a, folder.path() / "live.ridge");
-  save_roadmap(b, folder.path() / "batch.ridge");
-  return read_file(folder.path() / "live.ridge") == read_file(folder.path() / "batch.ridge");
-}
-
-/// Builds the map in batch, and notes whether that gives the same roadmap.
-void verify_by_batch(Run& run, const std::string& frame) {
-  const std::shared_ptr<const Roadmap> snapshot = run.live.settled();
-  if (!snapshot) return;
-  const LiveConfig& config = run.options.live;
-  const Stopwatch watch;
-  BuildResult batch = build_roadmap(run.live.map(), config.build);
-  run.replay.batch_seconds.push_back(watch.seconds());
-  batch.roadmap.source = config.source;
-  batch.roadmap.config = config.record;
-  ++run.replay.verified;
-  if (have_same_file(*snapshot, batch.roadmap, run.options.output))
-    ++run.replay.identical;
-  else if (run.replay.first_other.empty())
-    run.replay.first_other = frame;
-}
-
 /// Where a sensor is that looks along an axis of its own.
 LiveScene scene_at(const Eigen::Isometry3d& T_world_sensor, const Eigen::Vector3d& looks_along) {
   const Eigen::Vector3d towards = T_world_sensor.linear() * looks_along;
@@ -143,7 +114,7 @@ void replay_frame(Run& run, const std::filesystem::path& frame, std::size_t scan
   scene.seconds = replay.watch.seconds();
   run.followed.show(std::move(scene));
   if (run.options.verify > 0 && done % static_cast<std::size_t>(run.options.verify) == 0)
-    verify_by_batch(run, frame.string());
+    verify_by_batch(run.live, run.options.live, run.options.output, frame.string(), run.replay);
 }
 
 double share_of(std::size_t done, std::size_t all) {

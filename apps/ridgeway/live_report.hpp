@@ -27,6 +27,11 @@ struct LiveReplay {
   Stopwatch watch;
 };
 
+/// Builds the map in batch, and notes whether that gives the same roadmap: the same file, both made
+/// beside the output; or none, where the live one has none.
+void verify_by_batch(LiveRoadmap& live, const LiveConfig& config, const std::string& output,
+                     const std::string& frame, LiveReplay& replay);
+
 /// A row a scan; milliseconds.
 std::string csv_of(const LiveReplay& replay);
 

@@ -124,6 +124,7 @@ class ExplorationRun {
     explorer.kept_clearance = config_.radius + 0.5 * (config_.clearance() - config_.radius);
     if (config_.come_back) explorer.home = config_.start;
     explorer.until = config_.budget;
+    explorer.period = 1.0 / config_.scan_rate;
     explorer.strategy = config_.planner == ExplorationPlanner::kFrontier
                             ? ExplorationStrategy::kNearest
                             : ExplorationStrategy::kTour;

@@ -8,11 +8,11 @@
 
 #include "common/clock.hpp"
 #include "exploration/legs.hpp"
-#include "exploration/shaped_trajectory.hpp"
 #include "planning/escape.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/mapping/occupancy_map.hpp"
 #include "ridgeway/trajectory/plan_trajectory.hpp"
+#include "trajectory/shaped_trajectory.hpp"
 
 namespace ridgeway {
 namespace {

@@ -11,12 +11,12 @@
 #include "common/clock.hpp"
 #include "exploration/legs.hpp"
 #include "exploration/ray_walk.hpp"
-#include "exploration/shaped_trajectory.hpp"
 #include "exploration/views.hpp"
 #include "exploration/ways.hpp"
 #include "planning/endpoint.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
+#include "trajectory/shaped_trajectory.hpp"
 
 namespace ridgeway {
 namespace {

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/clock.hpp"
+#include "common/number_text.hpp"
 #include "explorer_state.hpp"
 #include "legs.hpp"
 #include "planning/endpoint.hpp"
@@ -38,7 +40,8 @@ Explorer::State::State(const ExplorerConfig& given)
       frontiers(given.within),
       diagram(given.spacing),
       views(given.view, given.headings, given.within,
-            given.strategy == ExplorationStrategy::kTour ? kDeepest : 0.0) {}
+            given.strategy == ExplorationStrategy::kTour ? kDeepest : 0.0),
+      longest_gap(given.period) {}
 
 Access Explorer::State::access_at(const Point& local) const {
   const FreeSpace space(roadmap->esdf);
@@ -60,7 +63,8 @@ bool Explorer::State::choose(const FlightState& state, bool thorough, Exploratio
   const bool all_looked_at = look_around(here, thorough);
   step.seconds.views += detail::thread_seconds_now() - began;
   began = detail::thread_seconds_now();
-  const detail::WaysFrom ways(*roadmap, here, access_at(here));
+  const Access access = access_at(here);
+  const detail::WaysFrom ways(*roadmap, here, access);
   const double least_gain = thorough ? 0.0 : 0.5 * static_cast<double>(config.least_frontier);
   std::vector<TourStop> stops = cover(ways, least_gain);
   const bool can_see = !stops.empty();
@@ -68,14 +72,11 @@ bool Explorer::State::choose(const FlightState& state, bool thorough, Exploratio
     is_searching = true;
     return true;
   }
-  if (std::isfinite(config.until))
-    std::erase_if(stops, [&](const TourStop& stop) {
-      const double looking = seconds_from_robot(stop, state) + config.persistence + 2.0;
-      return state.time + looking + seconds_home(places[stop.stop.place].position, stop.access) >
-             config.until;
-    });
+  if (thorough && !can_see) leads_nowhere = step.frontiers > 0 && !may_go_anywhere(ways, access);
+  if (std::isfinite(config.until)) keep_in_time(stops, state);
   if (can_see && stops.empty()) {
     is_out_of_time = true;
+    step.seconds.tour += detail::thread_seconds_now() - began;
     return true;
   }
   keep_best(stops, state);
@@ -94,6 +95,16 @@ bool Explorer::State::choose(const FlightState& state, bool thorough, Exploratio
   }
   const bool flies = fly_tour(stops, tour, state, step);
   return flies || (can_see && (is_searching || state.velocity.norm() >= 1e-9));
+}
+
+/// Whether the robot has a way to any place, and to what sees a frontier a trajectory: where not,
+/// that nothing is to be seen says nothing.
+bool Explorer::State::may_go_anywhere(const detail::WaysFrom& ways, const Access& access) {
+  if (access.vertex == kNoVertex) return false;
+  const std::vector<std::uint64_t> without_trajectory = std::exchange(refused, {});
+  const bool would_see = !without_trajectory.empty() && !cover(ways, 0.0).empty();
+  refused = without_trajectory;
+  return !would_see;
 }
 
 /// To the first stop that a trajectory leads to, on to the next where the first can be passed. Only
@@ -176,13 +187,17 @@ void Explorer::State::go_on(const FlightState& state, bool arrived, ExplorationS
     const bool sees_after_all = choose(state, true, step);
     if (!is_searching) thorough_looks = 0;
     if (!sees_after_all) {
-      has_seen_all = !is_out_of_time;
+      has_seen_all = !is_out_of_time && !leads_nowhere;
       goal.reset();
       go_home(state, arrived, step);
       return;
     }
   }
-  if (is_out_of_time) go_home(state, arrived, step);
+  if (is_searching && !leaves_time_for_home(state, {}, step)) is_out_of_time = true;
+  if (is_out_of_time) {
+    is_searching = false;
+    go_home(state, arrived, step);
+  }
   if (step.status == ExplorationStatus::kKeep && arrived && !is_searching)
     step.status = ExplorationStatus::kStuck;
 }
@@ -203,6 +218,7 @@ ExplorationStep Explorer::State::decide(std::shared_ptr<const Roadmap> now,
   if (arrived) state.velocity = state.acceleration = Point::Zero();  // but for rounding
   const double began = detail::thread_seconds_now();
   ExplorationStep step;
+  if (std::isfinite(asked_last)) longest_gap = std::max(longest_gap, given.time - asked_last);
   asked_last = given.time;
   if (roadmap && roadmap->esdf.origin != now->esdf.origin)
     follow_origin(roadmap->esdf.origin - now->esdf.origin);
@@ -219,7 +235,8 @@ ExplorationStep Explorer::State::decide(std::shared_ptr<const Roadmap> now,
   step.seconds.frontiers = detail::thread_seconds_now() - began;
   step.was_in_doubt = !arrived && is_in_doubt(state);
   go_on(state, arrived, step);
-  if (step.status == ExplorationStatus::kFly && !leaves_time_for_home(state, step.trajectory)) {
+  if (step.status == ExplorationStatus::kFly &&
+      !leaves_time_for_home(state, step.trajectory, step)) {
     step.status = ExplorationStatus::kKeep;
     step.trajectory = {};
     step.goal.reset();
@@ -250,6 +267,10 @@ ExplorationStep Explorer::decide(std::shared_ptr<const Roadmap> now, const Fligh
     throw InputError("roadmap", "does not take unknown space for an obstacle",
                      "build it with that policy");
   require_state(state);
+  if (state_->config.kept_clearance > now->min_clearance)
+    throw InputError("kept_clearance",
+                     "is more than the roadmap's min_clearance, which trajectories keep",
+                     "give at most " + number_text(now->min_clearance));
   if (state.time < state_->asked_last)
     throw InputError("time", "is before that of the last decision", "give seconds of one clock");
   return state_->decide(std::move(now), state);

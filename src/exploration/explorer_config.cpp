@@ -62,6 +62,7 @@ void ExplorerConfig::validate() const {
   detail::require(most_looks >= 1, "most_looks", most_looks, "give 1 or more");
   detail::require(!home || home->allFinite(), "home", 0, "give three finite coordinates");
   detail::require(until > 0.0, "until", until, "give seconds above 0");
+  detail::require(period >= 0.0 && std::isfinite(period), "period", period, "give seconds from 0");
   if (std::isfinite(until) && !home)
     throw InputError("until", "is given without a home", "give a place to be then");
 }

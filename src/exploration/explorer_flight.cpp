@@ -10,7 +10,7 @@
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/trajectory/plan_trajectory.hpp"
-#include "shaped_trajectory.hpp"
+#include "trajectory/shaped_trajectory.hpp"
 
 namespace ridgeway {
 
@@ -25,16 +25,26 @@ bool Explorer::State::fly_to(const Point& goal_local, double yaw, const FlightSt
   return flown.has_value();
 }
 
-/// Whether the robot is home in time if it flies a trajectory to its end and then, from rest, home:
-/// by a trajectory in the map as it is. No other flight is begun, so that there is always one.
-bool Explorer::State::leaves_time_for_home(const FlightState& state,
-                                           const Trajectory& trajectory) const {
+/// Whether the robot is home in time if it flies a trajectory to its end (or stays, where it is
+/// empty) and then, with the decision that comes next, from rest, home: by a trajectory in the map
+/// as it is. No other flight is begun, so that there is always one.
+bool Explorer::State::leaves_time_for_home(const FlightState& state, const Trajectory& trajectory,
+                                           ExplorationStep& step) const {
   if (!std::isfinite(config.until)) return true;
-  const TrajectoryState end = trajectory.at(trajectory.duration());
-  const FlightState rest = {
-      .time = state.time + trajectory.duration(), .position = end.position, .yaw = end.yaw};
-  const auto back = detail::fly_to_rest(*roadmap, config.limits, {*config.home, end.yaw}, rest);
-  return back && rest.time + back->duration() <= config.until;
+  FlightState rest = {.time = state.time, .position = state.position, .yaw = state.yaw};
+  if (!trajectory.segments.empty()) {
+    const TrajectoryState end = trajectory.at(trajectory.duration());
+    rest = {.time = state.time + end.time, .position = end.position, .yaw = end.yaw};
+  }
+  const double began = detail::thread_seconds_now(), left = config.until - rest.time - longest_gap;
+  bool is_in_time =
+      detail::most_seconds_to_rest(*roadmap, config.limits, rest.position, *config.home) <= left;
+  if (!is_in_time) {
+    const auto back = detail::fly_to_rest(*roadmap, config.limits, {*config.home, rest.yaw}, rest);
+    is_in_time = back && back->duration() <= left;
+  }
+  step.seconds.trajectory += detail::thread_seconds_now() - began;
+  return is_in_time;
 }
 
 /// What has to be kept from obstacles, metres.
@@ -108,7 +118,9 @@ bool Explorer::State::brake(const FlightState& state, ExplorationStep& step) con
 void Explorer::State::go_home(const FlightState& state, bool arrived, ExplorationStep& step) {
   const bool is_there = !config.home || (arrived && (state.position - *config.home).norm() < 1e-3);
   if (is_there) {
-    step.status = is_out_of_time ? ExplorationStatus::kOutOfTime : ExplorationStatus::kComplete;
+    step.status = is_out_of_time  ? ExplorationStatus::kOutOfTime
+                  : leads_nowhere ? ExplorationStatus::kStuck
+                                  : ExplorationStatus::kComplete;
     return;
   }
   if (is_returning && !arrived && !step.was_in_doubt) return;  // on the way

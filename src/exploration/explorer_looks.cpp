@@ -8,7 +8,7 @@
 #include "glances.hpp"
 #include "ray_walk.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "shaped_trajectory.hpp"
+#include "trajectory/shaped_trajectory.hpp"
 
 namespace ridgeway {
 

@@ -57,12 +57,15 @@ struct Explorer::State {
   double room_at_first = 0.0;  ///< metres from obstacles where it began, as that was known
   double out_after = 0.0;      ///< seconds after which it has left a place where it did not fit
   double asked_last = -std::numeric_limits<double>::infinity();
+  double longest_gap;  ///< between two decisions, as far as is known
   double last_tour = -std::numeric_limits<double>::infinity();
   /// At rest, and not done yet with what was begun: it goes on with the next scan.
   bool is_searching = false;
   int thorough_looks = 0;  ///< in a row, so far: at all there is, from everywhere
   bool is_returning = false;
   bool is_out_of_time = false;
+  /// The thorough look sees nothing, as the robot has no way to where something would be seen.
+  bool leads_nowhere = false;
   bool has_seen_all = false;  ///< no viewpoint sees anything, by the thorough look
 
  private:
@@ -80,17 +83,19 @@ struct Explorer::State {
   void refine_first(std::vector<TourStop>& stops, const std::vector<std::size_t>& tour,
                     const FlightState& state, const detail::WaysFrom& ways) const;
   double seconds_from_robot(const TourStop& stop, const FlightState& state) const;
-  double seconds_home(const Point& from_local, const detail::Access& access) const;
+  void keep_in_time(std::vector<TourStop>& stops, const FlightState& state) const;
   bool fly_to(const Point& goal_local, double yaw, const FlightState& state,
               ExplorationStep& step) const;
   void go_home(const FlightState& state, bool arrived, ExplorationStep& step);
-  bool leaves_time_for_home(const FlightState& state, const Trajectory& trajectory) const;
+  bool leaves_time_for_home(const FlightState& state, const Trajectory& trajectory,
+                            ExplorationStep& step) const;
   double kept_clearance() const;
   void take_off(Trajectory trajectory, double time);
   bool is_in_doubt(const FlightState& state) const;
   bool brake(const FlightState& state, ExplorationStep& step) const;
   Point ahead(double seconds, double length) const;
   void go_on(const FlightState& state, bool arrived, ExplorationStep& step);
+  bool may_go_anywhere(const detail::WaysFrom& ways, const detail::Access& access);
   bool choose(const FlightState& state, bool thorough, ExplorationStep& step);
   bool fly_tour(const std::vector<TourStop>& stops, const std::vector<std::size_t>& tour,
                 const FlightState& state, ExplorationStep& step);

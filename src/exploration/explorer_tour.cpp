@@ -9,7 +9,7 @@
 #include "explorer_state.hpp"
 #include "legs.hpp"
 #include "ridgeway/common/parallel.hpp"
-#include "shaped_trajectory.hpp"
+#include "trajectory/shaped_trajectory.hpp"
 
 namespace ridgeway {
 namespace {
@@ -48,13 +48,18 @@ double Explorer::State::seconds_from_robot(const TourStop& stop, const FlightSta
   return std::max(seconds, 0.0);
 }
 
-/// More than it takes: as if the robot stopped every three metres.
-double Explorer::State::seconds_home(const Point& from_local, const Access& access) const {
-  if (!config.home) return 0.0;
+/// Leaves the stops from which the robot is home in time, reckoned to take more than it does: as if
+/// it stopped every three metres.
+void Explorer::State::keep_in_time(std::vector<TourStop>& stops, const FlightState& state) const {
   const Point home = to_local(roadmap->esdf, *config.home);
-  const double length = detail::WaysFrom(*roadmap, home, access_at(home)).to(from_local, access);
+  const detail::WaysFrom from_home(*roadmap, home, access_at(home));
   const double v = config.limits.max_speed, a = config.limits.max_acceleration;
-  return 1.1 * (length / v + v / a * (1.0 + length / 3.0));
+  std::erase_if(stops, [&](const TourStop& stop) {
+    const double length = from_home.to(places[stop.stop.place].position, stop.access);
+    const double back = 1.1 * (length / v + v / a * (1.0 + length / 3.0));
+    const double looking = seconds_from_robot(stop, state) + config.persistence + 2.0;
+    return state.time + looking + back > config.until;
+  });
 }
 
 /// Stops that see all that can be seen, by what each adds; those out of reach are left out.

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "shaped_trajectory.hpp"
+#include "trajectory/shaped_trajectory.hpp"
 
 namespace ridgeway::detail {
 namespace {

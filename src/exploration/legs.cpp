@@ -8,7 +8,8 @@
 
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/trajectory/plan_trajectory.hpp"
-#include "shaped_trajectory.hpp"
+#include "trajectory/shaped_trajectory.hpp"
+#include "trajectory/straight_motion.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -73,6 +74,20 @@ double seconds_of_leg(const MotionLimits& limits, double length, double turn) {
   const double way = std::min(length, kFarthest);
   const double flight = way < v * v / a ? 2.0 * std::sqrt(way / a) : way / v + v / a;
   return std::max(flight, std::abs(turn) / limits.max_yaw_rate);
+}
+
+double most_seconds_to_rest(const Roadmap& roadmap, const MotionLimits& limits, const Point& from,
+                            const Point& to) {
+  if ((to - from).norm() < 1e-9) return 0.0;
+  const PlanResult path =
+      plan(roadmap, from, to, {.radius = roadmap.min_clearance, .quick = true, .escape = true});
+  if (!path.ok()) return std::numeric_limits<double>::infinity();
+  double seconds = 0.0;
+  for (std::size_t i = 1; i < path.waypoints.size(); ++i)
+    for (const TrajectorySegment& piece :
+         straight_motion(path.waypoints[i - 1], path.waypoints[i], limits))
+      seconds += piece.duration;
+  return seconds;
 }
 
 std::optional<Trajectory> fly_to_rest(const Roadmap& roadmap, const MotionLimits& limits,

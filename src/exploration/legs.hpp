@@ -18,6 +18,11 @@ double seconds_of_leg(const MotionLimits& limits, double length, double turn);
 std::optional<Trajectory> fly_to_rest(const Roadmap& roadmap, const MotionLimits& limits,
                                       const Viewpoint& stop, const FlightState& state);
 
+/// What fly_to_rest takes at most from rest to a place (world) with the same yaw, seconds, known
+/// without the trajectory: none lasts longer than stop and go. Infinite where there is no path.
+double most_seconds_to_rest(const Roadmap& roadmap, const MotionLimits& limits, const Point& from,
+                            const Point& to);
+
 /// A trajectory past a stop, without a halt there.
 struct Passing {
   Trajectory trajectory;

@@ -100,7 +100,8 @@ std::vector<UnseenFrontier> Explorer::unseen() const {
     for (const std::size_t i : cluster.parts)
       for (const VoxelIndex& target : frontiers.parts()[i].targets) {
         ++targets;
-        looked_at += state.looks.contains(target) ? 1 : 0;
+        const auto looks = state.looks.find(target);
+        looked_at += looks != state.looks.end() && looks->second >= state.config.most_looks ? 1 : 0;
       }
     if (2 * looked_at > targets) {
       found.reason = UnseenReason::kLookedInVain;

@@ -231,6 +231,10 @@ bool Views::update(const Roadmap& roadmap, const Frontiers& frontiers, std::size
   const std::span<const FrontierPart> parts = frontiers.parts();
   std::vector<Waiting> waiting = follow_parts(roadmap, frontiers, least, near, thorough, changed);
   std::erase_if(of_part_, [&](const auto& entry) { return entry.second.live != updates_; });
+  std::erase_if(banned_, [&](const auto& entry) {  // parts that have changed since
+    const auto now = of_part_.find(entry.first.first);
+    return now != of_part_.end() && now->second.version != entry.first.second;
+  });
   std::size_t of_late = most_rays / 3, of_near = most_rays - of_late;
   serve(roadmap, parts, waiting, of_near);
   std::vector<Waiting> late = waiting;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <unordered_set>
 
 namespace ridgeway::detail {
@@ -32,59 +33,89 @@ bool LiveWindow::is_near(const BlockIndex& block, const Point& sensor) const {
   return (centre - sensor).cwiseAbs().maxCoeff() <= reach_;
 }
 
+/// Takes what waits near the sensor: row by row of blocks, or all of them where rows are more.
+void LiveWindow::take_waiting_near(const Point& sensor, std::vector<VoxelChange>& near) {
+  const auto take_from = [&](ByBlock::const_iterator block, const auto& is_beyond) {
+    for (; block != waiting_.end() && !is_beyond(block->first); ++block)
+      if (is_near(block->first, sensor)) take(*block, near);
+  };
+  const double side = kBlockSide * voxel_size_;
+  const Point low = (sensor - Point::Constant(reach_)) / side - Point::Ones(),
+              high = (sensor + Point::Constant(reach_)) / side + Point::Ones();
+  const double rows = (high.y() - low.y() + 1.0) * (high.z() - low.z() + 1.0);
+  if (!(rows < static_cast<double>(waiting_.size())))
+    return take_from(waiting_.begin(), [](const BlockIndex&) { return false; });
+  const auto whole = [](double value) { return static_cast<int>(std::floor(value)); };
+  for (int z = whole(low.z()); z <= whole(high.z()); ++z)
+    for (int y = whole(low.y()); y <= whole(high.y()); ++y)
+      take_from(waiting_.lower_bound({whole(low.x()), y, z}), [&](const BlockIndex& block) {
+        return block > BlockIndex{whole(high.x()), y, z};
+      });
+}
+
+void LiveWindow::take(const ByBlock::value_type& waiting, std::vector<VoxelChange>& all) {
+  all.insert(all.end(), waiting.second.begin(), waiting.second.end());
+  taken_.push_back(waiting.first);
+}
+
 std::vector<VoxelChange> LiveWindow::take_near(std::span<const VoxelChange> changes,
                                                const Point& sensor) {
+  begin();
   std::vector<VoxelChange> near;
-  next_ = {};
-  for (const auto& [block, waiting] : waiting_) {
-    if (is_near(block, sensor))
-      near.insert(near.end(), waiting.begin(), waiting.end());
-    else
-      next_.emplace(block, waiting);
-  }
-  if (std::isinf(reach_)) {
-    near.insert(near.end(), changes.begin(), changes.end());
-    return near;
-  }
+  take_waiting_near(sensor, near);
   for (const VoxelChange& change : changes) {
     const BlockIndex block = block_of(change.voxel);
-    if (is_near(block, sensor))
+    if (std::isinf(reach_) || is_near(block, sensor)) {
       near.push_back(change);
-    else
-      next_[block].push_back(change);
+      continue;
+    }
+    const auto [next, is_first] = next_.try_emplace(block);
+    if (const auto waiting = waiting_.find(block); is_first && waiting != waiting_.end())
+      next->second = waiting->second;
+    next->second.push_back(change);
   }
+  for (auto& [block, next] : next_)
+    if (next.size() > kBlockVoxels) next = last_of_each(next);
   return near;
 }
 
 std::vector<VoxelChange> LiveWindow::take_with(std::span<const VoxelChange> changes) {
+  begin();
   std::vector<VoxelChange> all;
-  next_ = waiting_;
-  for (const VoxelChange& change : changes)
-    if (const auto waiting = next_.find(block_of(change.voxel)); waiting != next_.end()) {
-      all.insert(all.end(), waiting->second.begin(), waiting->second.end());
-      next_.erase(waiting);
-    }
+  std::set<BlockIndex> blocks;
+  for (const VoxelChange& change : changes) blocks.insert(block_of(change.voxel));
+  for (const BlockIndex& block : blocks)
+    if (const auto waiting = waiting_.find(block); waiting != waiting_.end()) take(*waiting, all);
   all.insert(all.end(), changes.begin(), changes.end());
   return last_of_each(all);
 }
 
 std::vector<VoxelChange> LiveWindow::take_all() {
+  begin();
   std::vector<VoxelChange> all;
-  for (const auto& [block, waiting] : waiting_)
-    all.insert(all.end(), waiting.begin(), waiting.end());
-  next_ = {};
+  for (const auto& waiting : waiting_) take(waiting, all);
   return last_of_each(all);
 }
 
-void LiveWindow::keep() noexcept {
-  waiting_.swap(next_);
+void LiveWindow::begin() {
+  taken_.clear();
   next_.clear();
 }
 
-std::size_t LiveWindow::size() const {
-  std::size_t count = 0;
-  for (const auto& [block, waiting] : waiting_) count += waiting.size();
-  return count;
+void LiveWindow::keep() noexcept {
+  const auto erase = [&](const BlockIndex& block) {
+    const auto waiting = waiting_.find(block);
+    if (waiting == waiting_.end()) return;
+    size_ -= waiting->second.size();
+    waiting_.erase(waiting);
+  };
+  for (const BlockIndex& block : taken_) erase(block);
+  for (const auto& [block, next] : next_) {
+    erase(block);
+    size_ += next.size();
+  }
+  waiting_.merge(next_);
+  taken_.clear();
 }
 
 }  // namespace ridgeway::detail

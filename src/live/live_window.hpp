@@ -10,7 +10,8 @@
 
 namespace ridgeway::detail {
 
-/// Changes that wait until the sensor comes near them.
+/// Changes that wait until the sensor comes near them. What an update costs follows the blocks that
+/// it changes, however much waits elsewhere, and of a block no more waits than it has voxels.
 class LiveWindow {
  public:
   /// `reach`: metres along each axis.
@@ -26,15 +27,22 @@ class LiveWindow {
   /// What was taken last counts from now on.
   void keep() noexcept;
   /// Number of changes that wait.
-  std::size_t size() const;
+  std::size_t size() const { return size_; }
 
  private:
   using ByBlock = std::map<BlockIndex, std::vector<VoxelChange>>;  // of the lattice
 
   bool is_near(const BlockIndex& block, const Point& sensor) const;
+  void take_waiting_near(const Point& sensor, std::vector<VoxelChange>& near);
+  void take(const ByBlock::value_type& waiting, std::vector<VoxelChange>& all);
+  void begin();
 
   const double reach_, voxel_size_;
-  ByBlock waiting_, next_;
+  ByBlock waiting_;
+  std::size_t size_ = 0;  // changes in it
+  // What keep() makes of it: blocks that nothing waits for any more, and what waits for others.
+  std::vector<BlockIndex> taken_;
+  ByBlock next_;
 };
 
 }  // namespace ridgeway::detail

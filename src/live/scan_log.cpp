@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "scan_log.hpp"
 
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <new>
@@ -33,12 +34,19 @@ ScanLog::ScanLog(fs::path folder, std::uint64_t most_bytes)
   if (!is_empty)
     throw InputError(folder_.string(), "is no folder that scans can be kept in",
                      "give one that is new or empty, on a disk with room");
+  // Two logs may both have found it empty.
+  std::FILE* lock = std::fopen(lock_file().c_str(), "wx");
+  if (lock == nullptr)
+    throw InputError(folder_.string(), "is another roadmap's, or cannot be written to",
+                     "give each its own");
+  std::fclose(lock);
 }
 
 ScanLog::~ScanLog() {
   for (std::size_t scan = first_; scan <= size(); ++scan)
     remove(scan);  // one may be left of a drop
   std::error_code error;
+  fs::remove(lock_file(), error);
   if (made_folder_) fs::remove(folder_, error);
 }
 

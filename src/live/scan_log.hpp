@@ -42,6 +42,7 @@ class ScanLog {
 
  private:
   std::filesystem::path file_of(std::size_t scan) const;
+  std::filesystem::path lock_file() const { return folder_ / "in-use"; }
   void write(std::size_t scan, const std::string& bytes);
   bool remove(std::size_t scan) const noexcept;
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "files/read_file.hpp"
@@ -240,6 +241,25 @@ TEST(Exploration, IsBackWhenTheBudgetEnds) {
       EXPECT_NE(frontier.reason, UnseenReason::kTooNarrow);
     }
   }
+}
+
+/// The flight home begins with a decision, which may come late.
+TEST(Exploration, IsBackInTimeHoweverSeldomItDecides) {
+  for (const double rate : {0.1, 0.3, 1.0})
+    for (const double budget : {20.0, 30.0}) {
+      SCOPED_TRACE(::testing::Message() << rate << " Hz, " << budget << " s");
+      ExplorationFlightConfig config = quick_config();
+      config.scan_rate = rate;
+      config.budget = budget;
+      const ExplorationFlight flight = explore(two_rooms(1.4), config);
+      const auto is_home = [&](const ExplorationSample& sample) {
+        return (sample.state.position - config.start).norm() < 1e-6;
+      };
+      // Of samples that are seconds apart the first at home from which on it stays there.
+      const auto away = std::find_if_not(flight.samples.rbegin(), flight.samples.rend(), is_home);
+      EXPECT_TRUE(is_home(flight.samples.back()));
+      if (away != flight.samples.rend()) EXPECT_LT(away->state.time, budget);
+    }
 }
 
 TEST(Exploration, BaselinesFlySafely) {

@@ -224,5 +224,44 @@ TEST(Explorer, AnyNumberOfRaysIsTaken) {
             ExplorationStatus::kComplete);
 }
 
+/// What cannot be gone to says nothing about what could be seen.
+TEST(Explorer, IsStuckNotDoneWhereItHasNoWayToAnywhere) {
+  for (const bool has_home : {false, true}) {
+    LiveRoadmap live = live_for_explorers();
+    std::vector<VoxelChange> panels = room_behind_a_wall();
+    for (int z = 0; z < 15; ++z)  // 0.4 m to both sides of it
+      for (int x = 0; x < 26; ++x)
+        for (const int y : {12, 13, 17, 18}) panels.push_back({{x, y, z}, VoxelState::kOccupied});
+    live.set_voxels(panels);
+    ExplorerConfig config;
+    FlightState state{.position = {2.1, 3.1, 1.5}};
+    if (has_home) config.home = state.position;
+    Explorer explorer(config);
+    ExplorationStep step;
+    for (; state.time < 20.0; state.time += 0.25) {
+      step = explorer.decide(live.snapshot(), state);
+      if (step.status != ExplorationStatus::kKeep) break;
+    }
+    EXPECT_EQ(step.status, ExplorationStatus::kStuck) << name_of(step.status);
+    EXPECT_GT(step.frontiers, 0u);
+    for (const UnseenFrontier& left : explorer.unseen())
+      EXPECT_EQ(left.reason, UnseenReason::kNotVisited) << name_of(left.reason);
+  }
+}
+
+TEST(Explorer, RefusesToKeepMoreThanTrajectoriesDo) {
+  LiveRoadmap live = live_for_explorers();
+  live.set_voxels(room_behind_a_wall());
+  ExplorerConfig config;
+  config.kept_clearance = 0.6;
+  Explorer explorer(config);
+  EXPECT_THROW(explorer.decide(live.snapshot(), {.position = {3.1, 3.1, 1.5}}), InputError);
+  config.kept_clearance = 0.5;
+  Explorer other(config);
+  EXPECT_NO_THROW(other.decide(live.snapshot(), {.position = {3.1, 3.1, 1.5}}));
+  config.period = -1.0;
+  EXPECT_THROW(Explorer{config}, InputError);
+}
+
 }  // namespace
 }  // namespace ridgeway

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "exploration/shaped_trajectory.hpp"
 #include "ridgeway/live/live_roadmap.hpp"
+#include "trajectory/shaped_trajectory.hpp"
 
 namespace ridgeway {
 namespace {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "exploration/ray_walk.hpp"
@@ -16,13 +17,15 @@ namespace {
 
 constexpr double kLegsVoxel = 0.2;
 
-/// A free room of 12 x 6 x 3 m, half of it unknown where that is asked for.
-Roadmap room(bool half_unknown = false) {
+/// A free room of 12 x 6 x 3 m, half of it unknown, or with a wall across most of it, where that is
+/// asked for.
+Roadmap room(bool half_unknown = false, bool is_divided = false) {
   OccupancyBuilder voxels(kLegsVoxel);
   for (int z = -1; z <= 15; ++z)
     for (int y = -1; y <= 30; ++y)
       for (int x = -1; x <= 60; ++x) {
-        const bool is_wall = x < 0 || x == 60 || y < 0 || y == 30 || z < 0 || z == 15;
+        const bool is_wall = x < 0 || x == 60 || y < 0 || y == 30 || z < 0 || z == 15 ||
+                             (is_divided && x == 30 && y < 20);
         if (half_unknown && x >= 30) continue;
         voxels.set({x, y, z}, is_wall ? VoxelState::kOccupied : VoxelState::kFree);
       }
@@ -105,6 +108,18 @@ TEST(RayWalk, UnknownSpaceIsAsDeepAsThereIs) {
   EXPECT_NEAR(detail::depth_behind(roadmap.esdf, within, part, 50.0), 1.0, 1e-9);
   part.normal = {0.1, 0.0, 0.0};  // it faces all sides
   EXPECT_NEAR(detail::depth_behind(roadmap.esdf, within, part, 50.0), 1.0, 1e-9);
+}
+
+TEST(Legs, WhatTheWayToRestTakesAtMostIsKnownWithoutIt) {
+  const Roadmap roadmap = room(false, true);
+  for (const Point& from : {Point(1.1, 1.1, 1.5), Point(3.3, 2.1, 1.1)})
+    for (const Point& to : {Point(9.1, 5.1, 1.5), Point(6.3, 1.3, 1.9), from}) {
+      const auto flown =
+          detail::fly_to_rest(roadmap, kLimits, {to, 0.3}, {.position = from, .yaw = 0.3});
+      const double most = detail::most_seconds_to_rest(roadmap, kLimits, from, to);
+      ASSERT_EQ(flown.has_value(), std::isfinite(most));
+      if (flown) EXPECT_LE(flown->duration(), most + 1e-9);
+    }
 }
 
 }  // namespace

@@ -316,5 +316,13 @@ TEST(LiveRoadmap, OfAWorldThatChangesHasTheBytesOfABatchBuildAndForgets) {
   }
 }
 
+TEST(ScanLog, IsOneRoadmapsAlone) {
+  const TemporaryFolder folder;
+  const LiveConfig config = with_log(folder);
+  LiveRoadmap one(config);
+  EXPECT_THROW(LiveRoadmap{config}, InputError);  // nothing was kept there yet
+  integrate(one, flight_through_house(1)[0]);
+}
+
 }  // namespace
 }  // namespace ridgeway

@@ -55,7 +55,7 @@ enum class ExplorationStrategy : std::uint8_t {
 /// The robot, its sensor, and when a look is worth its way.
 struct ExplorerConfig {
   MotionLimits limits = {.max_speed = 2.0, .max_acceleration = 2.0};  ///< of the robot
-  FieldOfView view;  ///< of its sensor, which looks level along the yaw
+  FieldOfView view = {};  ///< of its sensor, which looks level along the yaw
   /// Voxels of the lattice that are to be explored.
   VoxelRange within = kAllVoxels;
   /// Voxels of a frontier that is worth a look: a smaller one, with all that it is joined to, is
@@ -83,6 +83,9 @@ struct ExplorerConfig {
   std::optional<Point> home;  ///< world: where to be at the end; none: wherever it ends
   /// Seconds, of the same clock as FlightState::time, until which to be home. Needs `home`.
   double until = std::numeric_limits<double>::infinity();
+  /// Seconds from one decision to the next, where they count for `until`; a longer time that has
+  /// passed between two counts from then on.
+  double period = 0.0;
 
   /// Throws InputError naming the bad field.
   void validate() const;
@@ -104,7 +107,7 @@ enum class ExplorationStatus : std::uint8_t {
   kReturn,     ///< as kFly, home: all is seen, or it is time
   kComplete,   ///< at its end (home): no viewpoint sees a frontier
   kOutOfTime,  ///< home, or at rest, though there are frontiers that can be seen
-  kStuck,      ///< no trajectory leads on, as the robot's place is no longer free
+  kStuck,      ///< there are frontiers, and no trajectory leads on: the place is no longer free
 };
 /// "fly", "keep", "return", "complete", "out_of_time", "stuck".
 std::string_view name_of(ExplorationStatus status);
@@ -184,7 +187,7 @@ class Explorer {
   /// robot's radius is its min_clearance. The robot is taken to follow the last trajectory, from
   /// the time on at which that was given; once its end has passed, what was seen there must be in
   /// the map. Throws InputError for a state that is not finite, a time that runs backwards, or a
-  /// roadmap of another policy.
+  /// roadmap of another policy, or whose min_clearance is below kept_clearance.
   ExplorationStep decide(std::shared_ptr<const Roadmap> now, const FlightState& state);
 
   /// The frontiers of at least the least size that are left, what was looked at in vain too, each
