@@ -192,7 +192,7 @@ void print_roadmap(const EsdfMap& esdf, const Json& json) {
   print_row("source", json["source"].get<std::string>());
   print_row("voxel size", text_of(json["voxel_size"].get<double>(), 6) + " m");
   print_row("built for",
-            "a radius of " + text_of(json["min_clearance"].get<double>()) +
+            "a radius of " + text_of(json["min_clearance"].get<double>(), 6) +
                 " m and more; unknown space: " + json["unknown_policy"].get<std::string>());
   if (esdf.planar)
     print_row("planar", "one layer, in which robots stay at a height of " +

@@ -13,6 +13,11 @@
 #include "trajectory/shaped_trajectory.hpp"
 
 namespace ridgeway {
+namespace {
+
+constexpr double kBetweenWaysHome = 1.0;  // seconds
+
+}  // namespace
 
 /// To a stop, and to rest there.
 bool Explorer::State::fly_to(const Point& goal_local, double yaw, const FlightState& state,
@@ -123,16 +128,19 @@ void Explorer::State::go_home(const FlightState& state, bool arrived, Exploratio
                                   : ExplorationStatus::kComplete;
     return;
   }
-  if (is_returning && !arrived && !step.was_in_doubt) return;  // on the way
+  const bool can_wait = !arrived && !step.was_in_doubt;
+  if (is_returning && can_wait) return;  // on the way
+  // From a motion that is tried now and then: where it would be late, it is so at the next scan.
+  const auto go_on_as_before = [&] {  // what is flown now, and from its end home, is in time
+    step.trajectory = {};
+    if (step.status == ExplorationStatus::kFly) goal.reset();  // that trajectory is not flown
+    step.status = ExplorationStatus::kKeep;
+  };
+  if (can_wait && state.time < last_way_home + kBetweenWaysHome) return go_on_as_before();
+  last_way_home = state.time;
   if (fly_to(to_local(roadmap->esdf, *config.home), state.yaw, state, step)) {
     const bool is_late = state.time + step.trajectory.duration() > config.until;
-    // What is flown now, and from its end home, is in time.
-    if (is_late && !arrived && !step.was_in_doubt) {
-      step.trajectory = {};
-      if (step.status == ExplorationStatus::kFly) goal.reset();  // that trajectory is not flown
-      step.status = ExplorationStatus::kKeep;
-      return;
-    }
+    if (is_late && can_wait) return go_on_as_before();
     is_returning = true;
     step.status = ExplorationStatus::kReturn;
   } else if (arrived) {

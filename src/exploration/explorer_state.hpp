@@ -58,6 +58,7 @@ struct Explorer::State {
   double out_after = 0.0;      ///< seconds after which it has left a place where it did not fit
   double asked_last = -std::numeric_limits<double>::infinity();
   double longest_gap;  ///< between two decisions, as far as is known
+  double last_way_home = -std::numeric_limits<double>::infinity();
   double last_tour = -std::numeric_limits<double>::infinity();
   /// At rest, and not done yet with what was begun: it goes on with the next scan.
   bool is_searching = false;
