@@ -29,8 +29,14 @@ PlanFace plan_one(const RoadmapFace& face, py::handle start, py::handle goal,
                   const py::kwargs& keywords) {
   const PlanConfig config = plan_fields().read_all(keywords);
   const Point from = point_from(start, "start"), to = point_from(goal, "goal");
+  const auto answer = [&] {
+    return plan_face(face.roadmap, from, to, config, plan(*face.roadmap, from, to, config));
+  };
+  // What may take seconds hears Ctrl-C, for a tenth of a millisecond.
+  if (config.within > 0.0 || config.prefer_clearance > 0.0 || config.planner != Planner::kGraph)
+    return run_stage(answer);
   const Unlocked unlocked;
-  return plan_face(face.roadmap, from, to, config, plan(*face.roadmap, from, to, config));
+  return answer();
 }
 
 /// One place for each of `count` queries.

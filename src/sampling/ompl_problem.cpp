@@ -26,12 +26,12 @@ class TimelyMotions : public FreeMotions {
       : FreeMotions(space, free, radius, point_of), deadline_(deadline) {}
 
   bool checkMotion(const ob::State* from, const ob::State* to) const override {
-    return !deadline_.has_passed() && FreeMotions::checkMotion(from, to);
+    return !deadline_.is_over() && FreeMotions::checkMotion(from, to);
   }
 
   bool checkMotion(const ob::State* from, const ob::State* to,
                    std::pair<ob::State*, double>& last_valid) const override {
-    if (!deadline_.has_passed()) return FreeMotions::checkMotion(from, to, last_valid);
+    if (!deadline_.is_over()) return FreeMotions::checkMotion(from, to, last_valid);
     last_valid.second = 0.0;
     if (last_valid.first != nullptr) si_->copyState(last_valid.first, from);
     return false;

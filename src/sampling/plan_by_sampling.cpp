@@ -101,7 +101,7 @@ std::vector<Point> sample(const FreeSpace& space, const Point& start, const Poin
   };
   planner->solve(ob::PlannerTerminationCondition([&] {
     if (!asking.may_go_on("sampling", share_done())) return true;
-    if (deadline.has_passed() || result.iterations >= config.iteration_limit) return true;
+    if (deadline.is_over() || result.iterations >= config.iteration_limit) return true;
     ++result.iterations;
     return false;
   }));

@@ -171,7 +171,8 @@ struct PlanResult {
 /// the world, which rounds them there (in UTM by a nanometre). The answer is exact on the voxel
 /// lattice: a path is found exactly when A* through the ESDF would find one. Thread-safe on one
 /// roadmap. Throws InputError where the configuration or a point is no number, or the radius is
-/// larger than the map knows distances for.
+/// larger than the map knows distances for, and Cancelled where it is part of what was cancelled
+/// (with_progress).
 PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
                 const PlanConfig& config = {});
 
