@@ -58,6 +58,7 @@ FlightFace fly(const RoadmapFace& face, py::handle path, py::handle radius,
   if (is_plan) {
     const auto& plan = path.cast<const PlanFace&>();
     flight.path = static_cast<const PlanResult&>(plan);
+    flight.path.planned_for = {};  // `config` has it, or what was said in its place
     config.via.insert(config.via.end(), plan.via.begin(), plan.via.end());
     if (!flight.path.ok())
       throw InputError("path", "is no path: " + std::string(name_of(flight.path.status)),

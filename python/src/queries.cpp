@@ -33,7 +33,8 @@ PlanFace plan_one(const RoadmapFace& face, py::handle start, py::handle goal,
     return plan_face(face.roadmap, from, to, config, plan(*face.roadmap, from, to, config));
   };
   // What may take seconds hears Ctrl-C, for a tenth of a millisecond.
-  if (config.within > 0.0 || config.prefer_clearance > 0.0 || config.planner != Planner::kGraph)
+  if (config.within > 0.0 || config.prefer_clearance > 0.0 || config.snap > 0.0 || config.escape ||
+      config.planner != Planner::kGraph)
     return run_stage(answer);
   const Unlocked unlocked;
   return answer();
@@ -108,11 +109,7 @@ py::tuple plan_nearest(const RoadmapFace& face, py::handle start, py::handle goa
   const PlanConfig config = plan_fields().read_all(keywords);
   const Point from = point_from(start, "start");
   const std::vector<Point> to = points_from(goals, "goals");
-  NearestGoal nearest;
-  {
-    const Unlocked unlocked;
-    nearest = plan_to_nearest(*face.roadmap, from, to, config);
-  }
+  NearestGoal nearest = run_stage([&] { return plan_to_nearest(*face.roadmap, from, to, config); });
   return py::make_tuple(nearest.goal ? py::cast(*nearest.goal) : py::none(),
                         py::cast(PlanFace{std::move(nearest.plan), config}));
 }
@@ -120,11 +117,7 @@ py::tuple plan_nearest(const RoadmapFace& face, py::handle start, py::handle goa
 py::tuple plan_over(const RoadmapFace& face, py::handle places, const py::kwargs& keywords) {
   const PlanConfig config = plan_fields().read_all(keywords);
   const std::vector<Point> points = points_from(places, "places");
-  ViaPlan via;
-  {
-    const Unlocked unlocked;
-    via = plan_via(*face.roadmap, points, config);
-  }
+  ViaPlan via = run_stage([&] { return plan_via(*face.roadmap, points, config); });
   const py::object leg = via.plan.ok() ? py::none() : py::cast(via.leg);
   return py::make_tuple(
       py::cast(PlanFace{std::move(via.plan), config, {points.begin() + 1, points.end() - 1}}), leg);
@@ -137,8 +130,10 @@ AlternativesFace alternatives(const RoadmapFace& face, py::handle start, py::han
   int routes = 0;
   read(count, "count", routes);
   if (routes == 0) throw InputError("count", "is 0", "ask for at least one route");
-  const Unlocked unlocked;
-  return {plan_alternatives(*face.roadmap, from, to, static_cast<std::size_t>(routes), config),
+  return {run_stage([&] {
+            return plan_alternatives(*face.roadmap, from, to, static_cast<std::size_t>(routes),
+                                     config);
+          }),
           config};
 }
 
@@ -202,7 +197,7 @@ void add_queries(py::class_<RoadmapFace>& type) {
       py::arg("path"),
       "still_safe(self, path)\n--\n\n"
       "Whether a PlanResult of an older snapshot still holds, for the robot and the limits that it "
-      "was asked for;\nits escapes keep no radius and do not count.");
+      "was asked for;\nits escapes at the clearance that they had.");
   type.def("distances", &goal_distances, py::arg("start"), py::arg("goals"),
            py::arg("radius") = py::none(),
            "distances(self, start, goals, radius=None)\n--\n\n"

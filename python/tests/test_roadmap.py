@@ -283,7 +283,9 @@ def test_a_plan_is_flown_by_the_robot_and_within_the_limits_that_it_was_asked_fo
     as_planned = roadmap.trajectory(around, flight_limits=None).coefficients
     np.testing.assert_array_equal(as_planned, roadmap.trajectory(around).coefficients)
     for flown in (roadmap.trajectory(around, flight_limits=ridgeway.FlightLimits()), roadmap.trajectory(around.waypoints)):
-        assert flown.duration <= roadmap.trajectory(around).duration
+        assert flown.duration < roadmap.trajectory(around).duration
+        places = flown.sample(0.01).position
+        assert ((places > low) & (places < high)).all(axis=1).any()
     samples = roadmap.trajectory(around).sample(0.5)
     again = roadmap.trajectory(around).at(samples.time)
     for one, other in zip(samples, again):

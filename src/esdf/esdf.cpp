@@ -11,6 +11,7 @@
 #include "distance_sweeps.hpp"
 #include "mapping/memory_limit.hpp"
 #include "mapping/planar.hpp"
+#include "mapping/require_states.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"

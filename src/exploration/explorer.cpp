@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "common/clock.hpp"
 #include "common/number_text.hpp"
@@ -59,6 +58,7 @@ Access Explorer::State::access_at(const Point& local) const {
 /// Finds the next goal and a trajectory there, or says that there is none to be seen from.
 bool Explorer::State::choose(const FlightState& state, bool thorough, ExplorationStep& step) {
   double began = detail::thread_seconds_now();
+  leads_nowhere = false;
   const Point here = to_local(roadmap->esdf, state.position);
   const bool all_looked_at = look_around(here, thorough);
   step.seconds.views += detail::thread_seconds_now() - began;
@@ -66,13 +66,16 @@ bool Explorer::State::choose(const FlightState& state, bool thorough, Exploratio
   const Access access = access_at(here);
   const detail::WaysFrom ways(*roadmap, here, access);
   const double least_gain = thorough ? 0.0 : 0.5 * static_cast<double>(config.least_frontier);
-  std::vector<TourStop> stops = cover(ways, least_gain);
+  std::vector<TourStop> stops = cover(ways, least_gain, false);
   const bool can_see = !stops.empty();
   if (thorough && !can_see && !all_looked_at) {
     is_searching = true;
     return true;
   }
-  if (thorough && !can_see) leads_nowhere = step.frontiers > 0 && !may_go_anywhere(ways, access);
+  // Then that nothing is to be seen says nothing.
+  if (thorough && !can_see)
+    leads_nowhere =
+        step.frontiers > 0 && (access.vertex == kNoVertex || !cover(ways, 0.0, true).empty());
   if (std::isfinite(config.until)) keep_in_time(stops, state);
   if (can_see && stops.empty()) {
     is_out_of_time = true;
@@ -94,17 +97,9 @@ bool Explorer::State::choose(const FlightState& state, bool thorough, Exploratio
         {to_world(roadmap->esdf, places[stop.place].position), views.yaw_of(stop.heading)});
   }
   const bool flies = fly_tour(stops, tour, state, step);
-  return flies || (can_see && (is_searching || state.velocity.norm() >= 1e-9));
-}
-
-/// Whether the robot has a way to any place, and to what sees a frontier a trajectory: where not,
-/// that nothing is to be seen says nothing.
-bool Explorer::State::may_go_anywhere(const detail::WaysFrom& ways, const Access& access) {
-  if (access.vertex == kNoVertex) return false;
-  const std::vector<std::uint64_t> without_trajectory = std::exchange(refused, {});
-  const bool would_see = !without_trajectory.empty() && !cover(ways, 0.0).empty();
-  refused = without_trajectory;
-  return !would_see;
+  const bool goes_on = is_searching || state.velocity.norm() >= 1e-9;
+  leads_nowhere |= thorough && can_see && !flies && !goes_on;
+  return flies || (can_see && goes_on);
 }
 
 /// To the first stop that a trajectory leads to, on to the next where the first can be passed. Only

@@ -65,7 +65,7 @@ struct Explorer::State {
   int thorough_looks = 0;  ///< in a row, so far: at all there is, from everywhere
   bool is_returning = false;
   bool is_out_of_time = false;
-  /// The thorough look sees nothing, as the robot has no way to where something would be seen.
+  /// The thorough look led to no flight, as the robot has no way or no trajectory to anywhere.
   bool leads_nowhere = false;
   bool has_seen_all = false;  ///< no viewpoint sees anything, by the thorough look
 
@@ -76,7 +76,8 @@ struct Explorer::State {
                    const detail::Place* standing);
   void look_on_the_way(Trajectory& trajectory, double until) const;
   void look_in_flight(const FlightState& state);
-  std::vector<TourStop> cover(const detail::WaysFrom& ways, double least_gain) const;
+  std::vector<TourStop> cover(const detail::WaysFrom& ways, double least_gain,
+                              bool with_refused) const;
   double expected_at(const detail::Stop& stop) const;
   void keep_best(std::vector<TourStop>& stops, const FlightState& state) const;
   std::vector<std::size_t> order(const std::vector<TourStop>& stops, const FlightState& state,
@@ -96,7 +97,6 @@ struct Explorer::State {
   bool brake(const FlightState& state, ExplorationStep& step) const;
   Point ahead(double seconds, double length) const;
   void go_on(const FlightState& state, bool arrived, ExplorationStep& step);
-  bool may_go_anywhere(const detail::WaysFrom& ways, const detail::Access& access);
   bool choose(const FlightState& state, bool thorough, ExplorationStep& step);
   bool fly_tour(const std::vector<TourStop>& stops, const std::vector<std::size_t>& tour,
                 const FlightState& state, ExplorationStep& step);

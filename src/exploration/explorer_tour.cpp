@@ -62,9 +62,11 @@ void Explorer::State::keep_in_time(std::vector<TourStop>& stops, const FlightSta
   });
 }
 
-/// Stops that see all that can be seen, by what each adds; those out of reach are left out.
+/// Stops that see all that can be seen, by what each adds; those out of reach are left out, and
+/// unless `with_refused` those that no trajectory led to.
 std::vector<Explorer::State::TourStop> Explorer::State::cover(const detail::WaysFrom& ways,
-                                                              double least_gain) const {
+                                                              double least_gain,
+                                                              bool with_refused) const {
   std::vector<std::uint64_t> covered(views.parts(), 0);
   const auto is_worse = [](const Stop& a, const Stop& b) {
     return a.gain != b.gain ? a.gain < b.gain : a.place > b.place;
@@ -73,7 +75,8 @@ std::vector<Explorer::State::TourStop> Explorer::State::cover(const detail::Ways
   std::vector<TourStop> reach(places.size());
   parallel_for_each_index(places.size(), [&](std::size_t i) {
     if (views.from_places()[i].empty()) return;
-    if (std::find(refused.begin(), refused.end(), places[i].id) != refused.end()) return;
+    if (!with_refused && std::find(refused.begin(), refused.end(), places[i].id) != refused.end())
+      return;
     const Access access = detail::access_of(*roadmap, roadmap->esdf.layout.find(places[i].voxel));
     const double length = ways.to(places[i].position, access);
     if (std::isfinite(length)) reach[i] = {views.best_heading(i, covered), access, length};

@@ -14,6 +14,8 @@
 namespace ridgeway {
 namespace {
 
+using detail::radius_less_rounding;
+
 template <typename Name>
 using Clearances = std::map<Name, double>;
 
@@ -99,8 +101,10 @@ double squared_distance(const Point& p, const Point& a, const Point& b) {
 /// What is no number compares as neither near nor far.
 void require_path(std::span<const Point> path, double radius, double voxel_size) {
   if (path.empty()) throw InputError("path", "has no point", "give one at least");
+  // The last voxel that a map may have lies as far from the world's zero, its places a little more.
+  const double farthest = (kMaxVoxelIndex + 1.0) * voxel_size;
   for (const Point& p : path)
-    if (!has_voxel(p, voxel_size))
+    if (!p.allFinite() || p.cwiseAbs().maxCoeff() > farthest)
       throw InputError("path", "has a point that is no place of the map", "give finite metres");
   if (!(radius >= 0.0 && std::isfinite(radius)))
     throw InputError("radius", "is no distance", "give metres, 0 or more");
@@ -158,7 +162,7 @@ bool may_be_invalid(const PlanResult& path, const GraphDelta& delta) {
 
 bool still_safe(std::span<const Point> path, double radius, const Roadmap& now) {
   require_path(path, radius, now.esdf.voxel_size);
-  return is_free(FreeSpace(now.esdf), path, detail::radius_less_rounding(radius, path));
+  return is_free(FreeSpace(now.esdf), path, radius_less_rounding(radius, path));
 }
 
 bool still_safe(const PlanResult& path, const Roadmap& now) {
@@ -166,10 +170,20 @@ bool still_safe(const PlanResult& path, const Roadmap& now) {
   require_path(path.waypoints, radius, now.esdf.voxel_size);
   const FlightLimits limits = both_of(now.esdf.limits, limits_in_local(now.esdf, limits_world));
   std::span<const Point> points = path.waypoints;
-  if (path.escape_start.length > 0.0) points = points.subspan(1);
-  if (path.escape_goal.length > 0.0) points = points.first(points.size() - 1);
+  const auto escape_is_free = [&](std::span<const Point> leg, const Escape& escape) {
+    return is_free(FreeSpace(now.esdf, limits), leg,
+                   radius_less_rounding(escape.clearance, path.waypoints));
+  };
+  if (path.escape_start.length > 0.0) {
+    if (!escape_is_free(points.first(2), path.escape_start)) return false;
+    points = points.subspan(1);
+  }
+  if (path.escape_goal.length > 0.0) {
+    if (!escape_is_free(points.last(2), path.escape_goal)) return false;
+    points = points.first(points.size() - 1);
+  }
   return is_free(FreeSpace(now.esdf, limits, radius, height), points,
-                 detail::radius_less_rounding(radius, points));
+                 radius_less_rounding(radius, points));
 }
 
 }  // namespace ridgeway

@@ -74,8 +74,7 @@ std::vector<VoxelChange> LiveWindow::take_near(std::span<const VoxelChange> chan
       next->second = waiting->second;
     next->second.push_back(change);
   }
-  for (auto& [block, next] : next_)
-    if (next.size() > kBlockVoxels) next = last_of_each(next);
+  for (auto& [block, next] : next_) next = last_of_each(next);
   return near;
 }
 

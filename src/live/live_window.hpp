@@ -11,7 +11,7 @@
 namespace ridgeway::detail {
 
 /// Changes that wait until the sensor comes near them. What an update costs follows the blocks that
-/// it changes, however much waits elsewhere, and of a block no more waits than it has voxels.
+/// it changes, however much waits elsewhere, and no voxel waits twice.
 class LiveWindow {
  public:
   /// `reach`: metres along each axis.

@@ -27,7 +27,7 @@ void append(std::string& bytes, const Value& value) {
 }  // namespace
 
 ScanLog::ScanLog(fs::path folder, std::uint64_t most_bytes)
-    : folder_(std::move(folder)), most_bytes_(most_bytes) {
+    : folder_(std::move(folder)), lock_(folder_ / "in-use"), most_bytes_(most_bytes) {
   std::error_code error;
   made_folder_ = fs::create_directories(folder_, error);
   const bool is_empty = !error && fs::is_directory(folder_, error) && fs::is_empty(folder_, error);
@@ -35,7 +35,8 @@ ScanLog::ScanLog(fs::path folder, std::uint64_t most_bytes)
     throw InputError(folder_.string(), "is no folder that scans can be kept in",
                      "give one that is new or empty, on a disk with room");
   // Two logs may both have found it empty.
-  std::FILE* lock = std::fopen(lock_file().c_str(), "wx");
+  std::FILE* lock = std::fopen(lock_.c_str(), "wx");
+  if (lock == nullptr && made_folder_) fs::remove(folder_, error);  // unless it is another's by now
   if (lock == nullptr)
     throw InputError(folder_.string(), "is another roadmap's, or cannot be written to",
                      "give each its own");
@@ -46,7 +47,7 @@ ScanLog::~ScanLog() {
   for (std::size_t scan = first_; scan <= size(); ++scan)
     remove(scan);  // one may be left of a drop
   std::error_code error;
-  fs::remove(lock_file(), error);
+  fs::remove(lock_, error);
   if (made_folder_) fs::remove(folder_, error);
 }
 

@@ -42,11 +42,10 @@ class ScanLog {
 
  private:
   std::filesystem::path file_of(std::size_t scan) const;
-  std::filesystem::path lock_file() const { return folder_ / "in-use"; }
   void write(std::size_t scan, const std::string& bytes);
   bool remove(std::size_t scan) const noexcept;
 
-  const std::filesystem::path folder_;
+  const std::filesystem::path folder_, lock_;
   const std::uint64_t most_bytes_;
   std::vector<std::uint64_t> bytes_;  // by scan
   std::uint64_t total_ = 0;

@@ -8,13 +8,6 @@
 namespace ridgeway::detail {
 
 /// Throws InputError where an edit in three dimensions would take the layers of a planar map apart.
-/// Throws InputError where a map put together by hand has no state for each of its voxels.
-inline void require_states(const OccupancyMap& map) {
-  if (!map.state.is_of(map.layout))
-    throw InputError("map", "has states of another layout, or none",
-                     "make it with OccupancyBuilder, or `state` for the layout as it is now");
-}
-
 inline void require_three_dimensions(const OccupancyMap& map) {
   if (map.planar)
     throw InputError("map", "is planar, which cannot be edited",

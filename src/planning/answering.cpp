@@ -258,24 +258,29 @@ class Answering {
       const double now = seconds_now();
       seconds += now - std::exchange(began, now);
     };
-    result_.seconds = short_path.seconds;
-    result_.answered_by = short_path.answered_by;
+    PlanSeconds seconds = short_path.seconds;
     attachment();
-    lap(result_.seconds.attach);
+    lap(seconds.attach);
     std::vector<Route> routes;
+    std::vector<Planner> answered_by;
     for (const double preference : {query_.prefer_clearance, 0.0}) {
       RouteQuery query = query_;
       query.prefer_clearance = preference;
       RouteResult found =
           find_route(roadmap_, space_, query, attachment(), config_.planner, deadline_);
       if (found.route.empty()) continue;
-      if (routes.empty()) result_.answered_by = found.answered_by;
+      answered_by.push_back(found.answered_by);
       routes.push_back(std::move(found.route));
     }
-    lap(result_.seconds.search);
-    Route best = cheapest(space_, query_, std::move(routes), short_path.waypoints, deadline_);
-    if (!accept(std::move(best), {})) result_ = std::move(short_path);
-    lap(result_.seconds.shorten);
+    lap(seconds.search);
+    CheapestRoute best =
+        cheapest(space_, query_, std::move(routes), short_path.waypoints, deadline_);
+    if (best.found && accept(std::move(best.route), {}))
+      result_.answered_by = answered_by[*best.found];
+    else
+      result_ = std::move(short_path);
+    lap(seconds.shorten);
+    result_.seconds = seconds;
     return PlanStatus::kOk;
   }
 

@@ -64,20 +64,20 @@ Route shortest_over_voxels(const EsdfMap& esdf, const FreeSpace& space, const Ro
   return shorten(space, route_over_voxels(esdf, query, path.voxels), query.radius, deadline);
 }
 
-Route cheapest(const FreeSpace& space, const RouteQuery& query, std::vector<Route> as_found,
-               Route short_path, const Deadline& deadline) {
+CheapestRoute cheapest(const FreeSpace& space, const RouteQuery& query, std::vector<Route> as_found,
+                       Route short_path, const Deadline& deadline) {
   const PathCost cost(space, query.radius, query.prefer_clearance);
   const auto is_kept = [&](std::span<const Point> before, std::span<const Point> after) {
     return cost.is_kept(before, after);
   };
-  Route best = std::move(short_path);
-  double least = cost.of(best);
-  for (Route& route : as_found) {
-    route = shorten(space, std::move(route), query.radius, deadline, is_kept);
+  CheapestRoute best{std::move(short_path), std::nullopt};
+  double least = cost.of(best.route);
+  for (std::size_t i = 0; i < as_found.size(); ++i) {
+    Route route = shorten(space, std::move(as_found[i]), query.radius, deadline, is_kept);
     const double own = cost.of(route);
     if (own >= least) continue;
     least = own;
-    best = std::move(route);
+    best = {std::move(route), i};
   }
   return best;
 }

@@ -2,6 +2,9 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "roadmap/cell_guide.hpp"
 #include "roadmap/cell_search.hpp"
 #include "route.hpp"
@@ -34,9 +37,15 @@ Route path_over_voxels(const Roadmap& roadmap, const FreeSpace& space, const Rou
 Route shortest_over_voxels(const EsdfMap& esdf, const FreeSpace& space, const RouteQuery& query,
                            const Deadline& deadline);
 
+/// A route, and which of those found it was; nothing: the short path.
+struct CheapestRoute {
+  Route route;
+  std::optional<std::size_t> found;
+};
+
 /// Where clearance is preferred: the cheapest of a short path and of routes as found, pulled tight
 /// only as far as they get no costlier.
-Route cheapest(const FreeSpace& space, const RouteQuery& query, std::vector<Route> as_found,
-               Route short_path, const Deadline& deadline);
+CheapestRoute cheapest(const FreeSpace& space, const RouteQuery& query, std::vector<Route> as_found,
+                       Route short_path, const Deadline& deadline);
 
 }  // namespace ridgeway::detail

@@ -12,7 +12,7 @@
 #include "common/require.hpp"
 #include "graph_of_curves.hpp"
 #include "mapping/memory_limit.hpp"
-#include "mapping/planar.hpp"
+#include "mapping/require_states.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/esdf/esdf.hpp"

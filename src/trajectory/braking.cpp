@@ -52,7 +52,7 @@ std::optional<Trajectory> SmoothPath::brake_first(std::span<const Point> path,
   rest.insert(rest.end(), path.begin() + (skips_start ? 1 : 0), path.end());
   if (!space_.is_free(rest[0], rest[1], config_.radius)) return std::nullopt;
   result_.braked = true;
-  note(TrajectoryStep::kWithStops);
+  note(config_.stop_and_go ? TrajectoryStep::kStopAndGo : TrajectoryStep::kWithStops);
   ++result_.stops;
   if (config_.stop_and_go) result_.stops += static_cast<int>(rest.size()) - 2;
   const Trajectory onward =

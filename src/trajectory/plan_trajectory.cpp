@@ -226,6 +226,7 @@ Trajectory to_local(const EsdfMap& esdf, Trajectory trajectory) {
   for (TrajectorySegment& segment : trajectory.segments) {
     const Point begin = segment.coefficients.col(0).head<3>();
     segment.coefficients.col(0).head<3>() = flight_place(esdf, begin);
+    if (esdf.planar) segment.coefficients.row(2).tail<kCoefficients - 1>().setZero();
   }
   return trajectory;
 }
@@ -237,14 +238,16 @@ bool still_safe(const Trajectory& trajectory, const TrajectoryConfig& config, co
   detail::require_known_radius(now, "radius", config.radius);
   if (trajectory.segments.empty())
     throw InputError("trajectory", "is empty", "give one that is ok");
+  if (std::isnan(from)) throw InputError("from", "is no number", "give seconds from its start");
   const FlightLimits limits = both_of(now.limits, limits_in_local(now, config.flight_limits));
   const FreeSpace space(now, limits, config.radius, config.robot_height);
   std::vector<Point> places;
   for (const TrajectorySegment& segment : trajectory.segments)
     places.emplace_back(segment.coefficients.col(0).head<3>());
-  return find_doubts(space, to_local(now, detail::tail_of(trajectory, from)),
-                     detail::radius_less_rounding(config.radius, places))
-      .empty();
+  // The path was rounded, and so was what came of it.
+  const double radius =
+      detail::radius_less_rounding(detail::radius_less_rounding(config.radius, places), places);
+  return find_doubts(space, to_local(now, detail::tail_of(trajectory, from)), radius).empty();
 }
 
 Trajectory plain_spline(std::span<const Point> path, const TrajectoryConfig& config) {

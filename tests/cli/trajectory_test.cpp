@@ -130,6 +130,7 @@ TEST_F(CliTrajectory, StopsAndGoesFromAMotion) {
                              "--stop-and-go", "--from-velocity", "0.5,0,0", "--json"});
   ASSERT_EQ(flown.code, 0) << flown.out;
   EXPECT_EQ(flown.json()["optimisations"], 0);
+  EXPECT_EQ(flown.json()["step"], "stop_and_go");
 }
 
 TEST_F(CliTrajectory, SlowFlightsNeedNoSamples) {

@@ -34,7 +34,7 @@ TrajectoryResult good_flight() {
 
 std::string complaint(const TrajectoryResult& flown, const OccupancyMap& map = room(),
                       UnknownPolicy policy = UnknownPolicy::kObstacle) {
-  return FlightJudge(map, policy).judge(flown, kStart, kGoal, {}).complaint;
+  return FlightJudge(map, policy).judge(flown, kStart, kGoal, {.radius = 0.3}).complaint;
 }
 
 /// The same curve in another time.
@@ -59,7 +59,7 @@ TrajectorySegment piece(const Point& from, const Point& to, double duration) {
 TEST(FlightJudge, PassesAGoodFlightAndMeasuresIt) {
   const TrajectoryResult flown = good_flight();
   const FlightVerdict verdict =
-      FlightJudge(room(), UnknownPolicy::kObstacle).judge(flown, kStart, kGoal, {});
+      FlightJudge(room(), UnknownPolicy::kObstacle).judge(flown, kStart, kGoal, {.radius = 0.3});
   EXPECT_EQ(verdict.complaint, "");
   EXPECT_NEAR(verdict.length, 2.0 * std::hypot(2.0, 0.25), 1e-5);
   EXPECT_NEAR(verdict.speed, flown.peaks.speed, 1e-3);
@@ -106,7 +106,7 @@ TEST(FlightJudge, ComplainsOfWhatIsInTheWay) {
   EXPECT_EQ(complaint(flown, room(VoxelState::kUnknown)).substr(0, 8), "collides");
   EXPECT_EQ(complaint(flown, room(VoxelState::kUnknown), UnknownPolicy::kIgnore), "");
   TrajectoryResult through;
-  through.trajectory = plain_spline(std::vector<Point>{kStart, kGoal}, {});
+  through.trajectory = plain_spline(std::vector<Point>{kStart, kGoal}, {.radius = 0.3});
   EXPECT_EQ(complaint(through), "");
   EXPECT_EQ(complaint(through, room(VoxelState::kUnknown), UnknownPolicy::kIgnore),
             "leaves the known");
@@ -115,13 +115,12 @@ TEST(FlightJudge, ComplainsOfWhatIsInTheWay) {
 TEST(FlightJudge, ComplainsOfWrongEndsAndAClearanceTooGood) {
   const FlightJudge judge(room(), UnknownPolicy::kObstacle);
   TrajectoryResult flown = good_flight();
-  EXPECT_EQ(judge.judge(flown, kGoal, kGoal, {}).complaint, "starts elsewhere");
-  EXPECT_EQ(judge.judge(flown, kStart, kStart, {}).complaint, "ends elsewhere");
+  EXPECT_EQ(judge.judge(flown, kGoal, kGoal, {.radius = 0.3}).complaint, "starts elsewhere");
+  EXPECT_EQ(judge.judge(flown, kStart, kStart, {.radius = 0.3}).complaint, "ends elsewhere");
   flown.trajectory.segments.clear();
   EXPECT_EQ(complaint(flown), "no segments");
   TrajectoryResult close = good_flight();
-  TrajectoryConfig wide{.radius = 0.3};
-  wide.radius = 0.58;  // of 0.6 m beside the stop
+  TrajectoryConfig wide{.radius = 0.58};  // of 0.6 m beside the stop
   EXPECT_EQ(judge.judge(close, kStart, kGoal, wide).complaint, "");
   close.clearance = 0.61;
   EXPECT_EQ(judge.judge(close, kStart, kGoal, wide).complaint.substr(0, 6), "states");

@@ -12,6 +12,7 @@
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/surroundings.hpp"
 #include "ridgeway/formats/load_map.hpp"
+#include "ridgeway/live/graph_delta.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
 #include "ridgeway/mapping/tsdf_fusion.hpp"
 #include "ridgeway/planning/alternatives.hpp"
@@ -166,8 +167,7 @@ void expect_same_check(Shifted& maps, std::size_t queries) {
 /// Paths that plan() gives are flown, and planned on from each waypoint, wherever they are, though
 /// the world rounds their waypoints.
 void expect_flights(Shifted& maps, unsigned seed, std::size_t queries) {
-  TrajectoryConfig config{.radius = 0.3};
-  config.radius = maps.far.min_clearance;
+  TrajectoryConfig config{.radius = maps.far.min_clearance};
   for (const Ends& ends : draw_ends(maps.near, queries, seed)) {
     const PlanResult path = plan(maps.far, maps.shift(ends.first), maps.shift(ends.second));
     if (!path.ok()) continue;
@@ -178,6 +178,8 @@ void expect_flights(Shifted& maps, unsigned seed, std::size_t queries) {
     }
     const TrajectoryResult flown = plan_trajectory(maps.far.esdf, path.waypoints, config);
     ASSERT_TRUE(flown.ok());
+    EXPECT_TRUE(still_safe(path, maps.far));
+    EXPECT_TRUE(still_safe(flown.trajectory, config, maps.far.esdf));
     const double rounding = 1e-15 * path.waypoints.front().cwiseAbs().maxCoeff();
     EXPECT_GE(flown.clearance, config.radius * (1.0 - 2e-9) - rounding);
     EXPECT_LE((flown.trajectory.at(0.0).position - path.waypoints.front()).norm(), 2 * rounding);
@@ -348,9 +350,11 @@ TEST(FarMap, PlacesThatJustFitAreFoundWhereverTheMapLies) {
     const PlanResult path = plan(roadmap, centre(1), centre(29));
     ASSERT_TRUE(path.ok()) << name_of(path.status);
     EXPECT_NEAR(path.length, 2.8, 1e-6);
-    TrajectoryConfig config{.radius = 0.3};
-    config.radius = 0.05;
-    EXPECT_TRUE(plan_trajectory(roadmap.esdf, path.waypoints, config).ok());
+    TrajectoryConfig config{.radius = 0.05};
+    const TrajectoryResult flown = plan_trajectory(roadmap.esdf, path.waypoints, config);
+    EXPECT_TRUE(flown.ok());
+    EXPECT_TRUE(still_safe(path, roadmap));
+    EXPECT_TRUE(still_safe(flown.trajectory, config, roadmap.esdf));
   }
 }
 

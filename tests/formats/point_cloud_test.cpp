@@ -301,5 +301,15 @@ TEST(MapFromPoints, RefusesPointsBeyondTheLattice) {
   EXPECT_THROW(map_from_points(cloud, config, "far"), InputError);
 }
 
+TEST(MapFromPoints, IsMovedByWhatMovesNoPointsApart) {
+  PointCloud cloud;
+  cloud.points = {{1.0, 1.0, 1.0}};
+  CloudMapConfig config;
+  config.voxel_size = 0.1;
+  config.bounds = {Point::Zero(), Point::Constant(2.0)};
+  config.T_map_cloud.linear() *= 2.0;
+  EXPECT_THROW(map_from_points(cloud, config, "cloud", nullptr), InputError);
+}
+
 }  // namespace
 }  // namespace ridgeway

@@ -224,7 +224,12 @@ TEST(GraphDelta, PathsAreHeldAgainstNewerMapsAsTheyWerePlanned) {
   for (Point& p : raised.waypoints) p.z() = 1.3;
   EXPECT_FALSE(still_safe(raised, *below));  // through what was kept out
 
+  live.set_voxels(box({0, 20, 9}, {0, 20, 9}, VoxelState::kOccupied));  // where it escapes from
+  EXPECT_FALSE(still_safe(out, *live.snapshot()));
+  EXPECT_TRUE(may_be_invalid(out, delta_between(*open, *live.snapshot())));
+
   EXPECT_THROW(still_safe(PlanResult{}, *below), InputError);
+  EXPECT_THROW(may_be_invalid(PlanResult{}, delta), InputError);
   EXPECT_THROW(still_safe(given_plan(open->esdf, {start, goal}), *below), InputError);
 }
 

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <random>
 
 #include "ridgeway/common/error.hpp"
@@ -58,6 +60,8 @@ TEST(PlaceFacts, TheSmallestSnapDoesAndALittleLessDoesNot) {
   EXPECT_EQ(smallest_snap(roadmap, free, Point(1, 1, 1), 5.0), 0.0);
   EXPECT_FALSE(smallest_snap(roadmap, free, other, 0.5).has_value());
   EXPECT_FALSE(smallest_snap(roadmap, wall, free, 0.3).has_value());
+  for (const double farthest : {-1.0, std::numeric_limits<double>::infinity(), std::nan("")})
+    EXPECT_THROW(smallest_snap(roadmap, wall, free, farthest), InputError);
   for (const auto& [start, goal] : {std::pair(wall, free),
                                     {free, wall},
                                     {hull, wall},

@@ -44,5 +44,5 @@ extern const ridgeway::FlightState state;
 extern const ridgeway::Roadmap roadmap;
 extern ridgeway::LiveRoadmap live;
 extern const std::shared_ptr<const ridgeway::Roadmap> before;
-extern const std::vector<ridgeway::Point> path;
+extern const ridgeway::PlanResult path;
 extern const double radius;

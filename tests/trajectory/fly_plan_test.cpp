@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
@@ -74,8 +76,8 @@ TEST(FlyPlan, TheRobotIsThatOfThePlan) {
   const FreeSpace space(roadmap.esdf, asked.limits, 0.5, 1.4);
   for (const TrajectoryState& state : flown.trajectory.sample(0.01))
     ASSERT_TRUE(space.is_free(to_local(roadmap.esdf, state.position), 0.5 * (1 - 1e-9)));
-  const TrajectoryResult narrow = fly_plan(roadmap.esdf, path, {.radius = 0.3});
-  EXPECT_TRUE(narrow.ok());  // what is said counts
+  const TrajectoryResult wide = fly_plan(roadmap.esdf, path, {.radius = 2.5});
+  EXPECT_EQ(wide.status, TrajectoryStatus::kPathNotFree);  // what is said counts
 
   PlanResult own = given_plan(roadmap.esdf, {{2, 5, 2}, {3, 5, 2}});
   EXPECT_THROW(fly_plan(roadmap.esdf, own, {}), InputError);
@@ -95,6 +97,7 @@ TEST(FlyPlan, WhatIsFlownIsHeldAgainstANewerMap) {
   while (flown.at(passed).position.x() < 6.6) passed += 0.01;
   EXPECT_TRUE(still_safe(flown, config, now, passed));
   EXPECT_TRUE(still_safe(flown, config, now, 1e9));
+  EXPECT_THROW(still_safe(flown, config, now, std::nan("")), InputError);
   EXPECT_THROW(still_safe({}, config, now), InputError);
   EXPECT_THROW(still_safe(flown, {}, now), InputError);
 }

@@ -82,8 +82,7 @@ TEST(PlanTrajectory, ExtremeLimitsGetATrajectory) {
 }
 
 TEST(PlanTrajectory, LongPathsOfTinyRobotsGetNoMoreKnotsThanAreOfUse) {
-  TrajectoryConfig config{.radius = 0.3};
-  config.radius = 1e-5;
+  TrajectoryConfig config{.radius = 1e-5};
   config.limits.max_speed = 1e-3;
   const std::vector<Point> path{{2, 2, 2}, {2, 7, 2}, {7, 7, 2}, {7, 2, 2}};
   const TrajectoryResult result = plan_trajectory(esdf(), path, config);

@@ -85,8 +85,7 @@ TEST(PlanTrajectory, StopAndGoFollowsThePathExactly) {
 
 TEST(PlanTrajectory, PassesADoorOfExactlyTheRobotsWidth) {
   const EsdfMap map = compute_esdf(testing::test_shape("door_of_the_robots_width").map());
-  TrajectoryConfig config{.radius = 0.3};
-  config.radius = 0.35;  // between 1.2 and 1.9
+  TrajectoryConfig config{.radius = 0.35};  // between 1.2 and 1.9
   const std::vector<Point> path{
       {1.0, 0.8, 0.5}, {2.5, 1.55, 0.5}, {3.6, 1.55, 0.5}, {5.0, 2.2, 0.5}};
   const TrajectoryResult result = plan_trajectory(map, path, config);
@@ -269,8 +268,7 @@ TEST(PlanTrajectory, KnowsHallsLargerThanMaxDistance) {
   const TrajectoryResult result = plan_trajectory(near, path, {.radius = 0.3});
   expect_flown(result, path, {.radius = 0.3});
   EXPECT_EQ(result.step, TrajectoryStep::kSmooth);
-  TrajectoryConfig config{.radius = 0.3};
-  config.radius = 0.7;
+  TrajectoryConfig config{.radius = 0.7};
   EXPECT_THROW(plan_trajectory(near, path, config), InputError);
 }
 

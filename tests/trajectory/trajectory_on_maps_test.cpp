@@ -46,8 +46,7 @@ void fly(const OccupancyMap& map, const BuildConfig& build, std::size_t queries,
   const CheckReport report = check_roadmap(roadmap, {.queries = queries, .seed = 5});
   for (const CheckedPath& path : report.paths) {
     SCOPED_TRACE(tally.flown);
-    TrajectoryConfig config{.radius = 0.3};
-    config.radius = path.radius;
+    TrajectoryConfig config{.radius = path.radius};
     config.smoothness = smoothness;
     const TrajectoryResult result = plan_trajectory(roadmap.esdf, path.waypoints, config);
     ASSERT_TRUE(result.ok()) << name_of(result.status);

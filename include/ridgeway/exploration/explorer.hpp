@@ -107,7 +107,7 @@ enum class ExplorationStatus : std::uint8_t {
   kReturn,     ///< as kFly, home: all is seen, or it is time
   kComplete,   ///< at its end (home): no viewpoint sees a frontier
   kOutOfTime,  ///< home, or at rest, though there are frontiers that can be seen
-  kStuck,      ///< there are frontiers, and no trajectory leads on: the place is no longer free
+  kStuck,      ///< at rest, and no way or trajectory leads on, or home
 };
 /// "fly", "keep", "return", "complete", "out_of_time", "stuck".
 std::string_view name_of(ExplorationStatus status);

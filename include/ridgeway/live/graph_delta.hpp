@@ -49,15 +49,16 @@ GraphDelta delta_between(const Roadmap& before, const Roadmap& now);
 /// Takes no look at the map, so that it can be asked many times a second. Throws InputError for a
 /// path without points or beyond all maps, and a radius that is no distance.
 bool may_be_invalid(std::span<const Point> path, double radius, const GraphDelta& delta);
-/// The same of a path of plan(), for the robot that it was planned for.
+/// The same of a path of plan(), for the robot that it was planned for, escapes and all. Throws
+/// InputError for a path that is none, or of which no robot is known (given_plan).
 bool may_be_invalid(const PlanResult& path, const GraphDelta& delta);
 
 /// Whether a sphere of a radius (metres) can move along a path (metres, world; at least one point),
 /// by the one predicate that decides what is free (FreeSpace).
 bool still_safe(std::span<const Point> path, double radius, const Roadmap& now);
 /// Whether a path of plan() still holds for the robot and within the limits that it was planned
-/// for, its escapes aside, which do not keep the radius. Throws InputError for a path that is none,
-/// or of which nothing is known (given_plan).
+/// for, its escapes at the clearance that they had. Throws InputError for a path that is none, or
+/// of which no robot is known (given_plan).
 bool still_safe(const PlanResult& path, const Roadmap& now);
 
 }  // namespace ridgeway

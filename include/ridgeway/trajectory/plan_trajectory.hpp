@@ -124,7 +124,8 @@ TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> pat
 /// The same along a path of plan() with its escapes, each flown straight from rest to rest at the
 /// clearance that it has; `clearance` of the result is without them. From a motion only where the
 /// path begins without one: else InputError. For the robot and the flight limits that the path was
-/// planned for (PlanResult::planned_for), as far as the configuration has none of its own.
+/// planned for (PlanResult::planned_for), as far as the configuration has none of its own: to fly
+/// without those limits, take them out of the path.
 TrajectoryResult fly_plan(const EsdfMap& esdf, const PlanResult& path,
                           const TrajectoryConfig& config);
 
@@ -135,7 +136,10 @@ Trajectory plain_spline(std::span<const Point> path, const TrajectoryConfig& con
 
 /// Whether the rest of a trajectory (world) from a time on, seconds, is free on a map, as
 /// plan_trajectory verifies it: what is being flown, held against a newer map. `config`: as it was
-/// planned for, with its radius; motion plays no part.
+/// planned for, with its radius (not 0); motion plays no part. Escapes do not keep the radius: of
+/// fly_plan's trajectories those hold that have none, and the others while they are on neither.
+/// Throws InputError for an empty trajectory, a time that is no number, and as plan_trajectory does
+/// for the configuration.
 bool still_safe(const Trajectory& trajectory, const TrajectoryConfig& config, const EsdfMap& now,
                 double from = 0.0);
 
