@@ -14,7 +14,7 @@ namespace ridgeway::cli {
 inline constexpr std::size_t kShownComponents = 10;  ///< the others are in the JSON alone
 
 /// What a roadmap's file and its parts are.
-nlohmann::ordered_json roadmap_json(const std::string& file, const Roadmap& roadmap);
+nlohmann::ordered_json roadmap_json(const std::string& name, const Roadmap& roadmap);
 void print_roadmap(const EsdfMap& esdf, const nlohmann::ordered_json& json);
 
 nlohmann::ordered_json json_of(const ComponentReport& report);
