@@ -38,6 +38,26 @@ extern const Eigen::Isometry3d T_world_camera;
 extern const std::vector<ridgeway::VoxelChange> changes;
 extern const std::vector<ridgeway::PoseCorrection> corrections;
 
+// What ROS has of a map and of a cloud.
+struct OccupancyGridMessage {
+  struct {
+    float resolution;
+    unsigned width, height;
+    struct {
+      struct {
+        double x, y, z;
+      } position;
+    } origin;
+  } info;
+  std::vector<signed char> data;
+};
+struct CloudPoint {
+  float x, y, z;
+};
+extern const OccupancyGridMessage grid;
+extern const std::vector<CloudPoint> cloud_points;
+extern const Eigen::Isometry3d T_world_sensor;
+
 // Where it is, and what it knows.
 extern const ridgeway::Point position, start, goal;
 extern const ridgeway::FlightState state;
