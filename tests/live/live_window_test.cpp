@@ -95,6 +95,7 @@ TEST(LiveWindow, IsThatOfATableOfAllVoxels) {
 TEST(LiveWindow, NoVoxelWaitsTwiceHoweverOftenItChanges) {
   LiveWindow window(kReach, kWindowVoxel);
   std::vector<VoxelChange> block;
+  block.reserve(300);
   for (int voxel = 0; voxel < 300; ++voxel)
     block.push_back({voxel_of({50, 0, 0}, voxel), VoxelState::kFree});
   for (int i = 0; i < 40; ++i) {
