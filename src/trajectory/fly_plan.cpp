@@ -76,22 +76,22 @@ TrajectoryConfig for_robot_of(const PlannedFor& planned_for, TrajectoryConfig co
 }  // namespace
 
 TrajectoryResult fly_plan(const EsdfMap& esdf, const PlanResult& path,
-                          const TrajectoryConfig& given) {
-  const TrajectoryConfig config = for_robot_of(path.planned_for, given);
+                          const TrajectoryConfig& config) {
+  const TrajectoryConfig own = for_robot_of(path.planned_for, config);
   const std::span<const Point> points = path.waypoints;
   const bool leaves = path.escape_start.length > 0.0, enters = path.escape_goal.length > 0.0;
-  if (points.size() < 2 || (!leaves && !enters)) return plan_trajectory(esdf, points, config);
-  if (leaves && !(config.start_velocity.isZero(0.0) && config.start_acceleration.isZero(0.0)))
+  if (points.size() < 2 || (!leaves && !enters)) return plan_trajectory(esdf, points, own);
+  if (leaves && !(own.start_velocity.isZero(0.0) && own.start_acceleration.isZero(0.0)))
     throw InputError("start_velocity", "is that of a robot in flight, which has nothing to escape",
                      "leave it out");
-  TrajectoryConfig between = config;  // the flight ends at the ends anyway
+  TrajectoryConfig between = own;  // the flight ends at the ends anyway
   std::erase_if(between.via,
                 [&](const Point& p) { return p == points.front() || p == points.back(); });
   Flights flights(esdf, between);
   const std::size_t first = leaves ? 1 : 0, last = points.size() - (enters ? 2 : 1);
   bool holds = true;
   if (leaves) holds = flights.add(points.first(2), path.escape_start.clearance, false);
-  if (holds) holds = flights.add(points.subspan(first, last - first + 1), config.radius, true);
+  if (holds) holds = flights.add(points.subspan(first, last - first + 1), own.radius, true);
   if (holds && enters) flights.add(points.last(2), path.escape_goal.clearance, false);
   return std::move(flights).result();
 }
