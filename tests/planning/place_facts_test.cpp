@@ -103,7 +103,7 @@ TEST(PlaceFacts, TheirWaysAreTheWidestByFlooding) {
             esdf.layout.find(voxel_at(facts.report.components[way.b].widest, esdf.voxel_size));
         const auto joined_at = [&](double radius) {
           const testing::Regions at = testing::regions_at(esdf, radius);
-          return at.label.count(id) > 0 && at.label.count(other) > 0 &&
+          return at.label.contains(id) && at.label.contains(other) &&
                  at.label.at(id) == at.label.at(other);
         };
         EXPECT_TRUE(joined_at(way.radius * (1 - 1e-6)));
