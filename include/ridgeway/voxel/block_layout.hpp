@@ -143,9 +143,9 @@ constinit typename SharedPages<Value>::Page SharedPages<Value>::nobodys_page;
 class BlockLayout {
  public:
   BlockLayout() = default;
-  BlockLayout(const BlockLayout&) = default;
+  BlockLayout(const BlockLayout&) = default;  ///< The same blocks in the same slots.
   BlockLayout(BlockLayout&& other) noexcept { swap(other); }  ///< Leaves an empty layout.
-  BlockLayout& operator=(const BlockLayout&) = default;
+  BlockLayout& operator=(const BlockLayout&) = default;       ///< Likewise.
   /// Leaves an empty layout.
   BlockLayout& operator=(BlockLayout&& other) noexcept {
     BlockLayout(std::move(other)).swap(*this);
