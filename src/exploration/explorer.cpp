@@ -72,7 +72,7 @@ bool Explorer::State::choose(const FlightState& state, bool thorough, Exploratio
     is_searching = true;
     return true;
   }
-  // Then that nothing is to be seen says nothing.
+  // A robot without a way to anywhere sees nothing, which does not show that all is seen.
   if (thorough && !can_see)
     leads_nowhere =
         step.frontiers > 0 && (access.vertex == kNoVertex || !cover(ways, 0.0, true).empty());

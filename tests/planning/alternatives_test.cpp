@@ -391,24 +391,5 @@ TEST(Alternatives, SayWhyThereIsNoneAndRefuseOtherPlanners) {
   EXPECT_THROW(plan_alternatives(roadmap, kStart, kGoal, 2, {.shorten = false}), InputError);
 }
 
-/// Robots far smaller than a voxel are looked for as closely as voxels ask for.
-TEST(Alternatives, OfATinyRobotComeToAnEnd) {
-  Axes axes;
-  const Roadmap roadmap = build_roadmap(testing::pillars(0, axes), {.min_clearance = 1e-4}).roadmap;
-  const Alternatives found = plan_alternatives(roadmap, kStart, kGoal, 3);
-  ASSERT_EQ(found.routes.size(), 3u);
-  const FreeSpace space(roadmap.esdf);
-  for (const PlanResult& route : found.routes) EXPECT_GE(space.clearance(route.waypoints), 1e-4);
-}
-
-TEST(Alternatives, ThatTimeCutShortAreNotComplete) {
-  Axes axes;
-  const Roadmap roadmap = build_pillars(testing::pillars(0, axes));
-  const Alternatives found =
-      plan_alternatives(roadmap, kStart, kStart + Point(0.1, 0.0, 0.0), 3, {.time_limit = 1e-9});
-  ASSERT_TRUE(found.ok());  // straight on
-  EXPECT_FALSE(found.complete);
-}
-
 }  // namespace
 }  // namespace ridgeway
