@@ -78,8 +78,7 @@ bool Explorer::State::is_in_doubt(const FlightState& state) const {
   constexpr double kRounding = 1e-3;  // voxels
   const FreeSpace space(roadmap->esdf);
   const double flown = state.time - flying_since, left = out_after - flown;
-  const Trajectory rest =
-      detail::moved(detail::tail_of(flying, flown), to_local(roadmap->esdf, Point::Zero()));
+  const Trajectory rest = to_local(roadmap->esdf, detail::tail_of(flying, flown));
   if (left <= 0.0) return !find_doubts(space, rest, kept_clearance()).empty();
   const double least = room_at_first - kRounding * roadmap->esdf.voxel_size;
   return least <= 0.0 || !find_doubts(space, detail::head_of(rest, left), least).empty() ||

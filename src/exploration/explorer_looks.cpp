@@ -8,6 +8,7 @@
 #include "glances.hpp"
 #include "ray_walk.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "ridgeway/trajectory/plan_trajectory.hpp"
 #include "trajectory/shaped_trajectory.hpp"
 
 namespace ridgeway {
@@ -67,7 +68,7 @@ void Explorer::State::count_looks(const Point& from, int heading, double share, 
 /// Until it has to look as its next stop does, at a time, the robot may look elsewhere: that takes
 /// no time of the flight.
 void Explorer::State::look_on_the_way(Trajectory& trajectory, double until) const {
-  const Trajectory local = detail::moved(trajectory, to_local(roadmap->esdf, Point::Zero()));
+  const Trajectory local = to_local(roadmap->esdf, trajectory);
   const double from = trajectory.at(0.0).yaw, to = trajectory.at(until).yaw;
   const std::vector<detail::Glance> glances =
       detail::glances_along(local, until, views, places, config.spacing);

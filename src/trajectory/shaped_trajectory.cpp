@@ -111,10 +111,4 @@ double turn_between(double from_yaw, double to_yaw) {
   return std::remainder(to_yaw - from_yaw, 2.0 * std::numbers::pi);
 }
 
-Trajectory moved(Trajectory trajectory, const Point& by) {
-  for (TrajectorySegment& segment : trajectory.segments)
-    segment.coefficients.col(0).head<3>() += by;
-  return trajectory;
-}
-
 }  // namespace ridgeway::detail

@@ -24,7 +24,4 @@ void turn_by_way_of(Trajectory& trajectory, double yaw_between, double until, do
 /// From one angle to another the short way, in (-pi, pi].
 double turn_between(double from_yaw, double to_yaw);
 
-/// A trajectory with its first three outputs moved.
-Trajectory moved(Trajectory trajectory, const Point& by);
-
 }  // namespace ridgeway::detail

@@ -26,7 +26,9 @@ TEST(Alternatives, OfATinyRobotComeToAnEnd) {
 
 TEST(Alternatives, ThatTimeCutShortAreNotComplete) {
   std::vector<Eigen::Vector2d> axes;
-  const Roadmap roadmap = build_roadmap(testing::pillars(0, axes), {.min_clearance = testing::kPillarClearance}).roadmap;
+  const Roadmap roadmap =
+      build_roadmap(testing::pillars(0, axes), {.min_clearance = testing::kPillarClearance})
+          .roadmap;
   const Alternatives found =
       plan_alternatives(roadmap, kFrom, kFrom + Point(0.1, 0.0, 0.0), 3, {.time_limit = 1e-9});
   ASSERT_TRUE(found.ok());  // straight on
