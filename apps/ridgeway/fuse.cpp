@@ -105,7 +105,7 @@ Fused fuse_scans(const FuseOptions& options, const FusionConfig& config, const G
     points.add(cloud, config);
   }
   bar.clear();
-  note_passed_over(globals, points);
+  note_points_without_surface(globals, points);
   fused.map = fusion.map();
   return fused;
 }
@@ -143,6 +143,7 @@ void print(const FuseOptions& options, const Fused& fused, const VoxelCounts& vo
     if (fused.points)
       json["points"] = {{"fused", fused.points->fused},
                         {"out_of_range", fused.points->out_of_range},
+                        {"beyond", fused.points->beyond},
                         {"not_finite", fused.points->not_finite}};
     print_json(json);
     return;
@@ -193,7 +194,8 @@ void add_fuse_command(Command& program) {
                  "Distances to surfaces are kept up to here, metres (default: four voxels)");
   command.number("--min-range", fusion.min_range, kLengthsFromZero,
                  "Nothing nearer is taken, metres");
-  command.number("--max-range", fusion.max_range, kLengths, "Nothing farther is taken, metres");
+  command.number("--max-range", fusion.max_range, kLengths,
+                 "What is farther only frees the way up to here, metres");
   command.number("--clear-radius", fusion.clear_radius, kLengthsFromZero,
                  "Space this near to where the sensor was is free, metres");
   command.choice("--integrator", options->integrator, {"projective", "rays"},

@@ -172,7 +172,7 @@ void replay_scans(Run& run, const Globals& globals) {
     points.add(cloud, run.options.live.fusion);
   }
   bar.clear();
-  note_passed_over(globals, points);
+  note_points_without_surface(globals, points);
 }
 
 /// What was asked for, with what follows from the recording.
@@ -258,7 +258,8 @@ void add_live_command(Command& program) {
   command.number("--voxel-size", fusion.voxel_size, kLengths, "Metres");
   command.number("--min-range", fusion.min_range, kLengthsFromZero,
                  "Nothing nearer is taken, metres");
-  command.number("--max-range", fusion.max_range, kLengths, "Nothing farther is taken, metres");
+  command.number("--max-range", fusion.max_range, kLengths,
+                 "What is farther only frees the way up to here, metres");
   command.number("--clear-radius", fusion.clear_radius, kLengthsFromZero,
                  "Space this near to where the sensor was is free, metres");
   command.whole("--forget-after", fusion.forget_after, {0, 255},

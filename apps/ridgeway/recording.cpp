@@ -7,6 +7,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "common/number_text.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/recordings/depth_sequence.hpp"
 #include "ridgeway/recordings/scan_sequence.hpp"
@@ -24,8 +25,8 @@ RecordingKind kind_of_recording(const std::string& folder) {
   if (std::filesystem::exists(std::filesystem::path(folder) / "pose.txt", error))
     throw InputError(folder,
                      "has poses in pose.txt that name no images, and neither a unit nor a camera",
-                     "write them as 4 x 4 matrices to trajectory.log, beside depth/*.png in "
-                     "millimetres (Open3D)");
+                     "write them as 4 x 4 matrices to trajectory.log, one for each of depth/*.png, "
+                     "which are in millimetres (Open3D)");
   throw InputError(
       folder, "holds no recording",
       "give a folder with depth.txt (TUM RGB-D), frame-*.depth.png (7-Scenes, "
@@ -34,13 +35,21 @@ RecordingKind kind_of_recording(const std::string& folder) {
 
 void PointCounts::add(const PointCloud& cloud, const FusionConfig& config) {
   not_finite += cloud.skipped;
-  for (const Point& point : cloud.points) ++(config.takes(point.norm()) ? fused : out_of_range);
+  for (const Point& point : cloud.points) {
+    const double range = point.norm();
+    ++(config.takes(range) ? fused : out_of_range);
+    beyond += config.is_beyond(range);
+  }
 }
 
-void note_passed_over(const Globals& globals, const PointCounts& points) {
-  if (points.out_of_range + points.not_finite > 0)
-    note(globals, count_text(points.out_of_range) + " points out of range and " +
+void note_points_without_surface(const Globals& globals, const PointCounts& points) {
+  const std::size_t nearer = points.out_of_range - points.beyond;
+  if (nearer + points.not_finite > 0)
+    note(globals, count_text(nearer) + " points nearer than --min-range and " +
                       count_text(points.not_finite) + " that are not finite were passed over");
+  if (points.beyond > 0)
+    note(globals, count_text(points.beyond) +
+                      " points beyond --max-range show no surface: they free the way up to there");
 }
 
 std::string told_of_upward_axis(const DepthSequence& sequence) {
@@ -53,8 +62,16 @@ std::string told_of_upward_axis(const DepthSequence& sequence) {
   std::ostringstream text;
   text << std::setprecision(2) << up.x() << ',' << up.y() << ',' << up.z();
   return "the cameras are upright along " + text.str() +
-         " of the world of their poses, not along z, which maps and pictures take for up: "
-         "`ridgeway build --transform` turns what `fuse` has made";
+         " of the world of their poses, not along z, which maps and pictures take for up: turn the "
+         "poses, or what `fuse` makes of them with `ridgeway build --transform`";
+}
+
+void require_recordable(const DepthSensor& sensor) {
+  if (sensor.max_range <= SequenceWriter::kFarthest) return;
+  const std::string most = number_text(SequenceWriter::kFarthest);
+  throw InputError("--max-range " + number_text(sensor.max_range),
+                   "is farther than a recording's images hold, which is " + most + " m",
+                   "give " + most + " or less");
 }
 
 void require_outside(const std::filesystem::path& output, const std::filesystem::path& folder) {

@@ -21,18 +21,24 @@ RecordingKind kind_of_recording(const std::string& folder);
 
 /// What became of the points of scans.
 struct PointCounts {
-  std::size_t fused = 0, out_of_range = 0, not_finite = 0;
+  std::size_t fused = 0;
+  std::size_t out_of_range = 0;  ///< nearer than the least range, or beyond the largest
+  std::size_t beyond = 0;        ///< of those the latter, which free the way up to it
+  std::size_t not_finite = 0;
 
   void add(const PointCloud& cloud, const FusionConfig& config);
 };
 
-/// A note on points that were passed over, if any were.
-void note_passed_over(const Globals& globals, const PointCounts& points);
+/// A note on points that show no surface, if there are any.
+void note_points_without_surface(const Globals& globals, const PointCounts& points);
 
 /// Maps, pictures and heights take the world's z for up; recordings by hand often have another
 /// axis, mostly that of the first image. Cameras are held upright more often than not: y is down.
 /// What a person should be told where they are not upright in the world; else nothing.
 std::string told_of_upward_axis(const DepthSequence& sequence);
+
+/// Throws InputError where a camera measures farther than a recording of its images holds.
+void require_recordable(const DepthSensor& sensor);
 
 /// Throws InputError where a file that is to be written is part of a recording.
 void require_outside(const std::filesystem::path& output, const std::filesystem::path& folder);

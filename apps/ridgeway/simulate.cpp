@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "json.hpp"
+#include "recording.hpp"
 #include "ridgeway/formats/world_file.hpp"
 #include "ridgeway/recordings/depth_sequence.hpp"
 #include "sensing/poses.hpp"
@@ -56,6 +57,7 @@ PoseSampling sampling_of(const SimulateOptions& options, const World& world) {
 
 int run(const SimulateOptions& options, const Globals& globals) {
   const DepthSensor sensor = sensor_of(options);
+  require_recordable(sensor);
   const World world = load_world(options.world);
   const auto poses = sample_poses(world, sampling_of(options, world));
   SequenceWriter writer(options.output, sensor.camera, options.rate);

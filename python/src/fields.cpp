@@ -39,7 +39,8 @@ void add_fusion_fields(const Add& add) {
   add("depth_behind", &FusionConfig::depth_behind,
       "behind a surface space is solid so far, metres; 0: two voxels");
   add("min_range", &FusionConfig::min_range, "nearer measurements are passed over, metres");
-  add("max_range", &FusionConfig::max_range, "and farther ones, metres");
+  add("max_range", &FusionConfig::max_range,
+      "what is farther only frees the way up to here, metres");
   add("carve", &FusionConfig::carve, "what lies before a surface becomes free");
   add("max_weight", &FusionConfig::max_weight, "a voxel never knows better: the old fades");
   add("forget_after", &FusionConfig::forget_after,

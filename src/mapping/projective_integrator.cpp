@@ -22,8 +22,8 @@ constexpr double kMostBlocks = 1e8;  // looked through for one image
 /// Which blocks an image can touch, from the farthest depth in tiles of it.
 class View {
  public:
-  View(const DepthImage& image, const PinholeCamera& camera, const Eigen::Isometry3d& T_map_camera,
-       const FusionConfig& config)
+  View(const DepthImage& image, const DepthImage& beyond, const PinholeCamera& camera,
+       const Eigen::Isometry3d& T_map_camera, const FusionConfig& config)
       : camera_(camera),
         T_camera_map_(T_map_camera.inverse()),
         side_(kBlockSide * config.voxel_size),
@@ -35,7 +35,8 @@ class View {
         tiles_(static_cast<std::size_t>(across_ * down_)) {
     for (int v = 0; v < image.height; ++v)
       for (int u = 0; u < image.width; ++u) {
-        const auto depth = static_cast<double>(image.at(u, v));
+        auto depth = static_cast<double>(image.at(u, v));
+        if (beyond.at(u, v) != 0.0f) depth = config.max_range / camera.ray(u, v).norm();
         if (depth == 0.0) continue;
         Depths& tile = tiles_[static_cast<std::size_t>(v / kTile * across_ + u / kTile)];
         tile.nearest = std::min(tile.nearest, depth);
@@ -129,10 +130,10 @@ std::vector<BlockIndex> blocks_in(const View& view) {
 /// Brings one image to the voxels of a block.
 class BlockUpdate {
  public:
-  BlockUpdate(const DepthSurfaces& surfaces, const DepthImage& raw, const PinholeCamera& camera,
+  BlockUpdate(const DepthSurfaces& surfaces, const DepthRanges& ranges, const PinholeCamera& camera,
               const Eigen::Isometry3d& T_map_camera, const FusionConfig& config)
-      : look_(surfaces, camera, config),
-        missed_(missed_surfaces(look_, raw, T_map_camera, config)),
+      : look_(surfaces, ranges.beyond, camera, config),
+        missed_(missed_surfaces(look_, ranges.within, T_map_camera, config)),
         T_camera_map_(T_map_camera.inverse()),
         config_(config) {}
 
@@ -165,10 +166,10 @@ class BlockUpdate {
 
 }  // namespace
 
-void integrate_projective(const DepthSurfaces& surfaces, const DepthImage& raw,
+void integrate_projective(const DepthSurfaces& surfaces, const DepthRanges& ranges,
                           const PinholeCamera& camera, const Eigen::Isometry3d& T_map_camera,
                           const FusionConfig& config, TsdfBlocks& blocks) {
-  const View view(surfaces.image(), camera, T_map_camera, config);
+  const View view(surfaces.image(), ranges.beyond, camera, T_map_camera, config);
   if (view.sees_nothing()) return;
   if (view.block_count() > kMostBlocks)
     throw InputError("voxel_size " + number_text(config.voxel_size),
@@ -177,7 +178,7 @@ void integrate_projective(const DepthSurfaces& surfaces, const DepthImage& raw,
   std::vector<BlockIndex> seen = blocks_in(view);
   std::erase_if(seen, [&](const BlockIndex& block) { return !blocks.takes(block); });
   require_room(blocks, static_cast<double>(seen.size()));
-  const BlockUpdate update(surfaces, raw, camera, T_map_camera, config);
+  const BlockUpdate update(surfaces, ranges, camera, T_map_camera, config);
   // Half of what may be in view is not: behind walls, and beside the image. No block is made for
   // it.
   std::vector<std::unique_ptr<TsdfBlock>> made(seen.size());

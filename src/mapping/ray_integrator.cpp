@@ -21,6 +21,7 @@ struct Ray {
   Eigen::Vector3d along;   // from the sensor, of length one
   double range = 0.0;
   double count = 0.0;
+  bool is_beyond = false;  // the range that is taken
 };
 
 std::vector<Ray> bundle(const std::vector<SurfacePoint>& points, const Point& sensor,
@@ -28,20 +29,26 @@ std::vector<Ray> bundle(const std::vector<SurfacePoint>& points, const Point& se
   struct Entry {
     VoxelIndex voxel;
     std::size_t point;
+    bool is_beyond;
     bool operator<(const Entry& other) const {
-      return voxel != other.voxel ? voxel < other.voxel : point < other.point;
+      if (voxel != other.voxel) return voxel < other.voxel;
+      return is_beyond != other.is_beyond ? other.is_beyond : point < other.point;
+    }
+    bool is_with(const Entry& other) const {
+      return voxel == other.voxel && is_beyond == other.is_beyond;
     }
   };
   std::vector<Entry> entries;
   entries.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
-    entries.push_back({voxel_at(points[i].position, voxel_size), i});
+    entries.push_back({voxel_at(points[i].position, voxel_size), i, points[i].is_beyond});
   std::sort(entries.begin(), entries.end());
   std::vector<Ray> rays;
   for (std::size_t i = 0; i < entries.size();) {
     Ray ray{Point::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-    const VoxelIndex voxel = entries[i].voxel;
-    for (; i < entries.size() && entries[i].voxel == voxel; ++i) {
+    const Entry first = entries[i];
+    ray.is_beyond = first.is_beyond;
+    for (; i < entries.size() && entries[i].is_with(first); ++i) {
       ray.end += points[entries[i].point].position;
       ray.normal += points[entries[i].point].normal;
       ray.count += 1.0;
@@ -90,7 +97,7 @@ void walk(const Point& from, const Point& to, const Body& body) {
 /// The stretch of a ray that is looked at, metres from the sensor.
 std::pair<double, double> stretch_of(const Ray& ray, const FusionConfig& config) {
   return {config.carve ? 0.0 : std::max(0.0, ray.range - config.truncation),
-          ray.range + config.depth_behind};
+          ray.is_beyond ? config.max_range : ray.range + config.depth_behind};
 }
 
 /// The rays that pass each block, in the order of the rays; blocks in the order they are met.
@@ -187,6 +194,7 @@ void update(const Ray& ray, const Point& sensor, const BlockIndex& index,
            value = config.truncation;
          }
          if (value >= config.truncation && !config.carve) return;
+         if (value <= 0.0 && ray.is_beyond) return;
          block.add(local_of(voxel), static_cast<float>(std::min(value, config.truncation)),
                    static_cast<float>(gain) * gain_of(static_cast<float>(value), config), config);
        });

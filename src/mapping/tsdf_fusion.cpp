@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "ridgeway/mapping/tsdf_fusion.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <optional>
@@ -11,6 +12,7 @@
 #include <utility>
 
 #include "common/require.hpp"
+#include "depth_ranges.hpp"
 #include "depth_surfaces.hpp"
 #include "projective_integrator.hpp"
 #include "ray_integrator.hpp"
@@ -49,20 +51,9 @@ void require_fits(const DepthImage& image, const PinholeCamera& camera) {
                      "give the intrinsics of this size");
 }
 
-/// The image without what is out of range, infinite or no number.
-DepthImage within_range(const DepthImage& image, const PinholeCamera& camera,
-                        const FusionConfig& config) {
-  DepthImage kept = image;
-  for (int v = 0; v < image.height; ++v)
-    for (int u = 0; u < image.width; ++u) {
-      if (!config.takes(static_cast<double>(image.at(u, v)) * camera.ray(u, v).norm()))
-        kept.depth[static_cast<std::size_t>(v * image.width + u)] = 0.0f;
-    }
-  return kept;
-}
-
+/// Of surfaces, and of what lies beyond the range.
 std::vector<detail::SurfacePoint> points_of(const detail::DepthSurfaces& surfaces,
-                                            const PinholeCamera& camera,
+                                            const DepthImage& beyond, const PinholeCamera& camera,
                                             const Eigen::Isometry3d& T_map_camera) {
   const DepthImage& image = surfaces.image();
   std::vector<detail::SurfacePoint> points;
@@ -73,6 +64,9 @@ std::vector<detail::SurfacePoint> points_of(const detail::DepthSurfaces& surface
         points.push_back(
             {T_map_camera * Point(depth * camera.ray(u, v)),
              T_map_camera.linear() * surfaces.normal(surfaces.tile_at(u, v)).cast<double>()});
+      if (const auto far = static_cast<double>(beyond.at(u, v)); far > 0.0)
+        points.push_back(
+            {T_map_camera * Point(far * camera.ray(u, v)), Eigen::Vector3d::Zero(), true});
     }
   return points;
 }
@@ -198,13 +192,13 @@ void TsdfFusion::integrate(const DepthImage& image, const PinholeCamera& camera,
   validate_transform(T_world_camera);
   State& s = *state_;
   s.visit(T_world_camera, [&](const Eigen::Isometry3d& T_map_camera) {
-    const DepthImage raw = within_range(image, camera, s.config);
-    const detail::DepthSurfaces surfaces(raw, camera);
+    const detail::DepthRanges ranges = detail::ranges_of(image, camera, s.config);
+    const detail::DepthSurfaces surfaces(ranges.within, camera);
     if (s.config.integrator == Integrator::kProjective)
-      detail::integrate_projective(surfaces, raw, camera, T_map_camera, s.config, s.blocks);
+      detail::integrate_projective(surfaces, ranges, camera, T_map_camera, s.config, s.blocks);
     else
-      detail::integrate_rays(points_of(surfaces, camera, T_map_camera), T_map_camera.translation(),
-                             s.config, s.blocks);
+      detail::integrate_rays(points_of(surfaces, ranges.beyond, camera, T_map_camera),
+                             T_map_camera.translation(), s.config, s.blocks);
   });
 }
 
@@ -213,8 +207,13 @@ void TsdfFusion::integrate(std::span<const Point> points, const Eigen::Isometry3
   State& s = *state_;
   s.visit(T_world_sensor, [&](const Eigen::Isometry3d& T_map_sensor) {
     std::vector<detail::SurfacePoint> kept;
-    for (const Point& p : points)
-      if (s.config.takes(p.norm())) kept.push_back({T_map_sensor * p});
+    for (const Point& p : points) {
+      const double range = p.norm();
+      if (s.config.takes(range)) kept.push_back({T_map_sensor * p});
+      if (!s.config.carve || !s.config.is_beyond(range)) continue;
+      const double share = detail::as_far_as_it_counts(range, s.config) / range;
+      kept.push_back({T_map_sensor * Point(share * p), Eigen::Vector3d::Zero(), true});
+    }
     detail::integrate_rays(kept, T_map_sensor.translation(), s.config, s.blocks);
   });
 }

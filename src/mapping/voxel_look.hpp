@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "depth_surfaces.hpp"
@@ -26,8 +27,9 @@ class VoxelLook {
     int u = 0, v = 0;
   };
 
-  /// The surfaces and the configuration must outlive it.
-  VoxelLook(const DepthSurfaces& surfaces, const PinholeCamera& camera, const FusionConfig& config)
+  /// The surfaces and the configuration must outlive it. `beyond`: see DepthRanges.
+  VoxelLook(const DepthSurfaces& surfaces, const DepthImage& beyond, const PinholeCamera& camera,
+            const FusionConfig& config)
       : surfaces_(surfaces),
         image_(surfaces.image()),
         fx_(static_cast<float>(camera.fx)),
@@ -45,7 +47,7 @@ class VoxelLook {
     parallel_for_each_index(static_cast<std::size_t>(image_.height), [&](std::size_t row) {
       for (int u = 0; u < image_.width; ++u) {
         const Pixel pixel{u, static_cast<int>(row)};
-        sights_[place_of(pixel)] = sight_of(pixel);
+        sights_[place_of(pixel)] = sight_of(pixel, beyond);
       }
     });
   }
@@ -99,9 +101,10 @@ class VoxelLook {
  private:
   /// What points ask of the pixel that sees them, many of the same one.
   struct Sight {
-    float depth;         ///< 0: it sees nothing
+    float depth;
     float stretch;       ///< the ray's length over its depth
     float facing;        ///< cosine of incidence; 0 without a normal
+    float behind;        ///< it tells of what lies up to so far behind what it sees, metres
     std::uint32_t tile;  ///< whose normal it is
   };
 
@@ -110,17 +113,21 @@ class VoxelLook {
            static_cast<std::size_t>(pixel.u);
   }
 
-  Sight sight_of(const Pixel& pixel) const {
+  Sight sight_of(const Pixel& pixel, const DepthImage& beyond) const {
     const Eigen::Vector3f ray = ray_of(pixel);
     const float stretch = ray.norm();
     const std::uint32_t tile = surfaces_.tile_at(pixel.u, pixel.v);
-    return {image_.at(pixel.u, pixel.v), stretch, -surfaces_.normal(tile).dot(ray) / stretch, tile};
+    if (const float far = beyond.at(pixel.u, pixel.v); far != 0.0f)
+      return {far, stretch, 0.0f, static_cast<float>(config_.max_range) - far * stretch, tile};
+    const float depth = image_.at(pixel.u, pixel.v);
+    const float behind = depth != 0.0f ? behind_ : -std::numeric_limits<float>::infinity();
+    return {depth, stretch, -surfaces_.normal(tile).dot(ray) / stretch, behind, tile};
   }
 
   [[gnu::always_inline]] Measured at(const Eigen::Vector3f& p, const Pixel& pixel) const {
     const Sight& sight = sights_[place_of(pixel)];
     const float beyond = (p.z() - sight.depth) * sight.stretch;
-    if (sight.depth == 0.0f || beyond > behind_) return {};
+    if (beyond > sight.behind) return {};
     const Eigen::Vector3f& normal = surfaces_.normal(sight.tile);
     const Eigen::Vector3f surface = sight.depth * ray_of(pixel);
     const bool has_normal = sight.facing > 0.0f;

@@ -61,7 +61,7 @@ TEST_F(CliExplore, ALidarIsRecordedAsScansThatLiveReads) {
   const Outcome again = run({"live", path("scans"), "-o", path("again.ridge"), "--voxel-size",
                              "0.2", "--max-range", "2"});
   EXPECT_EQ(again.code, 0);
-  EXPECT_NE(again.err.find("points out of range"), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find("points beyond --max-range"), std::string::npos) << again.err;
 }
 
 TEST_F(CliExplore, SaysThatAFlightWasCutOff) {

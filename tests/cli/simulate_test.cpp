@@ -219,6 +219,7 @@ TEST_F(CliSimulate, FuseTakesScansByWhatTheFolderHolds) {
   EXPECT_EQ(json["without_pose"], 1);
   EXPECT_EQ(json["points"]["fused"], 6 * 41 * 41);
   EXPECT_EQ(json["points"]["out_of_range"], 1);
+  EXPECT_EQ(json["points"]["beyond"], 1);
   EXPECT_EQ(json["points"]["not_finite"], 1);
   EXPECT_NEAR(json["voxels"]["free"].get<double>(), 64000.0, 4000.0);
   const Json info = run({"info", path("map.ridge"), "--json"}).json();
@@ -257,6 +258,8 @@ TEST_F(CliSimulate, BadInputLeavesNothing) {
                   "--frames", "1000000"},
                  {"hardly any place"});
   expect_refused({"simulate", house(), "-o", path("out"), "--width", "0"}, {"--width"});
+  expect_refused({"simulate", house(), "-o", path("out"), "--max-range", "25"},
+                 {"--max-range", "13.1"});
   expect_refused({"simulate", house(), "-o", ""}, {"--output"});
   expect_refused({"simulate", house(), "-o", "/"}, {"new folder"});
   expect_refused({"world", "castle", "-o", path("out.yaml")}, {"castle"});

@@ -238,7 +238,7 @@ TEST(TsdfFusion, ImagesOfOneRowOrColumnAreFused) {
 TEST(TsdfFusion, WhatLiesBetweenSparseRaysIsNotFree) {
   World world;
   world.planes.push_back({-Eigen::Vector3d::UnitX(), -9.0});
-  world.boxes.push_back({{5.5, -0.5, -9.0}, {6.5, 0.5, 9.0}});
+  world.boxes.push_back({.centre = {6.0, 0.0, 0.0}, .size = {1.0, 1.0, 18.0}});
   const DepthSensor sensor{
       .camera = {.width = 8, .height = 6, .fx = 4.0, .fy = 4.0, .cx = 3.5, .cy = 2.5}};
   TsdfFusion fusion({.max_range = 20.0});
@@ -250,6 +250,84 @@ TEST(TsdfFusion, WhatLiesBetweenSparseRaysIsNotFree) {
               VoxelState::kFree);
   for (int y = -4; y < 4; ++y)
     EXPECT_NE(testing::state_at(map, {60, y, 0}), VoxelState::kFree) << y;
+}
+
+/// The states of voxels straight ahead of a camera at 0.05 m.
+std::vector<VoxelState> states_ahead(const FusionConfig& config, const DepthImage& image,
+                                     const PinholeCamera& camera) {
+  const Eigen::Isometry3d pose = level_pose({0.05, 0.05, 0.05}, 0.0);
+  TsdfFusion fusion(config);
+  fusion.integrate(image, camera, pose);
+  const OccupancyMap map = occupancy_of(fusion.map());
+  std::vector<VoxelState> states;
+  for (int x = 0; x < 60; ++x) states.push_back(testing::state_at(map, {x, 0, 0}));
+  return states;
+}
+
+TEST(TsdfFusion, WhatIsBeyondTheRangeFreesTheWayUpToIt) {
+  const PinholeCamera camera;
+  const auto pixels = static_cast<std::size_t>(camera.width * camera.height);
+  for (const Integrator integrator : {Integrator::kProjective, Integrator::kRayCasting})
+    for (const float depth : {3.001f, 3.05f, 4.5f, 40.0f, 2000.0f, 3e38f})
+      for (const bool carve : {true, false}) {
+        const DepthImage image{camera.width, camera.height, std::vector<float>(pixels, depth)};
+        const std::vector<VoxelState> states = states_ahead(
+            {.max_range = 3.0, .carve = carve, .integrator = integrator}, image, camera);
+        for (std::size_t x = 5; x < states.size(); ++x) {
+          if (x == 30) continue;  // the range ends at its centre
+          const bool is_free =
+              carve && x < 30 && depth < 60.0f;  // else in another unit than metres
+          EXPECT_EQ(states[x], is_free ? VoxelState::kFree : VoxelState::kUnknown)
+              << x << " of " << depth;
+        }
+      }
+}
+
+TEST(TsdfFusion, ALonePixelBeyondTheRangeFreesNothing) {
+  const PinholeCamera camera;
+  DepthImage image{camera.width, camera.height,
+                   std::vector<float>(static_cast<std::size_t>(camera.width * camera.height))};
+  image.depth[static_cast<std::size_t>((camera.height / 2) * camera.width + camera.width / 2)] =
+      9.0f;
+  const std::vector<VoxelState> states = states_ahead({.max_range = 3.0}, image, camera);
+  EXPECT_EQ(std::count(states.begin(), states.end(), VoxelState::kUnknown), 60);
+}
+
+/// A pole half a voxel thick, before what is beyond the range.
+TEST(TsdfFusion, WhatIsBeyondTheRangeDoesNotFreeThinThings) {
+  World world;
+  world.planes.push_back({-Eigen::Vector3d::UnitX(), -9.0});
+  for (int i = 0; i < 10; ++i) {
+    const double x = 2.0 + 0.053 * i, y = -1.0 + 0.217 * i;
+    world.boxes.push_back({.centre = {x, y, 0.0}, .size = {0.05, 0.05, 18.0}});
+  }
+  const DepthSensor sensor;
+  TsdfFusion fusion({.max_range = 4.0});
+  const Eigen::Isometry3d pose = level_pose(Point::Zero(), 0.0);
+  for (int look = 0; look < 20; ++look)
+    fusion.integrate(render_depth(world, sensor, pose), sensor.camera, pose);
+  const OccupancyMap map = occupancy_of(fusion.map());
+  for (const SolidBox& pole : world.boxes) {
+    const VoxelIndex low = voxel_at(pole.centre - 0.5 * pole.size, 0.1),
+                     high = voxel_at(pole.centre + 0.5 * pole.size, 0.1);
+    bool is_seen = false;  // up to a voxel behind its front
+    for (int y = low.y; y <= high.y; ++y)
+      for (int x = low.x; x <= high.x + 1; ++x)
+        is_seen |= testing::state_at(map, {x, y, 0}) == VoxelState::kOccupied;
+    EXPECT_TRUE(is_seen) << pole.centre.y();
+  }
+}
+
+TEST(TsdfFusion, PointsBeyondTheRangeFreeTheWayUpToIt) {
+  const std::vector<Point> points = {{9.0, 0.0, 0.0}, {0.0, 59.0, 0.0}, {0.0, 0.0, -1e300}};
+  TsdfFusion fusion({.max_range = 3.0});
+  fusion.integrate(points, Eigen::Isometry3d(Eigen::Translation3d(0.05, 0.05, 0.05)));
+  const OccupancyMap map = occupancy_of(fusion.map());
+  EXPECT_EQ(count_voxels(map).occupied, 0u);
+  for (int i = 0; i < 30; ++i) EXPECT_EQ(testing::state_at(map, {i, 0, 0}), VoxelState::kFree) << i;
+  EXPECT_EQ(testing::state_at(map, {0, 29, 0}), VoxelState::kFree);
+  EXPECT_EQ(testing::state_at(map, {31, 0, 0}), VoxelState::kUnknown);
+  EXPECT_EQ(testing::state_at(map, {0, 0, -9}), VoxelState::kUnknown);
 }
 
 /// What is nearer than any sensor measures must not leave what is no number.

@@ -58,7 +58,7 @@ struct FusionConfig {
   double truncation = 0.0;    ///< 0: four voxels
   double depth_behind = 0.0;  ///< behind a surface space is solid so far; 0: two voxels
   double min_range = 0.1;     ///< measurements nearer along the ray are passed over
-  double max_range = 10.0;    ///< and those farther, whole: they free nothing on the way there
+  double max_range = 10.0;    ///< those farther show no surface, and free the way up to here
   bool carve = true;          ///< what lies before a surface becomes free, not only near it
   double max_weight = 1e4;    ///< a voxel never knows better: old measurements fade
   /// Measurements in a row that find a voxel on the other side of the surface than it is taken to
@@ -77,6 +77,10 @@ struct FusionConfig {
   bool takes(double range) const {
     return range >= 1e-6 && range >= min_range && range <= max_range;
   }
+  /// Whether a measurement at a range, metres along the ray, is of something farther than is taken:
+  /// what lies before max_range is free then, if `carve` is. Not at more than 20 times that: such
+  /// are mistakes of the unit, and the ends of simulated cameras' sight.
+  bool is_beyond(double range) const { return range > max_range && range <= 20.0 * max_range; }
 
   /// Throws InputError naming the bad field.
   void validate() const;
