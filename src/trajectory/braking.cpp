@@ -6,6 +6,7 @@
 #include <array>
 #include <utility>
 
+#include "ramps.hpp"
 #include "smooth_path.hpp"
 #include "speed_scaling.hpp"
 
@@ -16,27 +17,17 @@ constexpr double kShortestStop = 1e-3;  // of v / a: what a stop from next to no
 
 /// The acceleration of a motion falls smoothly to 0: within a twentieth of v / a, sooner where the
 /// speed would pass its limit, but no faster than jerk allows.
-TrajectorySegment stop_accelerating(const Point& from, const StartState& start,
-                                    const MotionLimits& limits) {
+Ramps stop_accelerating(const Point& from, const StartState& start, const MotionLimits& limits) {
   constexpr double kUsual = 0.05, kShortest = 1e-4;  // of v / a
-  constexpr double kSteepest = 1.875;                // slope of the fall 10 x^3 - 15 x^4 + 6 x^5
-  constexpr double kWithin = 1.0 - 1e-5;             // of a limit, so that certified peaks hold it
   const double acceleration = start.acceleration.norm(), speed = start.velocity.norm();
   const double unit = limits.max_speed / limits.max_acceleration;
-  double t = std::min(kUsual * unit, kWithin * 2.0 * (limits.max_speed - speed) / acceleration);
-  t = std::max({t, kShortest * unit, kSteepest * acceleration / (kWithin * limits.max_jerk)});
-  TrajectorySegment segment;
-  segment.duration = t;
-  const auto set = [&](int power, const Point& value) {
-    segment.coefficients.col(power).head<3>() = value;
-  };
-  set(0, from);
-  set(1, start.velocity);
-  set(2, 0.5 * start.acceleration);
-  set(5, -0.5 * start.acceleration / (t * t * t));
-  set(6, 0.5 * start.acceleration / (t * t * t * t));
-  set(7, -start.acceleration / (7.0 * t * t * t * t * t));
-  return segment;
+  double t =
+      std::min(kUsual * unit, kWithinLimit * 2.0 * (limits.max_speed - speed) / acceleration);
+  t = std::max(
+      {t, kShortest * unit, kSteepestRamp * acceleration / (kWithinLimit * limits.max_jerk)});
+  Ramps ramps(from, start);
+  ramps.add(t, Point::Zero());
+  return ramps;
 }
 
 }  // namespace
@@ -100,13 +91,10 @@ std::optional<Trajectory> SmoothPath::come_to_rest(const Point& from, const Star
 std::optional<Trajectory> SmoothPath::brake(const Point& from, const StartState& start) const {
   auto braking = come_to_rest(from, start, kStateFixed);
   if (braking || start.acceleration.isZero(0.0)) return braking;
-  const TrajectorySegment ease = stop_accelerating(from, start, config_.limits);
-  const Eigen::Vector4d position = ease.derivative(0, ease.duration),
-                        velocity = ease.derivative(1, ease.duration);
-  const StartState steady{velocity.head<3>(), Point::Zero()};
-  braking = come_to_rest(position.head<3>(), steady, kAllFixed);
+  const Ramps ease = stop_accelerating(from, start, config_.limits);
+  braking = come_to_rest(ease.position(), {.velocity = ease.velocity()}, kAllFixed);
   if (!braking) return std::nullopt;
-  braking->segments.insert(braking->segments.begin(), ease);
+  braking->segments.insert(braking->segments.begin(), ease.segments.front());
   return holds(*braking) ? braking : std::nullopt;
 }
 

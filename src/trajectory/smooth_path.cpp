@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "arrival.hpp"
 #include "common/clock.hpp"
 #include "initial_spline.hpp"
 #include "obstacle_field.hpp"
@@ -113,7 +114,17 @@ std::optional<Trajectory> SmoothPath::run(std::span<const Point> path, const Sta
   }
   if (path.size() == 1 && start.is_rest()) return Trajectory{};  // it stands
   if (config_.stop_and_go) return brake_first(path, start);
+  const TrajectoryStep before = result_.step;
   auto found = path.size() > 1 ? smooth_or_stop(path, start) : std::nullopt;
+  if (path.size() == 2 && !start.is_rest()) {
+    const auto accepts = [&](const Trajectory& trajectory) { return holds(trajectory); };
+    auto arrival = arrive(path[0], start, path[1], config_.limits, accepts);
+    if (arrival && (!found || arrival->duration() < found->duration())) {
+      found = std::move(arrival);
+      result_.step = before;
+      note(TrajectoryStep::kSmooth);
+    }
+  }
   if (!found) {
     result_.stops = 0;  // of stretches behind one that cannot be flown
     return brake_first(path, start);

@@ -95,6 +95,31 @@ TEST(PlanTrajectory, GoesOnFromEveryStateOfItsOwn) {
     }
 }
 
+/// Planned anew on its last metres, a flight does not end later than it would have; not even where
+/// a scan has turned the path a little aside.
+TEST(PlanTrajectory, ArrivesFromItsLastMetres) {
+  const Point from(2, 4, 2), to(17, 4, 2);
+  const TrajectoryConfig config{.radius = 0.3};
+  for (const double aside : {0.0, 0.02}) {
+    TrajectoryConfig first = config;
+    if (aside > 0.0) first.limits.max_acceleration *= 0.9;  // full braking has no room to turn
+    const Trajectory flown =
+        plan_trajectory(esdf(), std::vector<Point>{from, to}, first).trajectory;
+    for (double left = 0.3; left <= 2.5; left += 0.05) {
+      SCOPED_TRACE(::testing::Message() << left << " s, aside " << aside);
+      const TrajectoryState state = flown.at(flown.duration() - left);
+      TrajectoryConfig anew = config;
+      anew.start_velocity = state.velocity;
+      anew.start_acceleration = state.acceleration;
+      const std::vector<Point> rest{state.position, to + Point(0.0, aside * left, 0.0)};
+      const TrajectoryResult result = plan_trajectory(esdf(), rest, anew);
+      expect_flown(result, rest, anew);
+      EXPECT_FALSE(result.braked);
+      EXPECT_LE(result.duration, 1.1 * left + 0.1);
+    }
+  }
+}
+
 TEST(PlanTrajectory, StopsFromNextToNoMotion) {
   const std::vector<Point> here{{17, 4, 2}};
   for (const double speed : {1e-3, 1e-5, 1e-7, 1e-12, 1e-300}) {
