@@ -12,6 +12,7 @@
 #include "explore_options.hpp"
 #include "files/atomic_file.hpp"
 #include "json.hpp"
+#include "recording.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/world_file.hpp"
 #include "ridgeway/pictures/picture.hpp"
@@ -128,9 +129,8 @@ void print(const ExplorationFlight& flight, const std::string& output, const Glo
                           text_of(flight.viewable_volume, 1) + " cubic metres that can be seen");
   print_row("flight", text_of(flight.seconds, 1) + " s, " + text_of(flight.length, 1) + " m, " +
                           count_text(flight.samples.size()) + " scans");
-  print_row("nearest",
-            text_of(rounded_down(flight.nearest)) +
-                " m between drone and world, collisions: " + count_text(flight.collisions));
+  print_row("nearest", text_of(rounded_down(flight.nearest)) +
+                           " m beyond its radius, collisions: " + count_text(flight.collisions));
   print_row("decision", seconds_text(1e-3 * decisions.median) + ", 95% within " +
                             seconds_text(1e-3 * decisions.p95));
   for (const UnseenFrontier& frontier : flight.unseen)
@@ -168,6 +168,7 @@ int run(const ExploreOptions& options, const Globals& globals) {
   if (!options.picture.empty()) require_extension(options.picture, "a picture", {".png", ".svg"});
   for (const std::string& file : {options.flight, options.volume})
     if (!file.empty()) require_extension(file, "a table", {".csv"});
+  if (!options.record.empty() && !config.lidar) require_recordable(config.sensor);
   const World world = load_world(options.world);
   config.validate();
   FollowedRun followed(options.follow, options.output, globals);

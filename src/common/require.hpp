@@ -11,7 +11,7 @@ namespace ridgeway::detail {
 
 /// Throws InputError naming a field and its value, unless the condition holds.
 template <typename Number>
-void require(bool holds, const char* field, Number value, const char* remedy) {
+void require(bool holds, const char* field, Number value, const std::string& remedy) {
   if (!holds) throw InputError(field, "is " + number_text(value), remedy);
 }
 

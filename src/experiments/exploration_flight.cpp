@@ -41,11 +41,14 @@ Box bounds_of(const World& world, const ExplorationFlightConfig& config) {
 }
 
 void require_start(const World& world, const ExplorationFlightConfig& config, const Box& bounds) {
-  const std::string place = "start " + number_text(config.start.x()) + "," +
-                            number_text(config.start.y()) + "," + number_text(config.start.z());
+  const auto text_of = [](const Point& p) {
+    return number_text(p.x()) + "," + number_text(p.y()) + "," + number_text(p.z());
+  };
+  const std::string place = "start " + text_of(config.start);
   if (!((config.start.array() >= bounds.min.array()).all() &&
         (config.start.array() <= bounds.max.array()).all()))
-    throw InputError(place, "is outside of what is to be mapped", "give a start within the bounds");
+    throw InputError(place, "is outside of what is to be mapped",
+                     "give a start between " + text_of(bounds.min) + " and " + text_of(bounds.max));
   const double room = surface_distance(world_at(world, 0.0), config.start).distance;
   const auto metres = [](double length) {
     return number_text(std::round(1e3 * length) / 1e3) + " m";
@@ -53,12 +56,17 @@ void require_start(const World& world, const ExplorationFlightConfig& config, co
   if (room < config.radius)
     throw InputError(
         place, room <= 0.0 ? "is inside an obstacle" : "is " + metres(room) + " from an obstacle",
-        "give a start farther from obstacles than the radius");
-  if (room < config.free_radius())
-    throw InputError(place,
-                     "has " + metres(room) + " of free space around it, not the " +
-                         metres(config.free_radius()) + " that are taken for free",
-                     "give a start with more room, a smaller start radius or smaller voxels");
+        "give a start farther from obstacles than the radius, " + metres(config.radius));
+  if (room >= config.free_radius()) return;
+  const double least = config.least_start_radius();
+  throw InputError(place,
+                   "has " + metres(room) + " of free space around it, not the " +
+                       metres(config.free_radius()) + " that are taken for free",
+                   room < least
+                       ? "give a start with more room: with this radius, margin and voxel size " +
+                             metres(least) + " at least"
+                       : "give a start with more room, a start radius from " + metres(least) +
+                             " to " + metres(room) + ", or smaller voxels");
 }
 
 /// Images as a recording holds them: depths in steps of a fifth of a millimetre.

@@ -55,6 +55,7 @@ struct ExplorationFlightConfig {
     return planner == ExplorationPlanner::kRidgeway || planner == ExplorationPlanner::kFrontier;
   }
   double clearance() const { return radius + (margin > 0.0 ? margin : voxel_size); }
+  double least_start_radius() const;  ///< metres
   double free_radius() const;
   double min_range() const { return lidar ? lidar->min_range : sensor.min_range; }
   double max_range() const { return lidar ? lidar->max_range : sensor.max_range; }

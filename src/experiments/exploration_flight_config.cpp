@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "common/number_text.hpp"
 #include "common/require.hpp"
 #include "exploration_flight.hpp"
 
@@ -17,8 +18,9 @@ void ExplorationFlightConfig::validate() const {
   require(margin >= 0.0 && std::isfinite(margin), "margin", margin, "give metres from 0");
   require(start.allFinite(), "start", start.x(), "give three finite coordinates");
   require(std::isfinite(start_yaw), "start_yaw", start_yaw, "give radians");
-  require(start_radius == 0.0 || start_radius >= clearance() + 0.5 * voxel_size, "start_radius",
-          start_radius, "give at least the radius, the margin and half a voxel, or 0");
+  require(start_radius == 0.0 || start_radius >= least_start_radius(), "start_radius", start_radius,
+          "give at least the radius, the margin and half a voxel, or 0: " +
+              number_text(least_start_radius()));
   require(voxel_size > 0.0 && std::isfinite(voxel_size), "voxel_size", voxel_size,
           "give metres above 0");
   require(scan_rate > 0.0 && std::isfinite(scan_rate), "scan_rate", scan_rate,
@@ -36,7 +38,8 @@ void ExplorationFlightConfig::validate() const {
           "leave it out, or take the planner ridgeway or frontier: no other comes back in time");
   const double turn = 2.0 * std::numbers::pi / explorer.limits.max_yaw_rate;
   require(budget >= turn, "budget", budget,
-          "give at least the time that the drone takes to turn once around");
+          "give at least the " + number_text(std::ceil(10.0 * turn) / 10.0) +
+              " s that the drone takes to turn once around");
   // The flight is looked at when an image is taken, so it ends no earlier.
   const double period = 1.0 / scan_rate;
   require(budget >= period, "budget", budget, "give at least the time between two images");
@@ -50,6 +53,10 @@ FieldOfView ExplorationFlightConfig::view() const {
 
 FieldOfView ExplorationFlightConfig::whole_view() const {
   return lidar ? field_of_view(*lidar, 1.0) : field_of_view(sensor, 1.0);
+}
+
+double ExplorationFlightConfig::least_start_radius() const {
+  return clearance() + 0.5 * voxel_size;
 }
 
 double ExplorationFlightConfig::free_radius() const {

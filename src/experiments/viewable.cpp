@@ -63,6 +63,24 @@ std::vector<Point> places_reached(const World& world, const EsdfMap& esdf, const
   return places;
 }
 
+/// Free voxels that others join to a place: only those can be seen, but through what is narrower
+/// than a voxel. It takes a ray from every place to find that a voxel is seen from none.
+VoxelMask around(const OccupancyMap& truth, const Point& place) {
+  VoxelMask joined(truth.layout);
+  const VoxelId first = truth.layout.find(voxel_at(to_local(truth, place), truth.voxel_size));
+  if (first == kNoVoxel) return joined;
+  std::vector<VoxelId> queue = {first};
+  joined.set(first);
+  for (std::size_t i = 0; i < queue.size(); ++i)
+    for (int d = 0; d < 27; ++d) {
+      const VoxelId next = truth.layout.neighbour(queue[i], d);
+      if (next == kNoVoxel || joined.test(next) || truth.state[next] != VoxelState::kFree) continue;
+      joined.set(next);
+      queue.push_back(next);
+    }
+  return joined;
+}
+
 bool is_in_view(const World& world, const FieldOfView& view, const Point& from, const Point& to) {
   const Eigen::Vector3d way = to - from;
   const double distance = way.norm();
@@ -92,12 +110,14 @@ ViewableVolume::ViewableVolume(const World& world, double voxel_size, const Voxe
   };
   for (std::size_t i = 0; i < places.size(); ++i) near[cell_of(places[i])].push_back(i);
   const BlockLayout& layout = truth.layout;
+  const VoxelMask joined = around(truth, start);
   std::vector<VoxelMask::Block> seen(layout.block_count());
   parallel_for_each_index(layout.block_count(), [&](std::size_t block) {
     std::size_t lucky = 0;  // the place that saw the last voxel mostly sees the next
     for (int local = 0; local < kBlockVoxels; ++local) {
       const VoxelIndex own = voxel_of(layout.block(static_cast<std::uint32_t>(block)), local);
-      if (truth.at(own) != VoxelState::kFree || !within.contains(own + truth.origin)) continue;
+      const auto id = static_cast<VoxelId>(block * kBlockVoxels + static_cast<std::size_t>(local));
+      if (!joined.test(id) || !within.contains(own + truth.origin)) continue;
       const Point centre = to_world(truth, centre_of(own, voxel_size));
       const auto is_seen_from = [&](std::size_t i) {
         if (!is_in_view(world, view, places[i], centre)) return false;

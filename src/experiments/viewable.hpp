@@ -10,9 +10,9 @@
 
 namespace ridgeway {
 
-/// The free voxels of an exact world that can be seen at all: their centres, in straight view and
-/// within range and vertical angle of a level sensor at any of the places, about half a metre
-/// apart, that a robot gets to from its start.
+/// The free voxels of an exact world that can be seen at all: joined to the start by others, their
+/// centres in straight view and within range and vertical angle of a level sensor at any of the
+/// places, about half a metre apart, that a robot gets to from its start.
 class ViewableVolume {
  public:
   /// Voxels of the lattice in `within`. `radius`: clearance of the robot, metres.

@@ -97,17 +97,24 @@ bool Explorer::State::choose(const FlightState& state, bool thorough, Exploratio
         {to_world(roadmap->esdf, places[stop.place].position), views.yaw_of(stop.heading)});
   }
   const bool flies = fly_tour(stops, tour, state, step);
+  if (is_out_of_time) return true;
   const bool goes_on = is_searching || state.velocity.norm() >= 1e-9;
   leads_nowhere |= thorough && can_see && !flies && !goes_on;
   return flies || (can_see && goes_on);
 }
 
-/// To the first stop that a trajectory leads to, on to the next where the first can be passed. Only
-/// so many are tried; at rest the search goes on with the next scan.
+/// To the first stop that a trajectory leads to from which the robot is home in time, on to the
+/// next where the first can be passed. Only so many are tried; at rest the search goes on with the
+/// next scan, and where all that were found are too late, the flight is over.
 bool Explorer::State::fly_tour(const std::vector<TourStop>& stops,
                                const std::vector<std::size_t>& tour, const FlightState& state,
                                ExplorationStep& step) {
   int flights = kMostFlights;
+  const auto is_late = [&] {
+    if (leaves_time_for_home(state, step.trajectory, step)) return false;
+    step.trajectory = {};
+    return is_out_of_time = true;  // unless another stop is in time
+  };
   for (std::size_t i = 0; i < tour.size(); ++i) {
     const Stop& stop = stops[tour[i]].stop;
     const Place& place = places[stop.place];
@@ -131,27 +138,35 @@ bool Explorer::State::fly_tour(const std::vector<TourStop>& stops,
     step.seconds.trajectory += detail::thread_seconds_now() - began;
     if (passing) {
       step.trajectory = std::move(passing->trajectory);
+      if (is_late()) {
+        if (!is_kept) continue;
+        is_out_of_time = false;  // what is flown now is in time
+        return true;
+      }
       look_on_the_way(step.trajectory, passing->time);
       goal = Goal{place, stop.heading, stop.gain, state.time + passing->time, next};
     } else {
       if (is_kept) return true;
       if (flights-- <= 0) {
-        is_searching = state.velocity.norm() < 1e-9;
+        is_searching = state.velocity.norm() < 1e-9 && !is_out_of_time;
         break;
       }
       if (!fly_to(place.position, views.yaw_of(stop.heading), state, step)) {
         refused.push_back(place.id);
         continue;
       }
+      if (is_late()) continue;
       if (config.strategy == ExplorationStrategy::kTour)
         look_on_the_way(step.trajectory, step.trajectory.duration());
       goal = Goal{place, stop.heading, stop.gain};
     }
     step.status = ExplorationStatus::kFly;
+    is_out_of_time = false;
     refused.clear();
     return true;
   }
   step.goal.reset();
+  if (is_out_of_time) goal.reset();
   return false;
 }
 
@@ -230,15 +245,6 @@ ExplorationStep Explorer::State::decide(std::shared_ptr<const Roadmap> now,
   step.seconds.frontiers = detail::thread_seconds_now() - began;
   step.was_in_doubt = !arrived && is_in_doubt(state);
   go_on(state, arrived, step);
-  if (step.status == ExplorationStatus::kFly &&
-      !leaves_time_for_home(state, step.trajectory, step)) {
-    step.status = ExplorationStatus::kKeep;
-    step.trajectory = {};
-    step.goal.reset();
-    goal.reset();
-    is_out_of_time = true;
-    go_home(state, arrived, step);
-  }
   if (step.was_in_doubt && step.trajectory.segments.empty() && brake(state, step)) {
     step.status = ExplorationStatus::kFly;
     step.is_braking = true;

@@ -132,7 +132,6 @@ void Explorer::State::go_home(const FlightState& state, bool arrived, Exploratio
   // From a motion that is tried now and then: where it would be late, it is so at the next scan.
   const auto go_on_as_before = [&] {  // what is flown now, and from its end home, is in time
     step.trajectory = {};
-    if (step.status == ExplorationStatus::kFly) goal.reset();  // that trajectory is not flown
     step.status = ExplorationStatus::kKeep;
   };
   if (can_wait && state.time < last_way_home + kBetweenWaysHome) return go_on_as_before();

@@ -20,6 +20,7 @@ using detail::Stop;
 
 constexpr double kBraking = 1.5;   // times the shortest way to rest: jerk is bounded, too
 constexpr double kLate = 0.3;      // seconds by which a turn may end after a stop is passed
+constexpr double kCorners = 1.1;   // times a straight flight: what ways with corners take
 constexpr double kLook = 1.0;      // seconds that a stop takes at least
 constexpr std::size_t kAsked = 2;  // times the stops of a tour: so many are asked what is expected
 constexpr double kAsGood = 0.8;    // of a stop's gain: a nearer place that sees as much takes it
@@ -48,17 +49,16 @@ double Explorer::State::seconds_from_robot(const TourStop& stop, const FlightSta
   return std::max(seconds, 0.0);
 }
 
-/// Leaves the stops from which the robot is home in time, reckoned to take more than it does: as if
-/// it stopped every three metres.
+/// Leaves the stops from which the robot is likely to be home in time: what is flown is held to
+/// that by the trajectories there and back.
 void Explorer::State::keep_in_time(std::vector<TourStop>& stops, const FlightState& state) const {
   const Point home = to_local(roadmap->esdf, *config.home);
   const detail::WaysFrom from_home(*roadmap, home, access_at(home));
-  const double v = config.limits.max_speed, a = config.limits.max_acceleration;
   std::erase_if(stops, [&](const TourStop& stop) {
     const double length = from_home.to(places[stop.stop.place].position, stop.access);
-    const double back = 1.1 * (length / v + v / a * (1.0 + length / 3.0));
-    const double looking = seconds_from_robot(stop, state) + config.persistence + 2.0;
-    return state.time + looking + back > config.until;
+    const double back = detail::seconds_of_leg(config.limits, length, 0.0);
+    const double likely = kCorners * (seconds_from_robot(stop, state) + back);
+    return state.time + likely + longest_gap > config.until;
   });
 }
 
