@@ -98,13 +98,22 @@ MapServerFile read_keys(const Keys& keys) {
 }  // namespace
 
 bool is_map_server(std::string_view text) {
+  constexpr std::string_view kKey = "image";  // no world has one
   std::string_view head = text.substr(0, 16384);
   if (head.starts_with("\xef\xbb\xbf")) head.remove_prefix(3);  // a byte order mark
+  const auto skip_blanks = [&] {
+    head.remove_prefix(std::min(head.find_first_not_of(" \t"), head.size()));
+  };
+  const bool is_flow = head.starts_with('{');  // keys follow a brace or a comma, not a line's end
   while (!head.empty()) {
-    const std::size_t end = std::min(head.find('\n'), head.size());
-    const std::string_view line = head.substr(0, end);
-    if (line.starts_with("image:")) return true;  // no world has one
-    head.remove_prefix(std::min(end + 1, head.size()));
+    if (is_flow) skip_blanks();
+    if (head.starts_with(kKey)) {
+      head.remove_prefix(kKey.size());
+      skip_blanks();
+      if (head.starts_with(':')) return true;
+    }
+    const std::size_t end = head.find_first_of(is_flow ? "{,\n" : "\n");
+    head.remove_prefix(std::min(end, head.size() - 1) + 1);
   }
   return false;
 }
@@ -123,15 +132,17 @@ MapServerFile read_map_server(std::string_view text, const std::string& name) {
 }
 
 VoxelState state_of_pixel(const MapServerFile& file, std::uint8_t grey, std::uint8_t opaque) {
-  if (opaque < 255) return VoxelState::kUnknown;
-  const double bright = grey / 255.0;
+  const bool is_clear = opaque < 255;
+  const bool averages = is_clear && file.mode == MapServerFile::Mode::kTrinary;
+  if (is_clear && !averages) return VoxelState::kUnknown;
+  const double bright = (averages ? 0.75 * grey + 0.25 * opaque : grey) / 255.0;
   double occupied = file.negate ? bright : 1.0 - bright;
   if (file.mode == MapServerFile::Mode::kRaw) {
     if (grey > 100) return VoxelState::kUnknown;
     occupied = grey / 100.0;
   }
   if (occupied > file.occupied_thresh) return VoxelState::kOccupied;
-  return occupied < file.free_thresh ? VoxelState::kFree : VoxelState::kUnknown;
+  return occupied < file.free_thresh && !is_clear ? VoxelState::kFree : VoxelState::kUnknown;
 }
 
 }  // namespace ridgeway

@@ -103,8 +103,10 @@ std::vector<Point> read_json(const std::filesystem::path& path) {
       points.emplace_back(p[0], p[1], p[2]);
     }
     return points;
-  } catch (const Json::exception& error) {
-    refuse(path, std::string("is no list of waypoints: ") + error.what());
+  } catch (const Json::parse_error& error) {
+    refuse(path, "is no JSON: byte " + std::to_string(error.byte) + " does not fit");
+  } catch (const Json::exception&) {
+    refuse(path, "has no list of waypoints, each three numbers");
   }
 }
 

@@ -129,6 +129,8 @@ OccupancyMap map_from_points(const PointCloud& cloud, const CloudMapConfig& conf
     if (is_outside && config.margin == 0) continue;
     builder.set(voxels.find(point_cloud, point), VoxelState::kOccupied);
   }
+  if (cloud.points.empty())
+    throw InputError(name, "has no points", "record or write the cloud again");
   if (inside == 0) {
     throw InputError(name, "has no point within the bounds " + describe(config.bounds),
                      "its points span " + describe(extent(cloud, config.T_map_cloud)));

@@ -240,7 +240,8 @@ World load_world(const std::filesystem::path& file) {
     validate_world(world);
     return world;
   } catch (const YAML::Exception& error) {
-    reader.fail(error.mark, "is no YAML: " + error.msg, "see the worlds that come with Ridgeway");
+    reader.fail(error.mark, "is no YAML: " + error.msg,
+                "give a world; a mesh is one where a world names it under meshes");
   } catch (const InputError& error) {
     if (error.where().starts_with(file.string())) throw;
     throw error.within(file.string());

@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "files/byte_reader.hpp"
@@ -57,16 +58,39 @@ constexpr std::array<std::string_view, 40> kKnown = {"r",
                                                      "userdata",
                                                      "scanangle"};
 
-bool is_separator(char c) { return is_blank(c) || c == ',' || c == ';'; }
+bool is_mark(char c) { return c == ',' || c == ';'; }
 
-/// Cuts the next entry off the front of a line; empty at its end.
-std::string_view take_entry(std::string_view& line) {
-  while (!line.empty() && is_separator(line[0])) line.remove_prefix(1);
-  const auto end = std::find_if(line.begin(), line.end(), is_separator);
-  const std::string_view entry = line.substr(0, static_cast<std::size_t>(end - line.begin()));
-  line.remove_prefix(entry.size());
-  return entry;
-}
+/// Cuts entries off the front of a line. Blanks part them, and so does a comma or semicolon with
+/// blanks around it; between two of these, and after one that ends the line, there is an empty one.
+class Entries {
+ public:
+  explicit Entries(std::string_view line) : line_(line) { skip_blanks(); }
+
+  /// Nothing at the line's end.
+  std::optional<std::string_view> next() {
+    if (line_.empty() && !std::exchange(is_after_mark_, false)) return std::nullopt;
+    const auto end =
+        std::find_if(line_.begin(), line_.end(), [](char c) { return is_blank(c) || is_mark(c); });
+    const std::string_view entry = line_.substr(0, static_cast<std::size_t>(end - line_.begin()));
+    line_.remove_prefix(entry.size());
+    skip_blanks();
+    is_after_mark_ = !line_.empty() && is_mark(line_[0]);
+    if (!is_after_mark_) return entry;
+    line_.remove_prefix(1);
+    skip_blanks();
+    return entry;
+  }
+
+  bool is_at_end() const { return line_.empty() && !is_after_mark_; }
+
+ private:
+  void skip_blanks() {
+    while (!line_.empty() && is_blank(line_[0])) line_.remove_prefix(1);
+  }
+
+  std::string_view line_;
+  bool is_after_mark_ = false;
+};
 
 /// Small letters and digits alone: Gps_Time and "gpstime" are the same.
 std::string plain(std::string_view name) {
@@ -93,14 +117,16 @@ struct Names {
 Names read_names(std::string_view line) {
   XyzColumns columns{.count = 0, .are_named = true};
   std::array<int, 3> found{};
-  for (auto entry = take_entry(line); !entry.empty(); entry = take_entry(line), ++columns.count) {
-    const std::string name = plain(entry);
+  Entries entries(line);
+  for (auto entry = entries.next(); entry; entry = entries.next(), ++columns.count) {
+    const std::string name = plain(*entry);
+    if (name.empty() && entries.is_at_end()) break;
     if (name.size() == 1 && name[0] >= 'x' && name[0] <= 'z') {
       const auto axis = static_cast<std::size_t>(name[0] - 'x');
       columns.xyz[axis] = columns.count;
       ++found[axis];
     } else if (std::find(kKnown.begin(), kKnown.end(), name) == kKnown.end()) {
-      return {std::nullopt, entry};
+      return {std::nullopt, *entry};
     }
   }
   if (found != std::array{1, 1, 1}) return {};
@@ -157,10 +183,13 @@ class XyzReader {
   bool read_point(std::string_view line) {
     std::size_t count = 0;
     bool is_point = true;
-    for (auto entry = take_entry(line); !entry.empty(); entry = take_entry(line), ++count)
+    Entries entries(line);
+    for (auto entry = entries.next(); entry; entry = entries.next(), ++count) {
+      if (entry->empty() && entries.is_at_end() && count == columns_.count) break;
       for (std::size_t axis = 0; axis < 3; ++axis)
         if (columns_.xyz[axis] == count)
-          is_point = is_point && take_number(entry, point_[axis]) && entry.empty();
+          is_point = is_point && take_number(*entry, point_[axis]) && entry->empty();
+    }
     if (!is_point || count < 3) return false;
     if (count != columns_.count) refuse_columns(count);
     cloud_.add(point_[0], point_[1], point_[2]);

@@ -69,14 +69,29 @@ TEST(MapServer, ModesAndThresholdsDecideOnPixels) {
   EXPECT_EQ(state(205), VoxelState::kUnknown);
   EXPECT_EQ(state(206), VoxelState::kFree);
   EXPECT_EQ(state_of_pixel(file, 255, 254), VoxelState::kUnknown);
+  EXPECT_EQ(state_of_pixel(file, 0, 0), VoxelState::kOccupied);  // a wall whose edge is smoothed
+  EXPECT_EQ(state_of_pixel(file, 60, 128), VoxelState::kOccupied);
+  EXPECT_EQ(state_of_pixel(file, 205, 254), VoxelState::kUnknown);
   file.negate = true;
   EXPECT_EQ(state(255), VoxelState::kOccupied);
   EXPECT_EQ(state(0), VoxelState::kFree);
   file.negate = false;
+  file.mode = MapServerFile::Mode::kScale;
+  EXPECT_EQ(state_of_pixel(file, 0, 0), VoxelState::kUnknown);
   file.mode = MapServerFile::Mode::kRaw;
   EXPECT_EQ(state(0), VoxelState::kFree);
   EXPECT_EQ(state(100), VoxelState::kOccupied);
   EXPECT_EQ(state(255), VoxelState::kUnknown);
+}
+
+TEST(MapServer, FilesAreKnownByTheirImageHoweverTheyAreWritten) {
+  for (const char* text : {"image: a.png\n", "mode: raw\nimage : a.png\n", "{image: a.png}",
+                           "{resolution: 0.1,image: a.png}", "{resolution: 0.1,\n  image : a.png}",
+                           "\xef\xbb\xbfimage: a.png"})
+    EXPECT_TRUE(is_map_server(text)) << text;
+  for (const char* text : {"", "name: image\n", "images: a.png\n", "boxes:\n  image: a.png\n",
+                           "{name: image}", "boxes: []\n# image: a.png\n"})
+    EXPECT_FALSE(is_map_server(text)) << text;
 }
 
 TEST(MapServer, ColouredPicturesAreAveragedAndWhatOneSeesThroughIsUnknown) {

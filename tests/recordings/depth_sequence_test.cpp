@@ -83,6 +83,14 @@ TEST_F(TumFolder, TimesAreMatchedNearestFirst) {
   EXPECT_EQ(sequence.camera.fx, 525.0);
 }
 
+TEST_F(TumFolder, ClocksThatDoNotMeetAreToldApart) {
+  write_whole(folder_ / "groundtruth.txt", "3600 1 0 0 0 0 0 1\n3700.5 3 0 0 0 0 0 1\n");
+  EXPECT_NE(refused().find("has no pose within 0.02 s of an image: images are from 1 to 5, poses "
+                           "from 3600 to 3700.5"),
+            std::string::npos)
+      << refused();
+}
+
 TEST_F(TumFolder, TimesAreMatchedAsByBruteForce) {
   SequenceConfig config;
   config.longest_gap = 0.03;
@@ -175,7 +183,7 @@ TEST_F(TumFolder, MistakesAreNamedWithFileAndLine) {
   has(with("groundtruth.txt", "1.0 1 0 0 0 0\n"), "groundtruth.txt line 1");
   has(with("groundtruth.txt", "1.0 1 0 0 0 0 0 2\n"), "quaternion");
   has(with("groundtruth.txt", "1.0 nan 0 0 0 0 0 1\n"), "no image with a pose");
-  has(with("groundtruth.txt", "9.0 1 0 0 0 0 0 1\n"), "no image with a pose");
+  has(with("groundtruth.txt", "9.0 1 0 0 0 0 0 1\n"), "no pose within 0.02 s of an image");
   write_whole(folder_ / "camera-intrinsics.txt", "525 0 900\n0 525 240\n0 0 1\n");
   has(refused(), "camera-intrinsics.txt camera cx");
   for (const char* focal : {"0", "-525", "nan", "inf", "1e-300", "1e300"}) {
@@ -260,6 +268,14 @@ TEST(DepthSequence, ATrajectoryLogGivesThePosesOfTheImagesInOrder) {
   EXPECT_EQ(sequence.frames[1].image.filename(), "000003.png");
   EXPECT_EQ(sequence.frames[1].T_world_camera.translation(), Point(1.5, 2.5, 3.5));
 
+  // In the order of the numbers, which text has otherwise.
+  fs::rename(folder / "depth" / "000002.png", folder / "depth" / "12.png");
+  EXPECT_EQ(open_sequence(folder.path()).frames[1].image.filename(), "12.png");
+  write_whole(folder / "trajectory.log", "2 2 3\n" + turn + "0 0 1\n" + turn + "1 1 2\n" + turn);
+  EXPECT_NE(refusal([&] { open_sequence(folder.path()); }).find("has pose 0 after pose 2"),
+            std::string::npos);
+  write_whole(folder / "trajectory.log", "0 0 0\n" + turn + "0 0 0\n" + turn + "0 0 0\n" + turn);
+  EXPECT_EQ(open_sequence(folder.path()).frames.size(), 3u);
   write_whole(folder / "trajectory.log", "0 0 1\n" + turn);
   EXPECT_NE(refusal([&] { open_sequence(folder.path()); }).find("1 poses for 3 images"),
             std::string::npos);

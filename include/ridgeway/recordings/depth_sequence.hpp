@@ -46,7 +46,8 @@ bool holds_depth_images(const std::filesystem::path& folder);
 /// Opens a folder in the layout of TUM RGB-D (depth.txt, groundtruth.txt, images of 1/5000 m; times
 /// are matched nearest first, each once), of 7-Scenes and 3DMatch (frame-*.depth.png in millimetres
 /// with frame-*.pose.txt, 4 x 4, camera to world), or of Open3D and Redwood (depth/*.png in
-/// millimetres with trajectory.log, in the order of their names). Throws InputError, with the file
+/// millimetres with trajectory.log, one pose for each image, in the order of the numbers in their
+/// names). Throws InputError, with the file
 /// and the line, for what is missing or wrong; poses that are not finite ("lost") are passed over
 /// and counted. The camera has the size of the first image that can be read.
 DepthSequence open_sequence(const std::filesystem::path& folder, const SequenceConfig& config = {});
@@ -60,6 +61,10 @@ DepthImage read_frame(const DepthSequence& sequence, const DepthFrame& frame);
 /// not at all.
 class SequenceWriter {
  public:
+  /// Metres along the optical axis: what is farther does not fit the layout's images, and is
+  /// written as not measured.
+  static constexpr double kFarthest = 13.1;
+
   /// `rate`: images a second, which gives their times. Throws InputError where the folder is there
   /// and not empty, or cannot be made, or the rate is not positive and finite.
   SequenceWriter(const std::filesystem::path& folder, const PinholeCamera& camera,

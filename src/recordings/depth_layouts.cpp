@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 The Ridgeway authors
+#include "depth_layouts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <system_error>
+#include <vector>
+
+#include "common/number_text.hpp"
+#include "files/natural_order.hpp"
+#include "pose_text.hpp"
+#include "ridgeway/common/error.hpp"
+#include "time_association.hpp"
+
+namespace ridgeway {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kSevenScenesImage = ".depth.png", kSevenScenesPose = ".pose.txt";
+constexpr double kSevenScenesUnits = 1000.0;  // of an image, a metre
+
+// --- TUM RGB-D
+
+struct StampedImage {
+  double time;
+  fs::path image;
+};
+struct StampedPose {
+  double time;
+  Eigen::Isometry3d T_world_camera;
+};
+
+/// In the order of time.
+std::vector<StampedImage> read_image_list(const fs::path& file) {
+  const char* remedy = "give lines of: timestamp filename";
+  std::vector<StampedImage> images;
+  for_each_row(file, [&](const TextRow& row) {
+    const double time = row.number(0, remedy);
+    if (!std::isfinite(time)) row.refuse("has a time that is not finite", remedy);
+    if (row.words.size() < 2) row.refuse("names no image", remedy);
+    images.push_back({time, file.parent_path() / row.words[1]});
+  });
+  std::stable_sort(images.begin(), images.end(),
+                   [](const auto& a, const auto& b) { return a.time < b.time; });
+  return images;
+}
+
+std::vector<StampedPose> read_trajectory(const fs::path& file) {
+  const char* remedy = "give lines of: timestamp tx ty tz qx qy qz qw";
+  std::vector<StampedPose> poses;
+  for_each_row(file, [&](const TextRow& row) {
+    const double time = row.number(0, remedy);
+    const auto pose = pose_in_row(row, 1, remedy);
+    if (pose && std::isfinite(time)) poses.push_back({time, *pose});
+  });
+  return poses;
+}
+
+template <typename Stamped>
+std::vector<double> times_of(const std::vector<Stamped>& all) {
+  std::vector<double> times;
+  for (const Stamped& one : all) times.push_back(one.time);
+  return times;
+}
+
+[[noreturn]] void refuse_clocks(const std::vector<double>& images, const std::vector<double>& poses,
+                                double longest_gap, const fs::path& folder) {
+  const auto span_of = [](const std::vector<double>& times) {
+    const auto [first, last] = std::minmax_element(times.begin(), times.end());
+    return " from " + number_text(*first) + " to " + number_text(*last);
+  };
+  throw InputError(folder.string(),
+                   "has no pose within " + number_text(longest_gap) + " s of an image: images are" +
+                       span_of(images) + ", poses" + span_of(poses),
+                   "give the times of both by one clock");
+}
+
+// --- 7-Scenes and 3DMatch
+
+/// Files of a folder whose names end so, in the order of their numbers: 10 comes after 9.
+std::vector<fs::path> images_in(const fs::path& folder, std::string_view ending) {
+  std::vector<fs::path> images;
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error))
+    if (entry->path().filename().string().ends_with(ending)) images.push_back(entry->path());
+  if (error)
+    throw InputError(folder.string(), "cannot be read: " + error.message(),
+                     "check its permissions");
+  std::sort(images.begin(), images.end(), [](const fs::path& a, const fs::path& b) {
+    return comes_before(a.filename().string(), b.filename().string());
+  });
+  return images;
+}
+
+/// The pose of a file of 4 x 4 numbers; nothing where tracking was lost.
+std::optional<Eigen::Isometry3d> read_pose(const fs::path& file) {
+  const char* remedy = "give a 4 x 4 matrix, camera to world, with a rotation in it";
+  const std::vector<double> v = read_numbers(file, 16, remedy);
+  const Eigen::Matrix4d matrix =
+      Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(v.data());
+  if (!matrix.allFinite()) return std::nullopt;
+  const auto pose = pose_of_matrix(matrix);
+  if (!pose) throw InputError(file.string(), "is no pose", remedy);
+  return pose;
+}
+
+// --- Open3D, Redwood
+
+/// The first number of a pose is its frame's, or the same for all.
+void require_in_order(const std::vector<double>& numbers, const fs::path& file) {
+  const auto stop = std::adjacent_find(numbers.begin(), numbers.end(), std::greater_equal<>());
+  const bool are_same = std::adjacent_find(numbers.begin(), numbers.end(), std::not_equal_to<>()) ==
+                        numbers.end();
+  if (stop == numbers.end() || are_same) return;
+  throw InputError(file.string(),
+                   "has pose " + number_text(stop[1]) + " after pose " + number_text(stop[0]),
+                   "give one pose for each image, in ascending order");
+}
+
+/// Five lines a pose: three whole numbers, then a 4 x 4 matrix, camera to world. Nothing for those
+/// that are not finite.
+std::vector<std::optional<Eigen::Isometry3d>> read_log(const fs::path& file) {
+  const char* remedy = "give for each frame a line of three numbers and a 4 x 4 matrix";
+  std::vector<std::optional<Eigen::Isometry3d>> poses;
+  std::vector<double> numbers;  // that poses have
+  Eigen::Matrix4d matrix;
+  int row_of_pose = 0;
+  std::size_t last_line = 0;
+  for_each_row(file, [&](const TextRow& row) {
+    last_line = row.line;
+    if (row.words.size() != (row_of_pose == 0 ? 3 : 4))
+      row.refuse("has " + std::to_string(row.words.size()) + " numbers", remedy);
+    for (std::size_t i = 0; i < row.words.size(); ++i) {
+      const double number = row.number(i, remedy);
+      if (row_of_pose == 0 && i == 0) numbers.push_back(number);
+      if (row_of_pose > 0) matrix(row_of_pose - 1, static_cast<Eigen::Index>(i)) = number;
+    }
+    row_of_pose = (row_of_pose + 1) % 5;
+    if (row_of_pose != 0) return;
+    const auto pose = matrix.allFinite() ? pose_of_matrix(matrix) : std::nullopt;
+    if (!pose && matrix.allFinite()) row.refuse("ends a matrix that is no pose", remedy);
+    poses.push_back(pose);
+  });
+  if (row_of_pose != 0)
+    throw InputError(file.string(), "ends within a pose, at line " + std::to_string(last_line),
+                     remedy);
+  require_in_order(numbers, file);
+  return poses;
+}
+
+}  // namespace
+
+DepthSequence open_tum(const fs::path& folder, const SequenceConfig& config) {
+  DepthSequence sequence;
+  sequence.layout = "tum";
+  sequence.units_per_metre = kTumUnits;
+  const std::vector<StampedImage> images = read_image_list(folder / kTumImages);
+  const std::vector<StampedPose> poses = read_trajectory(folder / kTumPoses);
+  const auto pose_of = associate(times_of(images), times_of(poses), config.longest_gap);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    if (const auto pose = pose_of[i])
+      sequence.frames.push_back({images[i].image, poses[*pose].T_world_camera, images[i].time});
+    else
+      ++sequence.without_pose;
+  }
+  if (sequence.frames.empty() && !images.empty() && !poses.empty())
+    refuse_clocks(times_of(images), times_of(poses), config.longest_gap, folder);
+  return sequence;
+}
+
+bool holds_seven_scenes(const fs::path& folder) {
+  return !images_in(folder, kSevenScenesImage).empty();
+}
+
+DepthSequence open_seven_scenes(const fs::path& folder) {
+  DepthSequence sequence;
+  sequence.layout = "7-scenes";
+  sequence.units_per_metre = kSevenScenesUnits;
+  for (const fs::path& image : images_in(folder, kSevenScenesImage)) {
+    std::string name = image.filename().string();
+    name.replace(name.size() - kSevenScenesImage.size(), kSevenScenesImage.size(),
+                 kSevenScenesPose);
+    const auto pose = is_there(folder / name) ? read_pose(folder / name) : std::nullopt;
+    if (pose)
+      sequence.frames.push_back({image, *pose, {}});
+    else
+      ++sequence.without_pose;
+  }
+  return sequence;
+}
+
+bool holds_log(const fs::path& folder) {
+  std::error_code error;
+  return is_there(folder / kOpen3dPoses) && fs::is_directory(folder / kOpen3dImages, error);
+}
+
+DepthSequence open_log(const fs::path& folder) {
+  DepthSequence sequence;
+  sequence.layout = "open3d";
+  sequence.units_per_metre = kSevenScenesUnits;
+  const auto poses = read_log(folder / kOpen3dPoses);
+  const std::vector<fs::path> images = images_in(folder / kOpen3dImages, ".png");
+  if (images.size() != poses.size())
+    throw InputError((folder / kOpen3dPoses).string(),
+                     "has " + std::to_string(poses.size()) + " poses for " +
+                         std::to_string(images.size()) + " images in " + kOpen3dImages,
+                     "give one for each image, in the order of the numbers in their names");
+  for (std::size_t i = 0; i < images.size(); ++i)
+    if (poses[i])
+      sequence.frames.push_back({images[i], *poses[i], {}});
+    else
+      ++sequence.without_pose;
+  return sequence;
+}
+
+}  // namespace ridgeway
