@@ -7,6 +7,7 @@
 #include "common/number_text.hpp"
 #include "common/rounding.hpp"
 #include "console.hpp"
+#include "esdf/widest_place.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/voxel/index.hpp"
@@ -18,12 +19,6 @@ std::string metres(double value) { return text_of(value) + " m"; }
 
 /// A radius that fits must fit as it is printed.
 std::string metres_at_most(double value) { return metres(rounded_down(value)); }
-
-std::string part_text(const BlockedRoute& blocked, bool is_start) {
-  const Component& part = is_start ? blocked.start_component : blocked.goal_component;
-  return count_text(1 + (is_start ? blocked.start_number : blocked.goal_number)) + ", " +
-         text_of(part.volume) + " m^3";
-}
 
 /// What is in the way where there is no way at any radius.
 std::string shut_text(const BlockedRoute& blocked) {
@@ -82,6 +77,10 @@ std::string AnswerFacts::explain_collision(const Query& query, const Point& plac
   if (distance >= query.radius)
     return text + ", but no voxel beside it can be reached at a radius of " + metres(query.radius) +
            ": move it a little" + or_snap(is_movable);
+  if (const auto widest = detail::widest_place(roadmap_.esdf); widest->clearance < query.radius)
+    return "no place of this map has room for a radius of " + metres(query.radius) +
+           ": give a --radius of at most " + metres_at_most(widest->clearance) +
+           ", which is what the widest place has, " + point_text(widest->place);
   text += ", less than the radius of " + metres(query.radius) + ": move it" + or_snap(is_movable);
   if (is_movable)
     text += asked_.escape ? " (there is no straight way to where the robot fits)"
@@ -138,8 +137,10 @@ std::string AnswerFacts::explain_no_route(const Query& query) {
            or_lower;
   if (is_upright) text += ", nor for a ball of that radius";
   if (asked_.limits.any()) text += ", whatever the limits of the flight";
-  const std::string parts = " (the start is in component " + part_text(*blocked, true) +
-                            ", the goal in component " + part_text(*blocked, false) + ")";
+  // Not by their numbers: those that `info` gives are of the smallest radius.
+  const std::string parts = " (the start is in a part of space of " +
+                            text_of(blocked->start_component.volume) + " m^3, the goal in one of " +
+                            text_of(blocked->goal_component.volume) + " m^3)";
   const char* what = blocked->by == Blocker::kUnknown ? "unknown space" : "an obstacle";
   if (blocked->radius == 0.0)
     return text + ", nor at any other" + parts + ": " + shut_text(*blocked);

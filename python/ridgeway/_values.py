@@ -46,7 +46,7 @@ class TrajectorySamples(NamedTuple):
     """A trajectory at N times."""
 
     time: np.ndarray
-    """(N,), seconds from the start."""
+    """(N,), seconds from the start; of one time (`at`) alone this and the others have no N."""
     position: np.ndarray
     """(N, 3), metres, world frame."""
     velocity: np.ndarray

@@ -130,7 +130,11 @@ py::object states_at(const Trajectory& trajectory, py::handle times) {
     const Unlocked unlocked;
     for (const double time : all) states.push_back(trajectory.at(time));
   }
-  return arrays_of(states);
+  const py::object arrays = arrays_of(states);
+  if (array.ndim() > 0) return arrays;
+  py::list of_one;
+  for (const py::handle& values : arrays) of_one.append(values[py::int_(0)]);
+  return py::type::of(arrays)(*of_one);
 }
 
 py::array durations_of(const Trajectory& trajectory) {
@@ -212,8 +216,9 @@ void add_flights(py::module_& module) {
             return states_at(flight.result.trajectory, times);
           },
           py::arg("times"),
-          "at(self, times)\n--\n\nStates at times (N,), seconds, or at one, as TrajectorySamples: "
-          "before the start and after the\nend those of the ends.")
+          "at(self, times)\n--\n\nStates at times (N,), seconds, as TrajectorySamples; at one time "
+          "each of them is of that alone, as\na position (3,). Before the start and after the end "
+          "they are those of the ends.")
       .def(
           "save",
           [](const FlightFace& flight, py::handle path, py::handle step) {

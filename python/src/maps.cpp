@@ -17,19 +17,34 @@
 namespace ridgeway::python {
 namespace {
 
-MapFace from_numpy(py::handle states, py::handle voxel_size, py::handle origin,
-                   py::handle free_below, py::handle occupied_above) {
-  return face_of(map_of_array(
-      states, number_from(voxel_size, "voxel_size"), point_from(origin, "origin"),
-      {number_from(free_below, "free_below"), number_from(occupied_above, "occupied_above")}));
-}
-
 /// A UserWarning for each of what a person should be told.
 void warn_of(const LoadNotes& notes, const std::string& name) {
   for (const std::string& note : notes.notes)
     py::module_::import("warnings")
         .attr("warn")(text_to_python(std::string(name).append(": ").append(note)),
                       py::handle(PyExc_UserWarning), 1);
+}
+
+/// Zeros and ones are often meant as free and occupied.
+void warn_if_nothing_is_occupied(const OccupancyMap& map, const py::array& states) {
+  const char kind = states.dtype().kind();
+  const VoxelCounts counts = count_voxels(map);
+  const bool has_zeros = counts.free < static_cast<std::size_t>(states.size());
+  if ((kind != 'i' && kind != 'u') || counts.occupied > 0 || counts.free == 0 || !has_zeros) return;
+  LoadNotes notes;
+  notes.notes.emplace_back(
+      "holds zeros and ones: whole numbers are 0 unknown, 1 free, 2 occupied, so no voxel is "
+      "occupied; where 1 is to be occupied and 0 free give states.astype(bool)");
+  warn_of(notes, "states");
+}
+
+MapFace from_numpy(py::handle states, py::handle voxel_size, py::handle origin,
+                   py::handle free_below, py::handle occupied_above) {
+  OccupancyMap map = map_of_array(
+      states, number_from(voxel_size, "voxel_size"), point_from(origin, "origin"),
+      {number_from(free_below, "free_below"), number_from(occupied_above, "occupied_above")});
+  warn_if_nothing_is_occupied(map, py::reinterpret_borrow<py::array>(states));
+  return face_of(std::move(map));
 }
 
 MapFace from_points(py::handle points, py::handle voxel_size, py::handle bounds,
@@ -225,13 +240,16 @@ void add_maps(py::module_& module) {
       "occupied_above=0.5)\n--\n\n"
       "The map of an (nx, ny, nz) array [x, y, z], in any memory order. An (nx, ny) array "
       "gives a planar map,\nof a robot that stays in that layer.\n\n"
-      "  states: bool (True: occupied, False: free); whole numbers (UNKNOWN, FREE, "
-      "OCCUPIED); or\n"
+      "  states: bool (True: occupied, False: free); whole numbers (0 UNKNOWN, 1 FREE, "
+      "2 OCCUPIED); or\n"
       "    floats (32 or 64 bits), the probability of being occupied: free below `free_below`, "
       "occupied above\n    `occupied_above`, else unknown\n"
       "  voxel_size: metres\n"
       "  origin: low corner of the voxel [0, 0, 0], metres; a whole number of voxels\n\n"
-      "The array is read once, into the map; no other copy is made.");
+      "The array is read once, into the map; no other copy is made. Whole numbers of which none is "
+      "OCCUPIED, some UNKNOWN\nand some FREE, give a UserWarning: zeros and ones are often meant "
+      "as "
+      "free and occupied.");
   type.def_static("from_points", &from_points, py::arg("points"), py::arg("voxel_size"),
                   py::arg("bounds"), py::arg("transform") = py::none(),
                   "from_points(points, voxel_size, bounds, transform=None)\n--\n\n"

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "config.hpp"
+#include "esdf/widest_place.hpp"
 #include "lock.hpp"
 #include "ridgeway/esdf/free_space.hpp"
 #include "ridgeway/formats/path_io.hpp"
@@ -47,18 +48,35 @@ std::string reason_of(PlanStatus status) {
   return "invalid";
 }
 
-/// Of an end that is too near to an obstacle, where it lies in one: which snap would help.
+std::string too_small(const PlanFace& plan, const Roadmap& roadmap) {
+  const double radius = plan.config.radius.value_or(roadmap.min_clearance);
+  const double inner = 0.5 * plan.config.robot_height;
+  const std::string least = " (min_clearance=" + literal(roadmap.min_clearance) + ")";
+  if (inner > 0.0 && inner < radius)
+    return "the largest ball in a robot of that height has a radius of " + literal(inner) +
+           ", less than the roadmap was built for" + least;
+  return "the radius, " + literal(radius) + ", is smaller than the roadmap was built for" + least;
+}
+
+/// Where an end is too near to an obstacle, by how much and what would help.
 std::string reason_of(const PlanFace& plan) {
-  const bool is_start = plan.status == PlanStatus::kStartInCollision;
-  if (!plan.question || !(is_start || plan.status == PlanStatus::kGoalInCollision))
-    return reason_of(plan.status);
+  if (!plan.question) return reason_of(plan.status);
   const auto& [roadmap, start, goal] = *plan.question;
+  if (plan.status == PlanStatus::kRadiusTooSmall) return too_small(plan, *roadmap);
+  const bool is_start = plan.status == PlanStatus::kStartInCollision;
+  if (!is_start && plan.status != PlanStatus::kGoalInCollision) return reason_of(plan.status);
   const EsdfMap& esdf = roadmap->esdf;
-  if (FreeSpace(esdf).distance(flight_place(esdf, is_start ? start : goal)) > 0.0)
-    return reason_of(plan.status);
   const double radius = plan.config.radius.value_or(roadmap->min_clearance);
-  std::string text = std::string(is_start ? "the start" : "the goal") + " lies in an obstacle";
   const Unlocked unlocked;
+  const double distance = FreeSpace(esdf).distance(flight_place(esdf, is_start ? start : goal));
+  if (distance > 0.0) {
+    const auto widest = detail::widest_place(esdf);
+    return widest->clearance < radius
+               ? "no place of the map has room for a radius of " + literal(radius) +
+                     ": the widest has " + shown(widest->clearance)
+               : reason_of(plan.status);
+  }
+  std::string text = std::string(is_start ? "the start" : "the goal") + " lies in an obstacle";
   const std::optional<double> snap =
       smallest_snap(*roadmap, start, goal, 16.0 * radius, plan.config);
   if (!snap) return text;

@@ -290,7 +290,8 @@ def test_a_plan_is_flown_by_the_robot_and_within_the_limits_that_it_was_asked_fo
     again = roadmap.trajectory(around).at(samples.time)
     for one, other in zip(samples, again):
         np.testing.assert_allclose(one, other, atol=1e-12)
-    np.testing.assert_array_equal(flight.at(-1.0).position, [START])
+    np.testing.assert_array_equal(flight.at(-1.0).position, START)
+    assert flight.at(0.5).yaw == flight.at([0.5]).yaw[0] and flight.at(0.5).velocity.shape == (3,)
     with pytest.raises(ValueError, match="times: has one that is not finite"):
         flight.at([0.0, np.nan])
     tall = roadmap.plan(START, GOAL, robot_height=0.8)

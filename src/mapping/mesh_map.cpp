@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
+#include <sstream>
 
 #include "common/number_text.hpp"
 #include "memory_limit.hpp"
@@ -17,6 +19,14 @@
 
 namespace ridgeway {
 namespace {
+
+/// "12.5 x 4 x 2.75".
+std::string size_text(const Box& box) {
+  std::ostringstream text;
+  const Eigen::Vector3d size = box.max - box.min;
+  text << std::setprecision(3) << size.x() << " x " << size.y() << " x " << size.z();
+  return text.str();
+}
 
 constexpr const char* kRepair = "repair it, or write it again";
 
@@ -155,6 +165,9 @@ OccupancyMap map_from_mesh(const TriangleSoup& mesh, const MeshMapConfig& config
   VoxelRange range = voxels_overlapping(bounds, config.voxel_size);
   if (!bounds.min.allFinite() || !bounds.max.allFinite()) range = intersection(range, whole);
   const VoxelRange free_range = intersection(voxels_inside(bounds, config.voxel_size), range);
+  if (!config.bounds && (range.empty() || free_range.empty()))
+    throw InputError(name, "has no room for a voxel: it is " + size_text(report.box) + " m",
+                     "check its units, or give a smaller voxel_size");
   if (range.empty() || free_range.empty())
     throw InputError(name, "has no voxel wholly within the bounds",
                      "it spans " + place_text(report.box.min) + " to " +

@@ -10,6 +10,7 @@
 #include "build_stages.hpp"
 #include "common/number_text.hpp"
 #include "common/require.hpp"
+#include "esdf/widest_place.hpp"
 #include "graph_of_curves.hpp"
 #include "mapping/memory_limit.hpp"
 #include "mapping/require_states.hpp"
@@ -272,6 +273,21 @@ void build_what_is_learnt(const BuildConfig& config, BuildResult& result, StageC
 
 namespace {
 
+/// Where no voxel is traversable.
+[[noreturn]] void refuse_radius(const EsdfMap& esdf, double radius) {
+  const auto widest = detail::widest_place(esdf);
+  const auto metres = [](double length) { return number_text(std::floor(1e3 * length) / 1e3); };
+  std::string what = "leaves no traversable voxel in this map";
+  if (widest)
+    what += ", whose widest place, " + metres(widest->place.x()) + "," + metres(widest->place.y()) +
+            "," + metres(widest->place.z()) + ", has room for " + metres(widest->clearance);
+  throw InputError("min_clearance " + number_text(radius), what,
+                   std::string("give a smaller min_clearance") +
+                       (esdf.limits.any()                          ? ", or wider limits"
+                        : esdf.unknown == UnknownPolicy::kObstacle ? ", or ignore the unknown"
+                                                                   : ""));
+}
+
 /// Every stage, one after the other.
 BuildResult build_by_stages(OccupancyMap map, const BuildConfig& config, const Progress& progress) {
   BuildResult result;
@@ -297,13 +313,7 @@ BuildResult build_by_stages(OccupancyMap map, const BuildConfig& config, const P
   clock.end(report.seconds.esdf);
   report.allocated_voxels = esdf.layout.voxel_count();
   report.traversable_voxels = traversable.count();
-  if (report.traversable_voxels == 0)
-    throw InputError("min_clearance " + number_text(config.min_clearance),
-                     "leaves no traversable voxel in this map",
-                     std::string("give a smaller min_clearance") +
-                         (esdf.limits.any()                          ? ", or wider limits"
-                          : esdf.unknown == UnknownPolicy::kObstacle ? ", or ignore the unknown"
-                                                                     : ""));
+  if (report.traversable_voxels == 0) refuse_radius(esdf, config.min_clearance);
 
   detail::build_on_distances(std::move(traversable), config, result, clock, [&] {
     roadmap.cells = build_cell_graph(roadmap.esdf, config.min_clearance);

@@ -184,7 +184,7 @@ TEST(MeshMap, RefusesWhatIsNoMeshAndPlacesThatAreNone) {
   seeded.inside = {{50, 0, 0}};
   EXPECT_NE(says(box, seeded).find("outside the bounds"), std::string::npos);
   EXPECT_NE(says(box, {.voxel_size = 5.0, .bounds = {}, .inside = {}, .margin = 0})
-                .find("no voxel wholly"),
+                .find("has no room for a voxel: it is 2 x 2 x 2 m (check its units"),
             std::string::npos);
 }
 
