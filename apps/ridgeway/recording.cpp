@@ -43,10 +43,12 @@ void PointCounts::add(const PointCloud& cloud, const FusionConfig& config) {
 }
 
 void note_points_without_surface(const Globals& globals, const PointCounts& points) {
-  const std::size_t nearer = points.out_of_range - points.beyond;
-  if (nearer + points.not_finite > 0)
-    note(globals, count_text(nearer) + " points nearer than --min-range and " +
-                      count_text(points.not_finite) + " that are not finite were passed over");
+  const std::size_t useless = points.out_of_range - points.beyond;
+  if (useless + points.not_finite > 0)
+    note(globals,
+         "passed over: " + count_text(useless) +
+             " points nearer than --min-range or more than 20 times --max-range away, and " +
+             count_text(points.not_finite) + " that are not finite");
   if (points.beyond > 0)
     note(globals, count_text(points.beyond) +
                       " points beyond --max-range show no surface: they free the way up to there");

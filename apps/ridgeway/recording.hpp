@@ -22,8 +22,8 @@ RecordingKind kind_of_recording(const std::string& folder);
 /// What became of the points of scans.
 struct PointCounts {
   std::size_t fused = 0;
-  std::size_t out_of_range = 0;  ///< nearer than the least range, or beyond the largest
-  std::size_t beyond = 0;        ///< of those the latter, which free the way up to it
+  std::size_t out_of_range = 0;  ///< all others with finite coordinates
+  std::size_t beyond = 0;        ///< of those the ones that free the way up to the largest range
   std::size_t not_finite = 0;
 
   void add(const PointCloud& cloud, const FusionConfig& config);

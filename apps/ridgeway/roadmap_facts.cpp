@@ -77,7 +77,8 @@ std::string AnswerFacts::explain_collision(const Query& query, const Point& plac
   if (distance >= query.radius)
     return text + ", but no voxel beside it can be reached at a radius of " + metres(query.radius) +
            ": move it a little" + or_snap(is_movable);
-  if (const auto widest = detail::widest_place(roadmap_.esdf); widest->clearance < query.radius)
+  if (const auto widest = detail::widest_place(roadmap_.esdf);
+      widest && widest->clearance < query.radius)
     return "no place of this map has room for a radius of " + metres(query.radius) +
            ": give a --radius of at most " + metres_at_most(widest->clearance) +
            ", which is what the widest place has, " + point_text(widest->place);
@@ -138,9 +139,12 @@ std::string AnswerFacts::explain_no_route(const Query& query) {
   if (is_upright) text += ", nor for a ball of that radius";
   if (asked_.limits.any()) text += ", whatever the limits of the flight";
   // Not by their numbers: those that `info` gives are of the smallest radius.
+  const auto volume = [](const Component& part) {
+    return part.volume < 0.001 ? "less than 0.001 m^3" : text_of(part.volume) + " m^3";
+  };
   const std::string parts = " (the start is in a part of space of " +
-                            text_of(blocked->start_component.volume) + " m^3, the goal in one of " +
-                            text_of(blocked->goal_component.volume) + " m^3)";
+                            volume(blocked->start_component) + ", the goal in one of " +
+                            volume(blocked->goal_component) + ")";
   const char* what = blocked->by == Blocker::kUnknown ? "unknown space" : "an obstacle";
   if (blocked->radius == 0.0)
     return text + ", nor at any other" + parts + ": " + shut_text(*blocked);

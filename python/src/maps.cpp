@@ -28,9 +28,10 @@ void warn_of(const LoadNotes& notes, const std::string& name) {
 /// Zeros and ones are often meant as free and occupied.
 void warn_if_nothing_is_occupied(const OccupancyMap& map, const py::array& states) {
   const char kind = states.dtype().kind();
+  if (kind != 'i' && kind != 'u') return;
   const VoxelCounts counts = count_voxels(map);
   const bool has_zeros = counts.free < static_cast<std::size_t>(states.size());
-  if ((kind != 'i' && kind != 'u') || counts.occupied > 0 || counts.free == 0 || !has_zeros) return;
+  if (counts.occupied > 0 || counts.free == 0 || !has_zeros) return;
   LoadNotes notes;
   notes.notes.emplace_back(
       "holds zeros and ones: whole numbers are 0 unknown, 1 free, 2 occupied, so no voxel is "

@@ -71,7 +71,7 @@ std::string reason_of(const PlanFace& plan) {
   const double distance = FreeSpace(esdf).distance(flight_place(esdf, is_start ? start : goal));
   if (distance > 0.0) {
     const auto widest = detail::widest_place(esdf);
-    return widest->clearance < radius
+    return widest && widest->clearance < radius
                ? "no place of the map has room for a radius of " + literal(radius) +
                      ": the widest has " + shown(widest->clearance)
                : reason_of(plan.status);

@@ -19,7 +19,8 @@ namespace {
 PlanFace plan_face(const std::shared_ptr<const Roadmap>& roadmap, const Point& start,
                    const Point& goal, const PlanConfig& config, PlanResult plan) {
   PlanFace face{std::move(plan), config};
-  if (face.status == PlanStatus::kStartInCollision || face.status == PlanStatus::kGoalInCollision)
+  if (face.status == PlanStatus::kStartInCollision || face.status == PlanStatus::kGoalInCollision ||
+      face.status == PlanStatus::kRadiusTooSmall)
     face.question =
         std::make_shared<const PlanFace::Question>(PlanFace::Question{roadmap, start, goal});
   return face;

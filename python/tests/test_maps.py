@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 The Ridgeway authors
 import os
+import warnings
 
 import numpy as np
 import pytest
@@ -87,6 +88,19 @@ def test_memory_order_does_not_matter(name):
     states = random_states(3)
     array = reordered(states)[name]
     assert np.array_equal(OccupancyMap.from_numpy(array, 0.1).to_numpy().values, trimmed(states)[0])
+
+
+def test_zeros_and_ones_are_told_apart_from_free_and_occupied():
+    grid = np.zeros((6, 5, 4), np.uint8)
+    grid[2] = 1
+    with pytest.warns(UserWarning, match="holds zeros and ones"):
+        assert OccupancyMap.from_numpy(grid, 0.1).counts["occupied"] == 0
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert OccupancyMap.from_numpy(grid.astype(bool), 0.1).counts["occupied"] == 20
+        grid[0, 0, 0] = 2
+        OccupancyMap.from_numpy(grid, 0.1)
+        OccupancyMap.from_numpy(np.ones((6, 5, 4), int), 0.1)
 
 
 def test_unaligned_floats_are_read():

@@ -125,7 +125,7 @@ def test_free_space_is_asked_point_by_point(roadmap):
         esdf.is_free(points, np.nan)
 
 
-def test_plans_are_arrays_and_reasons(roadmap):
+def test_plans_are_arrays_and_reasons(roadmap, rooms):
     plan = roadmap.plan(START, GOAL)
     assert plan and plan.ok and plan.status == "ok" and plan.reason == ""
     assert plan.waypoints.shape[1] == 3 and plan.waypoints.dtype == np.float64
@@ -158,7 +158,12 @@ def test_plans_are_arrays_and_reasons(roadmap):
     assert blocked.place[0] == pytest.approx(3.2, abs=0.2)
     assert roadmap.plan((0.25, 0.8, 1.0), GOAL).status == "start_in_collision"
     assert roadmap.plan((0.25, 0.8, 1.0), GOAL, snap=0.5).moved_start > 0
-    assert roadmap.plan(START, GOAL, radius=0.1).status == "radius_too_small"
+    narrow = roadmap.plan(START, GOAL, radius=0.1)
+    assert narrow.status == "radius_too_small" and "0.1, is smaller than" in narrow.reason
+    assert "largest ball in a robot of that height" in roadmap.plan(START, GOAL, robot_height=0.2).reason
+    assert "no place of the map has room for a radius of 7.0" in roadmap.plan(START, GOAL, radius=7.0).reason
+    with pytest.raises(ValueError, match="whose widest place, .* has room for"):
+        ridgeway.build(ridgeway.OccupancyMap.from_numpy(rooms, 0.1), min_clearance=7.0)
 
 
 def test_a_wall_across_the_map_is_named_and_where_the_map_ends(rooms):

@@ -14,8 +14,8 @@ struct WidestPlace {
   double clearance = 0.0;  ///< metres; infinite without any obstacle
 };
 
-/// The first in the order of voxels (z, y, x) of several that are as wide; nothing where a centre may
-/// be nowhere. Looks at every voxel.
+/// The first in the order of voxels (z, y, x) of several that are as wide; nothing where a centre
+/// may be nowhere. Looks at every voxel.
 std::optional<WidestPlace> widest_place(const EsdfMap& esdf);
 
 }  // namespace ridgeway::detail

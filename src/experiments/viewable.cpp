@@ -68,7 +68,7 @@ std::vector<Point> places_reached(const World& world, const EsdfMap& esdf, const
 VoxelMask around(const OccupancyMap& truth, const Point& place) {
   VoxelMask joined(truth.layout);
   const VoxelId first = truth.layout.find(voxel_at(to_local(truth, place), truth.voxel_size));
-  if (first == kNoVoxel) return joined;
+  if (first == kNoVoxel || truth.state[first] != VoxelState::kFree) return joined;
   std::vector<VoxelId> queue = {first};
   joined.set(first);
   for (std::size_t i = 0; i < queue.size(); ++i)

@@ -58,7 +58,7 @@ Access Explorer::State::access_at(const Point& local) const {
 /// Finds the next goal and a trajectory there, or says that there is none to be seen from.
 bool Explorer::State::choose(const FlightState& state, bool thorough, ExplorationStep& step) {
   double began = detail::thread_seconds_now();
-  leads_nowhere = false;
+  leads_nowhere = is_out_of_time = false;
   const Point here = to_local(roadmap->esdf, state.position);
   const bool all_looked_at = look_around(here, thorough);
   step.seconds.views += detail::thread_seconds_now() - began;
@@ -68,6 +68,12 @@ bool Explorer::State::choose(const FlightState& state, bool thorough, Exploratio
   const double least_gain = thorough ? 0.0 : 0.5 * static_cast<double>(config.least_frontier);
   std::vector<TourStop> stops = cover(ways, least_gain, false);
   const bool can_see = !stops.empty();
+  if (std::isfinite(config.until)) keep_in_time(stops, state);
+  if (stops.empty() && (can_see || !late.empty())) {
+    is_out_of_time = true;
+    step.seconds.tour += detail::thread_seconds_now() - began;
+    return true;
+  }
   if (thorough && !can_see && !all_looked_at) {
     is_searching = true;
     return true;
@@ -76,12 +82,6 @@ bool Explorer::State::choose(const FlightState& state, bool thorough, Exploratio
   if (thorough && !can_see)
     leads_nowhere =
         step.frontiers > 0 && (access.vertex == kNoVertex || !cover(ways, 0.0, true).empty());
-  if (std::isfinite(config.until)) keep_in_time(stops, state);
-  if (can_see && stops.empty()) {
-    is_out_of_time = true;
-    step.seconds.tour += detail::thread_seconds_now() - began;
-    return true;
-  }
   keep_best(stops, state);
   std::vector<std::size_t> tour(stops.size());
   for (std::size_t i = 0; i < tour.size(); ++i) tour[i] = i;
@@ -97,7 +97,6 @@ bool Explorer::State::choose(const FlightState& state, bool thorough, Exploratio
         {to_world(roadmap->esdf, places[stop.place].position), views.yaw_of(stop.heading)});
   }
   const bool flies = fly_tour(stops, tour, state, step);
-  if (is_out_of_time) return true;
   const bool goes_on = is_searching || state.velocity.norm() >= 1e-9;
   leads_nowhere |= thorough && can_see && !flies && !goes_on;
   return flies || (can_see && goes_on);
@@ -105,16 +104,11 @@ bool Explorer::State::choose(const FlightState& state, bool thorough, Exploratio
 
 /// To the first stop that a trajectory leads to from which the robot is home in time, on to the
 /// next where the first can be passed. Only so many are tried; at rest the search goes on with the
-/// next scan, and where all that were found are too late, the flight is over.
+/// next scan, in motion what is flown goes on.
 bool Explorer::State::fly_tour(const std::vector<TourStop>& stops,
                                const std::vector<std::size_t>& tour, const FlightState& state,
                                ExplorationStep& step) {
   int flights = kMostFlights;
-  const auto is_late = [&] {
-    if (leaves_time_for_home(state, step.trajectory, step)) return false;
-    step.trajectory = {};
-    return is_out_of_time = true;  // unless another stop is in time
-  };
   for (std::size_t i = 0; i < tour.size(); ++i) {
     const Stop& stop = stops[tour[i]].stop;
     const Place& place = places[stop.place];
@@ -136,37 +130,35 @@ bool Explorer::State::fly_tour(const std::vector<TourStop>& stops,
                                           state, kNear * config.spacing)
                        : std::nullopt;
     step.seconds.trajectory += detail::thread_seconds_now() - began;
-    if (passing) {
+    if (passing && leaves_time_for_home(state, passing->trajectory, step)) {
       step.trajectory = std::move(passing->trajectory);
-      if (is_late()) {
-        if (!is_kept) continue;
-        is_out_of_time = false;  // what is flown now is in time
-        return true;
-      }
       look_on_the_way(step.trajectory, passing->time);
       goal = Goal{place, stop.heading, stop.gain, state.time + passing->time, next};
     } else {
       if (is_kept) return true;
       if (flights-- <= 0) {
-        is_searching = state.velocity.norm() < 1e-9 && !is_out_of_time;
+        is_searching = state.velocity.norm() < 1e-9;
         break;
       }
       if (!fly_to(place.position, views.yaw_of(stop.heading), state, step)) {
         refused.push_back(place.id);
         continue;
       }
-      if (is_late()) continue;
+      if (!leaves_time_for_home(state, step.trajectory, step)) {
+        step.trajectory = {};
+        late.push_back(place.id);
+        continue;
+      }
       if (config.strategy == ExplorationStrategy::kTour)
         look_on_the_way(step.trajectory, step.trajectory.duration());
       goal = Goal{place, stop.heading, stop.gain};
     }
     step.status = ExplorationStatus::kFly;
-    is_out_of_time = false;
     refused.clear();
+    late.clear();
     return true;
   }
   step.goal.reset();
-  if (is_out_of_time) goal.reset();
   return false;
 }
 

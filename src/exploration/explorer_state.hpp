@@ -49,6 +49,7 @@ struct Explorer::State {
   std::map<VoxelIndex, int> looks;                 ///< in vain, by unknown voxel
   std::optional<std::pair<Point, int>> last_look;  ///< in flight: where, and the heading
   std::vector<std::uint64_t> refused;              ///< places that no trajectory led to
+  std::vector<std::uint64_t> late;                 ///< places from which home would be reached late
   std::set<std::pair<std::uint64_t, int>>
       passed;         ///< places and headings that were passed in flight
   Trajectory flying;  ///< world
@@ -78,6 +79,7 @@ struct Explorer::State {
   void look_in_flight(const FlightState& state);
   std::vector<TourStop> cover(const detail::WaysFrom& ways, double least_gain,
                               bool with_refused) const;
+  bool is_set_aside(const detail::Place& place) const;
   double expected_at(const detail::Stop& stop) const;
   void keep_best(std::vector<TourStop>& stops, const FlightState& state) const;
   std::vector<std::size_t> order(const std::vector<TourStop>& stops, const FlightState& state,

@@ -62,8 +62,16 @@ void Explorer::State::keep_in_time(std::vector<TourStop>& stops, const FlightSta
   });
 }
 
+/// Whether no trajectory led to a place, or none that left time for home, since the last flight.
+bool Explorer::State::is_set_aside(const Place& place) const {
+  const auto is_in = [&](const std::vector<std::uint64_t>& ids) {
+    return std::find(ids.begin(), ids.end(), place.id) != ids.end();
+  };
+  return is_in(refused) || is_in(late);
+}
+
 /// Stops that see all that can be seen, by what each adds; those out of reach are left out, and
-/// unless `with_refused` those that no trajectory led to.
+/// unless `with_refused` those that are set aside.
 std::vector<Explorer::State::TourStop> Explorer::State::cover(const detail::WaysFrom& ways,
                                                               double least_gain,
                                                               bool with_refused) const {
@@ -75,8 +83,7 @@ std::vector<Explorer::State::TourStop> Explorer::State::cover(const detail::Ways
   std::vector<TourStop> reach(places.size());
   parallel_for_each_index(places.size(), [&](std::size_t i) {
     if (views.from_places()[i].empty()) return;
-    if (!with_refused && std::find(refused.begin(), refused.end(), places[i].id) != refused.end())
-      return;
+    if (!with_refused && is_set_aside(places[i])) return;
     const Access access = detail::access_of(*roadmap, roadmap->esdf.layout.find(places[i].voxel));
     const double length = ways.to(places[i].position, access);
     if (std::isfinite(length)) reach[i] = {views.best_heading(i, covered), access, length};
@@ -188,7 +195,7 @@ void Explorer::State::refine_first(std::vector<TourStop>& stops,
       continue;
     const Stop stop = views.best_heading(i, others);
     if (stop.gain < wanted) continue;
-    if (std::find(refused.begin(), refused.end(), places[i].id) != refused.end()) continue;
+    if (is_set_aside(places[i])) continue;
     const Access access = detail::access_of(*roadmap, roadmap->esdf.layout.find(places[i].voxel));
     const TourStop other = {stop, access, ways.to(places[i].position, access), first.expected};
     if (!std::isfinite(other.from_robot)) continue;

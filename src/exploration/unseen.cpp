@@ -30,48 +30,56 @@ std::vector<VoxelId> widest_views_of(const Roadmap& roadmap, const Frontiers& fr
   return widest;
 }
 
-/// Where the widest way between two places is too narrow for the robot, taking unknown space for
-/// free: so nothing that is still to be seen can make it wider.
+/// Where the widest way between two places, through space that is known to be free, is too narrow
+/// for the robot by what is known to be occupied: nothing that is still to be seen makes it wider.
+/// (Ways through unknown space are no answer: nobody has seen all of a wall.)
 class Doors {
  public:
   explicit Doors(const Roadmap& roadmap)
       : radius_(roadmap.min_clearance),
-        esdf_(compute_esdf(
-            occupancy_of(roadmap.esdf),
-            {.unknown = UnknownPolicy::kFree, .max_distance = roadmap.esdf.max_distance})),
-        parts_(esdf_) {}
-
-  /// 0 beyond the box around the map.
-  double clearance(const VoxelIndex& voxel) const {
-    const VoxelId id = esdf_.layout.find(voxel);
-    return id == kNoVoxel ? 0.0 : esdf_.known_squared(id).metres(esdf_.voxel_size);
-  }
+        if_free_(distances(roadmap, UnknownPolicy::kFree)),
+        known_(distances(roadmap, UnknownPolicy::kIgnore)),
+        parts_(known_) {}
 
   struct Door {
     Point place;   ///< world
     double width;  ///< radius that fits, metres
   };
-  /// Nothing where the robot fits on no place at the way's end: that says nothing about the way.
   std::optional<Door> between(const VoxelIndex& home, const VoxelIndex& end) const {
-    if (clearance(end) < radius_) return std::nullopt;
-    const auto pass = parts_.narrowest_move(esdf_.layout.find(home), esdf_.layout.find(end));
-    if (!pass || pass->clearance.metres(esdf_.voxel_size) >= radius_) return std::nullopt;
-    const SpaceParts::Narrow narrow = parts_.look_at(*pass);
-    return Door{narrow.place, pass->clearance.metres(esdf_.voxel_size)};
+    const auto pass = parts_.narrowest_move(known_.layout.find(home), known_.layout.find(end));
+    if (!pass || pass->clearance.metres(known_.voxel_size) >= radius_) return std::nullopt;
+    return Door{parts_.look_at(*pass).place, pass->clearance.metres(known_.voxel_size)};
   }
 
-  /// Of the unknown voxels of a frontier the one with most room.
-  VoxelIndex widest_target(const Frontiers& frontiers, const FrontierCluster& cluster) const {
-    VoxelIndex widest = frontiers.parts()[cluster.parts[0]].first;
+  /// The free voxel of a frontier beside the unknown one with most room for all that is known;
+  /// nothing where the robot would not fit there even if it were free.
+  std::optional<VoxelIndex> widest_of(const Frontiers& frontiers,
+                                      const FrontierCluster& cluster) const {
+    std::optional<VoxelIndex> widest;
+    double room = 0.0;
     for (const std::size_t i : cluster.parts)
-      for (const VoxelIndex& target : frontiers.parts()[i].targets)
-        if (clearance(target) > clearance(widest)) widest = target;
+      for (const VoxelIndex& target : frontiers.parts()[i].targets) {
+        const VoxelId id = if_free_.layout.find(target);
+        const double clearance =
+            id == kNoVoxel ? 0.0 : if_free_.known_squared(id).metres(if_free_.voxel_size);
+        if (clearance < radius_ || clearance <= room) continue;
+        for (const Direction d : kFaceDirections)
+          if (known_.is_open(known_.layout.find(target + offset_of(d)))) {
+            room = clearance;
+            widest = target + offset_of(d);
+          }
+      }
     return widest;
   }
 
  private:
+  static EsdfMap distances(const Roadmap& roadmap, UnknownPolicy unknown) {
+    return compute_esdf(occupancy_of(roadmap.esdf),
+                        {.unknown = unknown, .max_distance = roadmap.esdf.max_distance});
+  }
+
   const double radius_;
-  const EsdfMap esdf_;
+  const EsdfMap if_free_, known_;
   const SpaceParts parts_;
 };
 
@@ -110,9 +118,12 @@ std::vector<UnseenFrontier> Explorer::unseen() const {
         doors.emplace(*state.roadmap);
         views = widest_views_of(*state.roadmap, frontiers, state.config);
       }
-      const VoxelIndex end = views[c] != kNoVoxel ? esdf.layout.index_of(views[c])
-                                                  : doors->widest_target(frontiers, cluster);
-      if (const auto door = doors->between(esdf.layout.index_of(home.voxel), end)) {
+      const VoxelIndex from = esdf.layout.index_of(home.voxel);
+      std::optional<Doors::Door> door;
+      if (views[c] != kNoVoxel) door = doors->between(from, esdf.layout.index_of(views[c]));
+      const auto end = door ? std::nullopt : doors->widest_of(frontiers, cluster);
+      if (end) door = doors->between(from, *end);
+      if (door) {
         found.reason = UnseenReason::kTooNarrow;
         found.door = door->place;
         found.door_radius = door->width;

@@ -8,8 +8,8 @@
 namespace ridgeway {
 
 /// Whether one name comes before another where runs of digits are compared as the numbers that they
-/// are, however long: image_9 before image_10. Names that differ in leading zeros alone are compared
-/// as text.
+/// are, however long: image_9 before image_10. Names that differ in leading zeros alone are
+/// compared as text.
 inline bool comes_before(std::string_view a, std::string_view b) {
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
   const auto take_run = [&](std::string_view& text) {

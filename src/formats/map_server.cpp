@@ -99,23 +99,13 @@ MapServerFile read_keys(const Keys& keys) {
 
 bool is_map_server(std::string_view text) {
   constexpr std::string_view kKey = "image";  // no world has one
-  std::string_view head = text.substr(0, 16384);
-  if (head.starts_with("\xef\xbb\xbf")) head.remove_prefix(3);  // a byte order mark
-  const auto skip_blanks = [&] {
-    head.remove_prefix(std::min(head.find_first_not_of(" \t"), head.size()));
-  };
-  const bool is_flow = head.starts_with('{');  // keys follow a brace or a comma, not a line's end
-  while (!head.empty()) {
-    if (is_flow) skip_blanks();
-    if (head.starts_with(kKey)) {
-      head.remove_prefix(kKey.size());
-      skip_blanks();
-      if (head.starts_with(':')) return true;
+  constexpr std::size_t kMost = 16384;        // such files are short
+  if (text.size() <= kMost) try {
+      const YAML::Node map = YAML::Load(std::string(text));
+      return map.IsMap() && map[std::string(kKey)];
+    } catch (const YAML::Exception&) {  // it may be one with a mistake
     }
-    const std::size_t end = head.find_first_of(is_flow ? "{,\n" : "\n");
-    head.remove_prefix(std::min(end, head.size() - 1) + 1);
-  }
-  return false;
+  return text.substr(0, kMost).find("\nimage:") != text.npos || text.starts_with("image:");
 }
 
 MapServerFile read_map_server(std::string_view text, const std::string& name) {

@@ -125,7 +125,7 @@ Names read_names(std::string_view line) {
       const auto axis = static_cast<std::size_t>(name[0] - 'x');
       columns.xyz[axis] = columns.count;
       ++found[axis];
-    } else if (std::find(kKnown.begin(), kKnown.end(), name) == kKnown.end()) {
+    } else if (!name.empty() && std::find(kKnown.begin(), kKnown.end(), name) == kKnown.end()) {
       return {std::nullopt, *entry};
     }
   }

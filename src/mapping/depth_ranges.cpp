@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <vector>
 
 namespace ridgeway::detail {
 namespace {
@@ -30,18 +31,20 @@ DepthImage without_outliers(const DepthImage& image) {
 
 DepthRanges ranges_of(const DepthImage& image, const PinholeCamera& camera,
                       const FusionConfig& config) {
-  DepthRanges ranges{image, image};
+  DepthRanges ranges{image, {image.width, image.height, std::vector<float>(image.depth.size())}};
+  bool any_beyond = false;
   for (int v = 0; v < image.height; ++v)
     for (int u = 0; u < image.width; ++u) {
       const auto pixel = static_cast<std::size_t>(v * image.width + u);
       const double stretch = camera.ray(u, v).norm();
       const double range = static_cast<double>(image.at(u, v)) * stretch;
-      const bool is_beyond = config.carve && config.is_beyond(range);
-      if (!config.takes(range)) ranges.within.depth[pixel] = 0.0f;
-      ranges.beyond.depth[pixel] =
-          is_beyond ? static_cast<float>(as_far_as_it_counts(range, config) / stretch) : 0.0f;
+      if (config.takes(range)) continue;
+      ranges.within.depth[pixel] = 0.0f;
+      if (!config.carve || !config.is_beyond(range)) continue;
+      ranges.beyond.depth[pixel] = static_cast<float>(as_far_as_it_counts(range, config) / stretch);
+      any_beyond = true;
     }
-  ranges.beyond = without_outliers(ranges.beyond);
+  if (any_beyond) ranges.beyond = without_outliers(ranges.beyond);
   return ranges;
 }
 

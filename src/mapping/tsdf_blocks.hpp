@@ -30,6 +30,12 @@ inline float gain_of(float value, const FusionConfig& config) {
   return std::max(1.0f + value / static_cast<float>(config.depth_behind), 0.0f);
 }
 
+/// A range beyond max_range, metres, cut to a truncation more than that: it says the same of the
+/// way up to max_range, and what is measured has a voxel however far away it is.
+inline double as_far_as_it_counts(double range, const FusionConfig& config) {
+  return std::min(range, config.max_range + config.truncation);
+}
+
 /// Distance and weight of the voxels of one block, x fastest, and, where anything is forgotten, how
 /// many measurements in a row have spoken against each.
 struct TsdfBlock {

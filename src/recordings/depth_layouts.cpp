@@ -23,6 +23,23 @@ namespace fs = std::filesystem;
 constexpr std::string_view kSevenScenesImage = ".depth.png", kSevenScenesPose = ".pose.txt";
 constexpr double kSevenScenesUnits = 1000.0;  // of an image, a metre
 
+/// The files of a folder whose names have that ending, in the order of the numbers in them: 10
+/// comes after 9.
+std::vector<fs::path> images_in(const fs::path& folder, std::string_view ending) {
+  std::vector<fs::path> images;
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error))
+    if (entry->path().filename().string().ends_with(ending)) images.push_back(entry->path());
+  if (error)
+    throw InputError(folder.string(), "cannot be read: " + error.message(),
+                     "check its permissions");
+  std::sort(images.begin(), images.end(), [](const fs::path& a, const fs::path& b) {
+    return comes_before(a.filename().string(), b.filename().string());
+  });
+  return images;
+}
+
 // --- TUM RGB-D
 
 struct StampedImage {
@@ -81,22 +98,6 @@ std::vector<double> times_of(const std::vector<Stamped>& all) {
 
 // --- 7-Scenes and 3DMatch
 
-/// Files of a folder whose names end so, in the order of their numbers: 10 comes after 9.
-std::vector<fs::path> images_in(const fs::path& folder, std::string_view ending) {
-  std::vector<fs::path> images;
-  std::error_code error;
-  fs::directory_iterator entry(folder, error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error))
-    if (entry->path().filename().string().ends_with(ending)) images.push_back(entry->path());
-  if (error)
-    throw InputError(folder.string(), "cannot be read: " + error.message(),
-                     "check its permissions");
-  std::sort(images.begin(), images.end(), [](const fs::path& a, const fs::path& b) {
-    return comes_before(a.filename().string(), b.filename().string());
-  });
-  return images;
-}
-
 /// The pose of a file of 4 x 4 numbers; nothing where tracking was lost.
 std::optional<Eigen::Isometry3d> read_pose(const fs::path& file) {
   const char* remedy = "give a 4 x 4 matrix, camera to world, with a rotation in it";
@@ -114,8 +115,8 @@ std::optional<Eigen::Isometry3d> read_pose(const fs::path& file) {
 /// The first number of a pose is its frame's, or the same for all.
 void require_in_order(const std::vector<double>& numbers, const fs::path& file) {
   const auto stop = std::adjacent_find(numbers.begin(), numbers.end(), std::greater_equal<>());
-  const bool are_same = std::adjacent_find(numbers.begin(), numbers.end(), std::not_equal_to<>()) ==
-                        numbers.end();
+  const bool are_same =
+      std::adjacent_find(numbers.begin(), numbers.end(), std::not_equal_to<>()) == numbers.end();
   if (stop == numbers.end() || are_same) return;
   throw InputError(file.string(),
                    "has pose " + number_text(stop[1]) + " after pose " + number_text(stop[0]),

@@ -26,7 +26,7 @@ Ramps stop_accelerating(const Point& from, const StartState& start, const Motion
   t = std::max(
       {t, kShortest * unit, kSteepestRamp * acceleration / (kWithinLimit * limits.max_jerk)});
   Ramps ramps(from, start);
-  ramps.add(t, Point::Zero());
+  ramps.ramp(t, Point::Zero());
   return ramps;
 }
 
@@ -92,7 +92,7 @@ std::optional<Trajectory> SmoothPath::brake(const Point& from, const StartState&
   auto braking = come_to_rest(from, start, kStateFixed);
   if (braking || start.acceleration.isZero(0.0)) return braking;
   const Ramps ease = stop_accelerating(from, start, config_.limits);
-  braking = come_to_rest(ease.position(), {.velocity = ease.velocity()}, kAllFixed);
+  braking = come_to_rest(ease.state().position, {.velocity = ease.state().velocity}, kAllFixed);
   if (!braking) return std::nullopt;
   braking->segments.insert(braking->segments.begin(), ease.segments.front());
   return holds(*braking) ? braking : std::nullopt;

@@ -4,24 +4,22 @@
 
 namespace ridgeway::detail {
 
-void Ramps::add(double duration, const Eigen::Vector3d& acceleration) {
-  const Eigen::Vector3d change = acceleration - acceleration_;
+void Ramps::ramp(double duration, const Eigen::Vector3d& to) {
+  const Eigen::Vector3d change = to - state_.acceleration;
   const double t = duration;
   TrajectorySegment segment;
   segment.duration = t;
   const auto set = [&](int power, const Eigen::Vector3d& value) {
     segment.coefficients.col(power).head<3>() = value;
   };
-  set(0, position_);
-  set(1, velocity_);
-  set(2, 0.5 * acceleration_);
+  set(0, state_.position);
+  set(1, state_.velocity);
+  set(2, 0.5 * state_.acceleration);
   set(5, 0.5 * change / (t * t * t));
   set(6, -0.5 * change / (t * t * t * t));
   set(7, change / (7.0 * t * t * t * t * t));
   segments.push_back(segment);
-  position_ += t * velocity_ + t * t * (0.5 * acceleration_ + change / 7.0);
-  velocity_ += t * (acceleration_ + 0.5 * change);
-  acceleration_ = acceleration;
+  state_.ramp(duration, to);
 }
 
 }  // namespace ridgeway::detail

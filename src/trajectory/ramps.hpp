@@ -11,27 +11,41 @@ namespace ridgeway::detail {
 
 /// Largest slope of the ramp 10 x^3 - 15 x^4 + 6 x^5: jerk over change of acceleration over time.
 inline constexpr double kSteepestRamp = 1.875;
-/// Of a limit: what motions of ramps go up to, so that peaks that are certified hold it.
+/// Of a limit: what straight motions go up to, so that peaks, which are certified to a share of
+/// 1e-6, hold it, and there is room to go on from them.
 inline constexpr double kWithinLimit = 1.0 - 1e-5;
 
-/// A motion of pieces in which acceleration goes smoothly from one value to the next: as 10 x^3 -
-/// 15 x^4 + 6 x^5, so that all derivatives up to the fourth are continuous where pieces meet.
+/// Where a motion has come to, and how it moves there.
+struct MotionState {
+  Point position = Point::Zero();
+  Eigen::Vector3d velocity = Point::Zero(), acceleration = Point::Zero();
+
+  /// Acceleration goes smoothly from what it is to another, as 10 x^3 - 15 x^4 + 6 x^5; to the
+  /// same: it is held.
+  void ramp(double duration, const Eigen::Vector3d& to) {
+    const double t = duration;
+    const Eigen::Vector3d change = to - acceleration;
+    position += t * velocity + t * t * (0.5 * acceleration + change / 7.0);
+    velocity += t * (acceleration + 0.5 * change);
+    acceleration = to;
+  }
+};
+
+/// A motion of such ramps, one after the other: all derivatives up to the fourth are continuous
+/// where they meet.
 class Ramps {
  public:
   Ramps(const Point& from, const StartState& start)
-      : position_(from), velocity_(start.velocity), acceleration_(start.acceleration) {}
+      : state_{from, start.velocity, start.acceleration} {}
 
-  /// A piece in which acceleration goes from what it is to another; the same: it is held.
-  void add(double duration, const Eigen::Vector3d& acceleration);
+  void ramp(double duration, const Eigen::Vector3d& to);
 
-  const Point& position() const { return position_; }  ///< where the motion has come to
-  const Eigen::Vector3d& velocity() const { return velocity_; }
+  const MotionState& state() const { return state_; }
 
   std::vector<TrajectorySegment> segments;
 
  private:
-  Point position_;
-  Eigen::Vector3d velocity_, acceleration_;
+  MotionState state_;
 };
 
 }  // namespace ridgeway::detail

@@ -57,7 +57,7 @@ std::vector<TrajectorySegment> straight_motion(const Point& from, const Point& t
   const Eigen::Vector3d along = (to - from) / length;
   Ramps ramps(from, {});
   const auto add = [&](double duration, double acceleration) {
-    ramps.add(duration, acceleration * along);
+    ramps.ramp(duration, acceleration * along);
   };
   const double shortest = kRounding * p.rise;
   const auto hold = [&](double duration, double acceleration) {

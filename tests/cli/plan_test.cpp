@@ -104,6 +104,8 @@ TEST_F(CliPlan, SaysWhyThereIsNoPathAndWhatToDo) {
       {"-2,1.9,1", "2,1,1", "0.3", "start_in_collision", "give --escape"},
       {"-2,1,1", "2,1.65,1", "0.4", "goal_in_collision", "--radius of at most 0.35 m"},
       {"-2,1,1", "2,1,1", "0.7", "no_route", "give that --radius"},
+      {"-2,1,1", "2,1,1", "5", "start_in_collision",
+       "no place of this map has room for a radius of 5 m"},
       {"-2,1,1", "2,1,1", "0.2", "radius_too_small", "--min-clearance"},
   };
   const std::string map = rooms();

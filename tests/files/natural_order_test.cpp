@@ -11,9 +11,23 @@ namespace ridgeway {
 namespace {
 
 TEST(NaturalOrder, NumbersInNamesCountAsNumbers) {
-  const std::vector<std::string> ordered = {
-      "", "0.png", "1.png", "2.png", "10.png", "11.png", "99999999999999999999998.png",
-      "99999999999999999999999.png", "a", "a01", "a1", "a1b", "a2", "a10", "a10b2", "a10b10", "b"};
+  const std::vector<std::string> ordered = {"",
+                                            "0.png",
+                                            "1.png",
+                                            "2.png",
+                                            "10.png",
+                                            "11.png",
+                                            "99999999999999999999998.png",
+                                            "99999999999999999999999.png",
+                                            "a",
+                                            "a01",
+                                            "a1",
+                                            "a1b",
+                                            "a2",
+                                            "a10",
+                                            "a10b2",
+                                            "a10b10",
+                                            "b"};
   for (std::size_t i = 0; i < ordered.size(); ++i)
     for (std::size_t j = 0; j < ordered.size(); ++j)
       EXPECT_EQ(comes_before(ordered[i], ordered[j]), i < j) << ordered[i] << " " << ordered[j];

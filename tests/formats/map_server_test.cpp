@@ -87,10 +87,12 @@ TEST(MapServer, ModesAndThresholdsDecideOnPixels) {
 TEST(MapServer, FilesAreKnownByTheirImageHoweverTheyAreWritten) {
   for (const char* text : {"image: a.png\n", "mode: raw\nimage : a.png\n", "{image: a.png}",
                            "{resolution: 0.1,image: a.png}", "{resolution: 0.1,\n  image : a.png}",
-                           "\xef\xbb\xbfimage: a.png"})
+                           "\xef\xbb\xbfimage: a.png", "{\"image\": \"a.png\"}",
+                           "# made by hand\n\n  image: a.png\n", "mode: [\nimage: a.png\n"})
     EXPECT_TRUE(is_map_server(text)) << text;
-  for (const char* text : {"", "name: image\n", "images: a.png\n", "boxes:\n  image: a.png\n",
-                           "{name: image}", "boxes: []\n# image: a.png\n"})
+  for (const char* text :
+       {"", "name: image\n", "images: a.png\n", "boxes:\n  image: a.png\n", "{name: image}",
+        "{boxes: {image: a}}", "{name: 'x, image: y'}", "boxes: []\n# image: a.png\n"})
     EXPECT_FALSE(is_map_server(text)) << text;
 }
 

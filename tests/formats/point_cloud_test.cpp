@@ -177,8 +177,9 @@ TEST(Xyz, ColumnsThatAreNamedAreFoundByTheirNames) {
   for (const char* text :
        {"x y z intensity\n1 2 3 0.5\n", "# x y z r g b\n1 2 3 255 0 7\n",
         "//X Y Z R G B\n1 2 3 9 9 9\n", "\"Gps_Time\",\"Z\",\"Y\",\"X\"\n1e9,3,2,1\n",
-        "label,x,y,z,class\n,1,2,3,\n", "label,x,y,z,class\n , 1,2\t, 3,7,\n",
-        "# made by hand\n#x y z label\n1 2 3 chair\n", "X;Y;Z;Nx;Ny;Nz\n1;2;3;0;0;1\n"}) {
+        "label,x,y,z,class\n,1,2,3,\n", ",x,y,z\n0,1,2,3\n", "x;;y;z\n1;;2;3\n",
+        "label,x,y,z,class\n , 1,2\t, 3,7,\n", "# made by hand\n#x y z label\n1 2 3 chair\n",
+        "X;Y;Z;Nx;Ny;Nz\n1;2;3;0;0;1\n"}) {
     const PointCloud cloud = read_xyz(text, "a.xyz");
     ASSERT_EQ(cloud.points.size(), 1u) << text;
     EXPECT_EQ(cloud.points[0], Point(1, 2, 3)) << text;

@@ -71,6 +71,39 @@ test("a mistake is named as the form names it, and takes away the answer from be
   await planned(page, () => set("from", "-2, 1, 1"));
 });
 
+test("what is no number is not planned with", kLimit, async () => {
+  for (const [id, typed, right, message] of [["radius", "1-2", "0.3", /^Radius is no number$/], ["snap", "1e", "0.5", /^Snap is no number$/], ["prefer", "1e", "0", /^Prefer clearance is no number$/], ["alternatives", "1e", "1", /^Routes is no number$/]]) {
+    await page.locator(`#${id}`).selectText();
+    await page.locator(`#${id}`).pressSequentially(typed);
+    await page.locator(`#${id}`).press("Tab");
+    assert.match(await text_of(page, "#result"), message);
+    assert.equal(await page.getAttribute(`#${id}`, "aria-invalid"), "true");
+    await nothing_is_shown(`${id} ${typed}`);
+    await planned(page, () => set(id, right));
+    assert.equal(await page.getAttribute(`#${id}`, "aria-invalid"), null);
+    assert.equal(await page.locator("#length").count(), 1, await text_of(page, "#result"));
+  }
+  await page.locator("#speed").selectText();
+  await page.locator("#speed").pressSequentially("1e");
+  await page.locator("#speed").press("Tab");
+  assert.equal(await text_of(page, "#no-flight"), "No trajectory: Speed is no number");
+  await set("speed", "2");
+  await page.evaluate(() => window.ridgeway.app.flight.flown);
+});
+
+test("an answer that is waited for is not covered up by the last one", kLimit, async () => {
+  const plan = await hold(page, "**/api/plan*");
+  await planned(page, async () => {
+    await set("radius", "0.31");
+    await plan.asked;
+    await page.waitForFunction(() => document.getElementById("result").textContent === "Planning ...");
+    await nothing_is_shown("while it plans");
+    await plan.release();
+  });
+  assert.equal(await page.locator("#length").count(), 1, await text_of(page, "#result"));
+  await planned(page, () => set("radius", "0.3"));
+});
+
 test("the command gives the same answer, also where the form is left as it is", async () => {
   await planned(page, () => set("radius", ""));
   assert.match(await page.locator("#command").textContent(), / --radius 0\.3 --snap 0\.5$/);

@@ -42,6 +42,14 @@ test("radii that fit are rounded down, what is missing is rounded up, and neithe
   assert.match(reason_text(answer), /too narrow by 0\.006 m/);
 });
 
+test("clearances are rounded down, and small parts of space have some volume", async () => {
+  const { clearance_text } = await load("answer_text");
+  assert.deepEqual([clearance_text(0.40551622), clearance_text(0.4, "clearance "), clearance_text(null)], ["0.405 m", "clearance 0.4 m", "no obstacle near"]);
+  const { volume_text, counted } = await load("numbers");
+  assert.deepEqual([volume_text(0.000125), volume_text(0.02), volume_text(12.34)], ["less than 0.001 m³", "0.02 m³", "12.3 m³"]);
+  assert.deepEqual([counted(1, "edge", "edges"), counted(1234, "edge", "edges")], ["1 edge", "1,234 edges"]);
+});
+
 test("reasons name what stands in the form, not options of the command line", async () => {
   const { error_text, reason_text } = await load("answer_text");
   const reasons = {

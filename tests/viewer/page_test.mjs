@@ -152,7 +152,10 @@ test("no route: the reason in words, and the view goes there", async () => {
   await page.locator("#show-place").click();
   await page.waitForTimeout(1500);
   assert.ok(difference(before, await pixels(page)) > 100);
+  const is_marked = () => page.evaluate(() => window.ridgeway.app.routes.narrow.visible);
+  assert.ok(await is_marked());
   await planned(page, () => set("radius", "0.3"));
+  assert.ok(!await is_marked());
 });
 
 test("dragging the goal plans as it moves, and draws the route anew, not the map", async () => {
@@ -267,11 +270,14 @@ test("marks are of the robot's size, and can be seen from afar", async () => {
     stage.draw();
     return [app.routes.goal.scale.x, stage.css_pixels_of(app.routes.goal.scale.x)];
   }, farther);
-  const [metres] = await marks(1);
-  assert.equal(metres, 0.3);
+  assert.equal((await marks(1))[0], 0.3);
+  await page.evaluate(() => window.ridgeway.app.routes.set_radius(0.1));
   const [, pixels] = await marks(50);
   assert.ok(Math.abs(pixels - 5) < 1e-6, `${pixels} pixels`);
-  assert.equal((await marks(1 / 50))[0], 0.3);
+  const drawn = await page.evaluate(() => window.ridgeway.stage.css_pixels_of(1));
+  assert.ok(drawn > 1, "the view goes so far off that nothing is drawn");
+  assert.equal((await marks(1 / 8))[0], 0.1);
+  await page.evaluate(() => { const { app, stage } = window.ridgeway; app.routes.set_radius(0.3); stage.look_from_side(); });
 });
 
 test("ceilings are cut off, and nothing where there are none", async () => {

@@ -44,7 +44,12 @@ export function reason_text(answer: PlanAnswer): string {
   const full = reason ? in_words_of_form(reason) : `No route: ${answer.status.replaceAll("_", " ")}`;
   if (!blocked || blocked.radius <= 0 || !blocked.place) return full;
   const narrow = { unknown: "Between unknown space the way is", limits: "Within the limits of flights the way is" }[blocked.by] ?? "The way is";
-  return `${narrow} too narrow by ${metres_at_least(Math.max(0.001, radius - blocked.radius))} m at ${place_text(blocked.place)}. ${full}`;
+  return `${narrow} too narrow by ${metres_at_least(Math.max(0.001, radius - blocked.radius))} m at ${place_text(blocked.place)}. ${full[0]!.toUpperCase()}${full.slice(1)}`;
+}
+
+/** No more than there is. */
+export function clearance_text(clearance: number | null, name = ""): string {
+  return clearance === null ? "no obstacle near" : `${name}${metres_at_most(clearance)} m`;
 }
 
 export function route_rows(routes: Route[], answer: PlanAnswer): HTMLElement[] {
@@ -63,13 +68,13 @@ export function route_rows(routes: Route[], answer: PlanAnswer): HTMLElement[] {
     line.append(th);
     line.insertCell().textContent = value;
   };
-  row("clearance", first.clearance === null ? "no obstacle near" : `${metres(first.clearance)} m`);
+  row("clearance", clearance_text(first.clearance));
   row("planned in", seconds(answer.seconds.total));
   row("answered by", `the ${first.answered_by}, ${first.waypoints.length} waypoints`);
   if (first.within !== undefined) row("shortest", first.within <= 1.0005 ? "there is no shorter one" : `within ${(100 * (first.within - 1)).toFixed(1)} % of it`);
   if (first.moved_start) row("start", `moved by ${metres(first.moved_start.distance)} m`);
   if (first.moved_goal) row("goal", `moved by ${metres(first.moved_goal.distance)} m`);
-  routes.slice(1).forEach((route, i) => row(`route ${i + 2}`, `${metres(route.length)} m, clearance ${metres(route.clearance ?? Infinity)} m`));
+  routes.slice(1).forEach((route, i) => row(`route ${i + 2}`, `${metres(route.length)} m, ${clearance_text(route.clearance, "clearance ")}`));
   if (answer.routes && answer.complete) row("", "the graph has no others");
   return [head, table];
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-import type * as THREE from "three";
+import * as THREE from "three";
 import { element } from "./dom";
 import { ClearanceScale } from "./drawings";
 import { FlightPanel } from "./flight";
@@ -9,7 +9,7 @@ import { connect_keys } from "./keys";
 import { LayerPanel } from "./layer_panel";
 import type { Info, Vector } from "./layers";
 import { Legend } from "./legend";
-import { metres, metres_at_least } from "./numbers";
+import { counted, metres, metres_at_least } from "./numbers";
 import type { Page } from "./page";
 import { Pointing } from "./pointing";
 import { QueryPanel } from "./query";
@@ -34,7 +34,11 @@ export class App implements Page {
     this.scale = new ClearanceScale(info.min_clearance, Math.max(2 * info.min_clearance, info.min_clearance + 1));
     this.routes = new RouteDrawing(stage, base);
     const fly_to = (place: Vector) => {
-      stage.fly_to(this.routes.local(place), Math.max(1, 4 * this.query.radius));
+      const local = this.routes.local(place);
+      const hides = (ray: THREE.Ray, distance: number) => (surface.hit(ray)?.distance ?? Infinity) < distance;
+      const above = new THREE.Vector3(0, 0, 1);
+      if (hides(new THREE.Ray(local, above), Infinity)) this.heights.cut_at(local.z + 2 * this.query.radius); // a ceiling
+      stage.fly_to(local, Math.max(1, 4 * this.query.radius), hides);
       element("canvas").focus();
     };
     this.heights = new HeightPanel(this);
@@ -73,6 +77,6 @@ export class App implements Page {
     const { x, y, z } = this.stage.size;
     element("facts").textContent =
       `${metres(x, 1)} x ${metres(y, 1)} x ${metres(z, 1)} m, voxels of ${metres(info.voxel_size)} m, ` +
-      `for robots of ${metres_at_least(info.min_clearance)} m radius and more; ${info.vertices.toLocaleString("en")} vertices, ${info.edges.toLocaleString("en")} edges`;
+      `for robots of ${metres_at_least(info.min_clearance)} m radius and more; ${counted(info.vertices, "vertex", "vertices")}, ${counted(info.edges, "edge", "edges")}`;
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
-import { error_text } from "./answer_text";
+import { clearance_text, error_text } from "./answer_text";
 import { kFlight } from "./colours";
 import { element, input } from "./dom";
 import type { Flight, Vector } from "./layers";
@@ -32,12 +32,14 @@ export class FlightPanel {
 
   /** Asks for the flight along the route that answers a query: as it is shown, unless it is too long to be asked for. */
   fly(query: Record<string, string>, waypoints: Vector[]): void {
+    this.query = query;
+    this.waypoints = waypoints;
+    const speed = input("speed");
+    if (Number.isNaN(speed.valueAsNumber)) return this.set(undefined, "No trajectory: Speed is no number");
     const { alternatives: _, ...parameters } = query;
     const path = waypoints.map((p) => p.join(",")).join(";");
     const along: Record<string, string> = encodeURIComponent(path).length < kLongestPath ? { path, radius: query.radius! } : parameters;
-    this.query = query;
-    this.waypoints = waypoints;
-    this.flown = this.ask({ ...along, max_speed: input("speed").value });
+    this.flown = this.ask({ ...along, max_speed: speed.value });
   }
 
   private async ask(parameters: Record<string, string>): Promise<void> {
@@ -87,7 +89,7 @@ export class FlightPanel {
     if (!state || !this.flight) return;
     input("time").value = String(time);
     element("clock").textContent = `${time.toFixed(1)} of ${this.flight.duration.toFixed(1)} s`;
-    element("state").textContent = `${Math.hypot(...state.velocity).toFixed(2)} m/s at ${place_text(state.position)}; clearance ${metres(this.flight.clearance ?? Infinity)} m at least`;
+    element("state").textContent = `${Math.hypot(...state.velocity).toFixed(2)} m/s at ${place_text(state.position)}; ${clearance_text(this.flight.clearance, "clearance at least ")}`;
   }
 
   private play(): void {

@@ -26,11 +26,7 @@ export class HeightPanel {
     this.set_range();
     input("slice").value = String(page.surface.low + Math.min((page.surface.high - page.surface.low) / 2, 1));
     input("cut").addEventListener("input", () => {
-      this.is_cut_chosen = true;
-      page.surface.cut = input("cut").valueAsNumber;
-      this.tell();
-      page.stage.changed();
-      this.cut_anew();
+      this.cut_at(input("cut").valueAsNumber);
     });
     input("slice").addEventListener("input", () => {
       this.tell();
@@ -39,6 +35,16 @@ export class HeightPanel {
     });
     this.tell();
     page.surface.mesh.add(this.section.mesh);
+    this.cut_anew();
+  }
+
+  /** Metres from the map's lowest corner. */
+  cut_at(height: number): void {
+    this.is_cut_chosen = true;
+    this.page.surface.cut = height;
+    input("cut").value = String(height);
+    this.tell();
+    this.page.stage.changed();
     this.cut_anew();
   }
 

@@ -7,7 +7,7 @@ import { element, input } from "./dom";
 import { ball, cloud_drawing, dispose, LabelLayer, NetDrawing, type ColourBy, type SliceDrawing } from "./drawings";
 import { read_cloud, read_components, read_net, type Narrow, type Net, type Vector } from "./layers";
 import type { Legend } from "./legend";
-import { metres, metres_at_most } from "./numbers";
+import { metres, metres_at_most, volume_text } from "./numbers";
 import type { Page } from "./page";
 import { ask_json } from "./source";
 
@@ -23,10 +23,6 @@ interface Layer {
 }
 
 /** Small parts are parts, too. */
-function volume_text(volume: number): string {
-  return `${metres(volume, volume < 1 ? 3 : 1)} m³`;
-}
-
 /** What is drawn of the map, switched on and off. */
 export class LayerPanel {
   private readonly labels = new LabelLayer(element("labels"));

@@ -34,7 +34,18 @@ export function place_of(text: string): Vector | undefined {
   return parts.length === 3 && parts.every(Number.isFinite) ? (parts as Vector) : undefined;
 }
 
+/** "1 edge", "1,234 edges". */
+export function counted(count: number, one: string, many: string): string {
+  return `${count.toLocaleString("en")} ${count === 1 ? one : many}`;
+}
+
+/** Cubic metres; small parts of space have some too. */
+export function volume_text(value: number): string {
+  return value < 0.001 ? "less than 0.001 m³" : `${metres(value, value < 1 ? 3 : 1)} m³`;
+}
+
 export function seconds(value: number): string {
+  if (value === 0) return "less than 0.1 ms"; // a page's clock is coarse
   if (value < 1e-3) return `${(1e6 * value).toPrecision(3)} µs`;
   if (value < 1) return `${(1e3 * value).toPrecision(3)} ms`;
   return `${value.toPrecision(3)} s`;

@@ -70,7 +70,11 @@ export class Pointing {
     if (!hit) return page.hint("There is no obstacle to click on here: click on the floor or a wall");
     if (this.tool === "measure") return this.measure(hit.place);
     const room = this.query.radius + page.info.voxel_size;
-    const lift = Math.max(input("lift").valueAsNumber || 0, room);
+    const asked = input("lift").valueAsNumber;
+    if (Number.isNaN(asked)) return page.hint("Click height is no number");
+    // In the middle of what is lower.
+    const ceiling = page.surface.hit(new THREE.Ray(hit.place.clone().addScaledVector(hit.normal, 1e-3), new THREE.Vector3(0, 0, 1)), true);
+    const lift = Math.max(Math.min(asked, (ceiling?.distance ?? Infinity) / 2), room);
     const place = hit.place.clone().addScaledVector(hit.normal, hit.normal.z > 0 ? lift : room);
     if (page.info.planar) place.z = hit.place.z;
     const which = this.tool;
@@ -101,9 +105,11 @@ export class Pointing {
     if (!this.measure_from) {
       this.clear_measured();
       this.measure_from = place;
-      const mark = ball(kMeasure, 0.05);
+      const mark = ball(kMeasure, Math.max(0.05, 5 / this.page.stage.css_pixels_of(1)));
       mark.position.copy(place);
       this.measured.add(mark);
+      this.page.hint("Click the second place");
+      this.page.stage.changed();
       return;
     }
     const from = this.measure_from;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 import { error_text, reason_text, route_rows } from "./answer_text";
-import { kGoal, kRoutes, kStart } from "./colours";
+import { kGoal, kNarrow, kRoutes, kStart } from "./colours";
 import { element, input } from "./dom";
 import type { FlightPanel } from "./flight";
 import type { PlanAnswer, Route, Vector } from "./layers";
@@ -15,6 +15,9 @@ const kEnds: readonly End[] = ["start", "goal"];
 const kFields = { start: "from", goal: "to" } as const;
 const kTitles = { start: "Start", goal: "Goal" } as const;
 const kNoPlace = "three numbers: x, y, z";
+const kNumbers = { radius: "Radius", alternatives: "Routes", prefer: "Prefer clearance", snap: "Snap" } as const;
+/** Milliseconds without an answer: then the last one must not stay for it. */
+const kPatience = 250;
 
 /** As it is asked. */
 type Query = Record<string, string>;
@@ -38,8 +41,9 @@ export class QueryPanel {
     page.routes.set_radius(this.radius);
     page.stage.after_frame.push(() => this.write_end());
     for (const end of kEnds) input(kFields[end]).addEventListener("change", () => this.take_typed(end));
-    for (const id of ["radius", "planner", "alternatives", "prefer", "snap"])
+    for (const id of ["planner", ...Object.keys(kNumbers)])
       element(id).addEventListener("change", () => {
+        if (!input("radius").value && !input("radius").validity.badInput) input("radius").value = String(page.info.min_clearance);
         page.routes.set_radius(this.radius);
         this.fit_form();
         void this.plan();
@@ -52,6 +56,7 @@ export class QueryPanel {
     });
     this.fit_form();
     element("show-place").addEventListener("click", () => this.blocked_place && fly_to(this.blocked_place));
+    for (const id of Object.keys(kNumbers)) input(id).addEventListener("input", () => this.mark(input(id), input(id).validity.badInput));
   }
 
   /** Where none is given, that of the smallest robot. */
@@ -77,14 +82,20 @@ export class QueryPanel {
   private mark_field(end: End, fault: string): void {
     const field = input(kFields[end]);
     field.setCustomValidity(fault);
-    if (fault) field.setAttribute("aria-invalid", "true");
+    this.mark(field, !!fault);
+  }
+
+  private mark(field: HTMLInputElement, is_wrong: boolean): void {
+    if (is_wrong) field.setAttribute("aria-invalid", "true");
     else field.removeAttribute("aria-invalid");
   }
 
-  /** What is wrong with a place that was typed. */
+  /** What is wrong with what was typed. */
   private fault(): string {
     const end = kEnds.find((end) => input(kFields[end]).validity.customError);
-    return end ? `${kTitles[end]} is no place: give ${kNoPlace}` : "";
+    if (end) return `${kTitles[end]} is no place: give ${kNoPlace}`;
+    const wrong = Object.entries(kNumbers).find(([id]) => input(id).validity.badInput);
+    return wrong ? `${wrong[1]} is no number` : "";
   }
 
   /** Sets an end, for the form and the picture. */
@@ -115,6 +126,11 @@ export class QueryPanel {
    */
   async plan(is_quick = this.is_dragging): Promise<void> {
     if (!this.start || !this.goal) return;
+    const fault = this.fault();
+    if (fault) {
+      this.wanted = "nothing";
+      return this.refuse(fault);
+    }
     if (!is_quick || this.wanted === "nothing") this.wanted = is_quick ? "route" : "all";
     if (this.asking) return;
     this.asking = true;
@@ -133,6 +149,7 @@ export class QueryPanel {
   explain(legend: Legend, are_routes_shown: boolean): void {
     if (this.start) legend.mark("Start", kStart);
     if (this.goal) legend.mark("Goal", kGoal);
+    if (this.blocked_place) legend.mark("Too narrow: the radius that it lets through", kNarrow);
     if (!are_routes_shown) return;
     const several = this.shown.length > 1;
     this.shown.forEach((route, i) => legend.mark(`Route ${several ? `${i + 1}, ` : ""}${metres(route.length, 2)} m`, kRoutes[i % kRoutes.length]!));
@@ -141,16 +158,19 @@ export class QueryPanel {
   /** A flight is asked for, and not waited for: meanwhile others can be planned. */
   private async plan_once(query: Query, is_quick: boolean): Promise<void> {
     const started = performance.now();
+    const waiting = is_quick ? 0 : window.setTimeout(() => this.start && this.goal && !this.fault() && this.refuse("Planning ...", "waiting"), kPatience);
     try {
       const answer = await ask_json<PlanAnswer>(this.page.source, "/api/plan", is_quick ? { ...query, explain: "0" } : query);
+      window.clearTimeout(waiting);
       this.answer_time = performance.now() - started;
-      if (!this.start || !this.goal) return; // taken away since
+      if (!this.start || !this.goal || this.fault()) return; // taken away since, or asked otherwise
       this.show(answer, query);
       if (!is_quick) element("result").scrollIntoView({ block: "nearest" }); // below the form on narrow screens
       const first = this.shown[0];
       if (first && !is_quick && this.wanted === "nothing") this.flight.fly(query, first.waypoints);
     } catch (error) {
-      if (this.start && this.goal) this.refuse(error_text(error));
+      window.clearTimeout(waiting);
+      if (this.start && this.goal && !this.fault()) this.refuse(error_text(error));
     }
   }
 
@@ -164,15 +184,21 @@ export class QueryPanel {
   }
 
   /** There is no answer to what the form asks now, and what answered an earlier question must not stay for one. */
-  private refuse(text: string): void {
+  private refuse(text: string, kind = "bad"): void {
     this.shown = [];
-    this.blocked_place = undefined;
+    this.block(undefined);
     this.page.routes.show_routes([]);
     this.flight.clear();
     element("show-place").hidden = true;
     element("command").textContent = "";
-    this.show_failure(text);
+    this.show_line(text, kind);
     this.page.update_legend();
+  }
+
+  /** Where the way is too narrow. */
+  private block(blocked: PlanAnswer["blocked"]): void {
+    this.blocked_place = blocked?.place ?? undefined;
+    this.page.routes.set_blocked(this.blocked_place, blocked?.radius ?? 0);
   }
 
   private show(answer: PlanAnswer, query: Query): void {
@@ -181,19 +207,19 @@ export class QueryPanel {
     this.page.routes.show_routes(routes);
     this.flight.clear();
     this.page.stage.answered(); // the picture first: it is drawn while the words are set
-    this.blocked_place = answer.blocked?.place ?? undefined;
+    this.block(answer.blocked);
     element("show-place").hidden = !this.blocked_place;
     element("command").textContent = this.command(query);
-    if (routes.length === 0) this.show_failure(reason_text(answer));
+    if (routes.length === 0) this.show_line(reason_text(answer), "bad");
     else element("result").replaceChildren(...route_rows(routes, answer));
     this.page.update_legend();
   }
 
-  private show_failure(text: string): void {
+  private show_line(text: string, kind: string): void {
     element("result").replaceChildren();
     if (!text) return;
     const line = document.createElement("p");
-    line.className = "bad";
+    line.className = kind;
     line.textContent = text;
     element("result").append(line);
   }

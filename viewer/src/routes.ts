@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 import * as THREE from "three";
-import { kFlight, kGoal, kRoutes, kStart } from "./colours";
+import { kFlight, kGoal, kNarrow, kRoutes, kStart } from "./colours";
 import { ball, drone, PathDrawing } from "./drawings";
 import type { Flight, Route, Sample, Vector } from "./layers";
 import type { Stage } from "./stage";
@@ -13,6 +13,8 @@ const kLeastRadius = 5;
 export class RouteDrawing {
   readonly start = ball(kStart, 0.3);
   readonly goal = ball(kGoal, 0.3);
+  private readonly narrow = ball(kNarrow, 0.3);
+  private narrow_radius = 0;
   readonly paths = new THREE.Group();
   readonly flight_group = new THREE.Group();
   private readonly robot = drone(kFlight);
@@ -22,9 +24,9 @@ export class RouteDrawing {
   private radius = 0.3;
 
   constructor(private readonly stage: Stage, private readonly base: THREE.Vector3) {
-    this.start.visible = this.goal.visible = this.flight_group.visible = false;
+    this.start.visible = this.goal.visible = this.narrow.visible = this.flight_group.visible = false;
     this.flight_group.add(this.robot, this.line.group);
-    stage.overlay.add(this.start, this.goal, this.paths, this.flight_group);
+    stage.overlay.add(this.start, this.goal, this.narrow, this.paths, this.flight_group);
     stage.before_frame.push(() => this.scale_marks());
   }
 
@@ -46,8 +48,9 @@ export class RouteDrawing {
   }
 
   private scale_marks(): void {
-    const radius = Math.max(this.radius, kLeastRadius / this.stage.css_pixels_of(1));
-    for (const part of [this.start, this.goal, this.robot]) part.scale.setScalar(radius);
+    const least = kLeastRadius / this.stage.css_pixels_of(1);
+    for (const part of [this.start, this.goal, this.robot]) part.scale.setScalar(Math.max(this.radius, least));
+    this.narrow.scale.setScalar(Math.max(this.narrow_radius, least));
   }
 
   /** `awaits_route`: one from or to there will be shown soon. */
@@ -57,6 +60,16 @@ export class RouteDrawing {
     if (place) marker.position.copy(this.local(place));
     if (awaits_route) this.stage.changes_with_answer();
     else this.stage.changed_over();
+  }
+
+  /** Where the way is too narrow, and the radius that it lets through. */
+  set_blocked(place: Vector | undefined, radius: number): void {
+    this.narrow.visible = !!place;
+    if (!place) return;
+    this.narrow.position.copy(this.local(place));
+    this.narrow_radius = radius;
+    this.scale_marks();
+    this.stage.changed_over();
   }
 
   show_routes(routes: Route[]): void {

@@ -27,7 +27,7 @@ export class ServerSource implements MapSource {
     try {
       response = await fetch(query ? `${path}?${query}` : path);
     } catch {
-      throw new AnswerError("the server does not answer: is `ridgeway view` still running?");
+      throw new AnswerError("the server does not answer: is `ridgeway` still running?");
     }
     const map = response.headers.get("Ridgeway-Map"); // none where something else answers
     this.map ??= map;

@@ -236,13 +236,13 @@ export class SurfaceMesh {
     return this.high;
   }
 
-  /** The nearest face that a ray meets from its front, below the cut. */
-  hit(ray: THREE.Ray): Hit | undefined {
+  /** The nearest face that a ray meets from its front, below the cut or anywhere. */
+  hit(ray: THREE.Ray, anywhere = false): Hit | undefined {
     const { surface, origin } = this.fine;
     const { cells, sizes, count, cell } = surface;
     const from = ray.origin.clone().sub(origin).divideScalar(cell).toArray();
     const way = ray.direction.clone().divideScalar(cell).toArray();
-    const cut = (this.cut - origin.z) / cell;
+    const cut = anywhere ? Infinity : (this.cut - origin.z) / cell;
     let nearest = Infinity;
     let found = -1;
     for (let i = 0; i < count; ++i) {

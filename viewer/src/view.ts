@@ -68,6 +68,8 @@ export abstract class View {
     this.box.set(low, high);
     const reach = this.size.length();
     this.perspective.far = 6 * reach;
+    this.controls.maxDistance = 4 * reach; // farther off nothing would be drawn
+    this.controls.minZoom = 0.2;
     this.perspective.near = Math.max(0.02, reach / 5000);
     this.orthographic.near = -3 * reach;
     this.orthographic.far = 3 * reach;
@@ -138,8 +140,8 @@ export abstract class View {
     this.controls.update();
   }
 
-  /** Moves the view to a place, so that so many metres around it can be seen. */
-  fly_to(place: THREE.Vector3, around: number): void {
+  /** Moves the view to a place, so that so many metres around it can be seen; from steeply above where something hides it from the side. */
+  fly_to(place: THREE.Vector3, around: number, hides: (ray: THREE.Ray, distance: number) => boolean): void {
     cancelAnimationFrame(this.flight);
     if (this.is_orthographic) this.look_from_side();
     this.preset = undefined;
@@ -147,7 +149,9 @@ export abstract class View {
     const from = this.perspective.position.clone();
     const back = from.clone().sub(target).normalize();
     back.z = Math.max(back.z, 0.8);
-    const to = place.clone().add(back.normalize().multiplyScalar(2.2 * around));
+    const distance = 2.2 * around;
+    if (hides(new THREE.Ray(place, back.normalize()), distance)) back.set(0.02 * back.x, 0.02 * back.y, 1).normalize();
+    const to = place.clone().add(back.multiplyScalar(distance));
     const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
     const started = performance.now();
     const step = () => {
@@ -167,7 +171,7 @@ export abstract class View {
     cancelAnimationFrame(this.flight);
     this.preset = undefined;
     if (this.camera_now === this.orthographic) {
-      this.orthographic.zoom /= farther;
+      this.orthographic.zoom = Math.max(this.controls.minZoom, this.orthographic.zoom / farther);
       this.orthographic.updateProjectionMatrix();
       const step = this.orthographic.top / this.orthographic.zoom;
       const move = new THREE.Vector3(right * step, up * step, 0);
@@ -177,7 +181,7 @@ export abstract class View {
       const offset = new THREE.Spherical().setFromVector3(swapped(this.perspective.position.clone().sub(this.controls.target)));
       offset.theta += right;
       offset.phi = Math.min(Math.PI - 0.05, Math.max(0.05, offset.phi - up));
-      offset.radius *= farther;
+      offset.radius = Math.min(this.controls.maxDistance, Math.max(2 * this.perspective.near, offset.radius * farther));
       this.perspective.position.copy(this.controls.target).add(unswapped(new THREE.Vector3().setFromSpherical(offset)));
     }
     this.controls.update();

@@ -47,9 +47,9 @@ bool holds_depth_images(const std::filesystem::path& folder);
 /// are matched nearest first, each once), of 7-Scenes and 3DMatch (frame-*.depth.png in millimetres
 /// with frame-*.pose.txt, 4 x 4, camera to world), or of Open3D and Redwood (depth/*.png in
 /// millimetres with trajectory.log, one pose for each image, in the order of the numbers in their
-/// names). Throws InputError, with the file
-/// and the line, for what is missing or wrong; poses that are not finite ("lost") are passed over
-/// and counted. The camera has the size of the first image that can be read.
+/// names). Throws InputError, with the file and the line, for what is missing or wrong; poses that
+/// are not finite ("lost") are passed over and counted. The camera has the size of the first image
+/// that can be read.
 DepthSequence open_sequence(const std::filesystem::path& folder, const SequenceConfig& config = {});
 
 /// The image of a frame. Throws InputError where it cannot be read. Its size is as it is: fusion
