@@ -130,7 +130,7 @@ py::object states_at(const Trajectory& trajectory, py::handle times) {
     const Unlocked unlocked;
     for (const double time : all) states.push_back(trajectory.at(time));
   }
-  const py::object arrays = arrays_of(states);
+  py::object arrays = arrays_of(states);
   if (array.ndim() > 0) return arrays;
   py::list of_one;
   for (const py::handle& values : arrays) of_one.append(values[py::int_(0)]);
