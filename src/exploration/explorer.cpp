@@ -183,6 +183,7 @@ void Explorer::State::go_on(const FlightState& state, bool arrived, ExplorationS
       return;
     if (arrived || is_resolved || step.was_in_doubt) goal.reset();
   }
+  if (arrived && !is_searching) late.clear();  // from here some may be in time
   is_searching = false;
   const bool sees_something = thorough_looks == 0 && choose(state, false, step);
   if (!sees_something && arrived) {

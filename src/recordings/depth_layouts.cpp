@@ -80,6 +80,7 @@ std::vector<StampedPose> read_trajectory(const fs::path& file) {
 template <typename Stamped>
 std::vector<double> times_of(const std::vector<Stamped>& all) {
   std::vector<double> times;
+  times.reserve(all.size());
   for (const Stamped& one : all) times.push_back(one.time);
   return times;
 }
@@ -105,7 +106,7 @@ std::optional<Eigen::Isometry3d> read_pose(const fs::path& file) {
   const Eigen::Matrix4d matrix =
       Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(v.data());
   if (!matrix.allFinite()) return std::nullopt;
-  const auto pose = pose_of_matrix(matrix);
+  auto pose = pose_of_matrix(matrix);
   if (!pose) throw InputError(file.string(), "is no pose", remedy);
   return pose;
 }
