@@ -68,7 +68,7 @@ double share_of_limits(const Stages& stages, const StartState& start, const Moti
 std::optional<Stages> quickest(const Point& way, const StartState& start,
                                const MotionLimits& limits, double ramp, double longest) {
   constexpr double kStep = 1.05;  // from one duration to the next
-  constexpr int kHalvings = 30;   // of the range around a least share
+  constexpr int kCuts = 30;       // of a third of the range around a least share
   const auto at = [&](double seconds) {
     return stages_to(way, start, ramp, 0.5 * (seconds - 3.0 * ramp));
   };
@@ -81,9 +81,12 @@ std::optional<Stages> quickest(const Point& way, const StartState& start,
     if (now <= share_before && now <= next && now > kWithin) {
       // Full braking all the way ends at one place only: durations that do may be few.
       double low = before, high = kStep * seconds;
-      for (int i = 0; i < kHalvings; ++i) {
-        const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
-        (share(a) <= share(b) ? high : low) = share(a) <= share(b) ? b : a;
+      for (int i = 0; i < kCuts; ++i) {
+        const double third = (high - low) / 3.0;
+        if (share(low + third) <= share(high - third))
+          high -= third;
+        else
+          low += third;
       }
       if (share(low) <= kWithin) return at(low);
     }
