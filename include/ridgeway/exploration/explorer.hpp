@@ -143,7 +143,7 @@ struct ExplorationStep {
 
 /// Why a frontier stays as it is.
 enum class UnseenReason : std::uint8_t {
-  kTooNarrow,     ///< it could be seen from space that the robot does not get to
+  kTooNarrow,     ///< the widest known way there does not let the robot through
   kOutOfView,     ///< no place of the robot has it within range, angle and line of sight
   kLookedInVain,  ///< seen from several places, nothing was measured
   kNotVisited     ///< the exploration has not come to its end, and may see it yet
