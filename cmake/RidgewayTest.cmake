@@ -26,7 +26,7 @@ function(ridgeway_test name)
   set(group computing_tests)
   if(NOT arg_COMPUTES)
     set(group tests)
-    set(level $<$<CONFIG:Release>:-Og>)
+    set(level $<$<CONFIG:Release>:-Og> ${RIDGEWAY_TEST_OPTIONS})
   endif()
   target_compile_options(${name}_tests PRIVATE ${level})
   ridgeway_precompile(
