@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <ctime>
+#include <utility>
 
 namespace ridgeway::detail {
 
@@ -19,5 +20,18 @@ inline double thread_seconds_now() {
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
+
+/// Times one step after the other.
+class Lap {
+ public:
+  /// Of the step that ends now.
+  double seconds() {
+    const double before = std::exchange(start_, seconds_now());
+    return start_ - before;
+  }
+
+ private:
+  double start_ = seconds_now();
+};
 
 }  // namespace ridgeway::detail

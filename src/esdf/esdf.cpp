@@ -15,6 +15,7 @@
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
+#include "site_limit.hpp"
 #include "voxel/mask_sets.hpp"
 #include "work_domain.hpp"
 
@@ -104,8 +105,7 @@ BlockLayout with_blocks_between(const OccupancyMap& map) {
 
 /// Sites that are too far become none.
 void drop_far_sites(EsdfMap& map, double farthest) {
-  const double reach = std::min(farthest, static_cast<double>(kFarthestSite));
-  const auto limit = static_cast<std::uint32_t>(least_clearance(reach, 1.0).value * (1.0 + 4e-9));
+  const std::uint32_t limit = detail::largest_kept(farthest);
   parallel_for_each_index(
       map.layout.block_count(),
       [&](std::size_t index) {

@@ -66,6 +66,13 @@ bool is_open_block(const EsdfMap& esdf, std::uint32_t slot) {
   return std::all_of(obstacles.begin(), obstacles.end(), [](std::uint64_t z) { return z == 0; });
 }
 
+/// Whether centres may be at both ends of a segment: that is told at once, and where one is far
+/// from all that is known the rest is not.
+bool ends_are_known_free(const FreeSpace& space, const Point& a, const Point& b) {
+  return space.map().unknown == UnknownPolicy::kObstacle ||
+         (space.is_known_free(a, a) && space.is_known_free(b, b));
+}
+
 }  // namespace
 
 double FreeSpace::distance(const Point& p) const { return clearance(p, p); }
@@ -100,7 +107,8 @@ bool FreeSpace::is_free(const Point& p, double radius) const { return is_free(p,
 
 bool FreeSpace::is_free(const Point& a, const Point& b, double radius) const {
   const double s = esdf_.voxel_size;
-  if (!can_ask(esdf_, a, b, radius) || !is_within_limits(a, b)) return false;
+  if (!can_ask(esdf_, a, b, radius) || !is_within_limits(a, b) || !ends_are_known_free(*this, a, b))
+    return false;
   const auto fits = [&](double ball) {
     return std::isinf(
         SegmentMarch(esdf_, a / s, b / s).doubt<Wanted::kWhether>(squared_limit(ball, s)));
@@ -117,7 +125,8 @@ bool FreeSpace::is_free(const Point& a, const Point& b, double radius) const {
 bool FreeSpace::is_clearly_free(const Point& a, const Point& b, double radius) const {
   if (!is_for_sphere()) return is_free(a, b, radius);
   const double s = esdf_.voxel_size;
-  if (!can_ask(esdf_, a, b, radius) || !is_within_limits(a, b)) return false;
+  if (!can_ask(esdf_, a, b, radius) || !is_within_limits(a, b) || !ends_are_known_free(*this, a, b))
+    return false;
   return std::isinf(SegmentMarch(esdf_, a / s, b / s)
                         .doubt<Wanted::kWhetherClearly>(squared_limit(radius, s))) &&
          (esdf_.unknown == UnknownPolicy::kObstacle || is_known_free(a, b));

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "obstacle_scan.hpp"
+#include "site_limit.hpp"
 
 namespace ridgeway::detail {
 
@@ -29,8 +30,7 @@ inline double stored(const EsdfMap& esdf, VoxelId id, double far) {
 }
 
 inline double squared_far(const EsdfMap& esdf) {
-  const double far =
-      std::min(esdf.max_distance / esdf.voxel_size, static_cast<double>(kFarthestSite));
+  const double far = site_limit(esdf.max_distance / esdf.voxel_size);
   return far * far;
 }
 

@@ -14,6 +14,7 @@
 #include "mapping/memory_limit.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
+#include "site_limit.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -200,7 +201,7 @@ BlockLayout sweep_domain(const BlockLayout& target, const std::vector<bool>& occ
                          double farthest, int bytes_per_voxel) {
   const ObstacleRows rows = rows_of(target, occupied);
   if (rows.empty()) return target;
-  const double most = std::min(farthest, static_cast<double>(kFarthestSite));
+  const double most = site_limit(farthest);
   const std::vector<int> steps =
       blocks_to_obstacle(target, occupied, rows, static_cast<int>(std::ceil(most / kBlockSide)));
   Reach targets;

@@ -210,6 +210,9 @@ void Explorer::State::follow_origin(const VoxelIndex& by) {
   std::map<VoxelIndex, int> moved;
   for (const auto& [voxel, count] : looks) moved.emplace(voxel + by, count);
   looks = std::move(moved);
+  refused.clear();  // by number, and places are others now
+  late.clear();
+  passed.clear();
   last_look.reset();
   goal.reset();
 }
@@ -218,7 +221,8 @@ ExplorationStep Explorer::State::decide(std::shared_ptr<const Roadmap> now,
                                         const FlightState& given) {
   const bool arrived = given.time >= flying_since + flying.duration() - 1e-9;
   FlightState state = given;
-  if (arrived) state.velocity = state.acceleration = Point::Zero();  // but for rounding
+  if (arrived && !flying.segments.empty())
+    state.velocity = state.acceleration = Point::Zero();  // but for rounding
   const double began = detail::thread_seconds_now();
   ExplorationStep step;
   if (std::isfinite(asked_last)) longest_gap = std::max(longest_gap, given.time - asked_last);

@@ -23,7 +23,18 @@ void FieldOfView::validate() const {
                   "give metres from 0 up to the range");
 }
 
+namespace {
+
+void require_share(double share_of_range) {
+  detail::require(share_of_range > 0.0 && share_of_range <= 1.0, "share_of_range", share_of_range,
+                  "give a share above 0, up to 1");
+}
+
+}  // namespace
+
 FieldOfView field_of_view(const DepthSensor& sensor, double share_of_range) {
+  sensor.validate();
+  require_share(share_of_range);
   const PinholeCamera& camera = sensor.camera;
   const double across = std::min(camera.cx, camera.width - 1 - camera.cx) / camera.fx;
   const double down = std::min(camera.cy, camera.height - 1 - camera.cy) / camera.fy;
@@ -34,6 +45,9 @@ FieldOfView field_of_view(const DepthSensor& sensor, double share_of_range) {
 }
 
 FieldOfView field_of_view(const SpinningLidar& lidar, double share_of_range, double row_gap) {
+  lidar.validate();
+  require_share(share_of_range);
+  detail::require(row_gap > 0.0, "row_gap", row_gap, "give metres, above 0");
   const double between_rows = lidar.vertical / (lidar.rows - 1);
   return {.horizontal = 2.0 * std::numbers::pi,
           .vertical = lidar.vertical,
@@ -46,7 +60,8 @@ void ExplorerConfig::validate() const {
   view.validate();
   detail::require(std::isfinite(limits.max_yaw_rate), "max_yaw_rate", limits.max_yaw_rate,
                   "give radians a second");
-  detail::require(!within.empty(), "within", 0, "give voxels to explore");
+  if (within.empty())
+    throw InputError("within", "holds no voxel", "give a last voxel that is not before the first");
   detail::require(least_frontier >= 1, "least_frontier", least_frontier, "give 1 or more");
   detail::require(spacing > 0.0 && std::isfinite(spacing), "spacing", spacing,
                   "give metres above 0");
@@ -60,7 +75,8 @@ void ExplorerConfig::validate() const {
   detail::require(kept_clearance >= 0.0 && std::isfinite(kept_clearance), "kept_clearance",
                   kept_clearance, "give metres above 0, or 0 for the roadmap's smallest radius");
   detail::require(most_looks >= 1, "most_looks", most_looks, "give 1 or more");
-  detail::require(!home || home->allFinite(), "home", 0, "give three finite coordinates");
+  if (home && !home->allFinite())
+    throw InputError("home", "is not finite", "give three finite coordinates");
   detail::require(until > 0.0, "until", until, "give seconds above 0");
   detail::require(period >= 0.0 && std::isfinite(period), "period", period, "give seconds from 0");
   if (std::isfinite(until) && !home)

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "ridgeway/esdf/esdf.hpp"
+#include "esdf/site_limit.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -60,9 +60,7 @@ std::uint64_t lines_in_block(const VoxelMask::Block& block, int axis) {
 }  // namespace
 
 SweepReach reach_of(double farthest) {
-  const double reach = std::min(farthest, static_cast<double>(kFarthestSite));
-  return {static_cast<int>(std::ceil(reach)) + 1,
-          static_cast<std::uint32_t>(least_clearance(reach, 1.0).value * (1.0 + 4e-9))};
+  return {static_cast<int>(std::ceil(site_limit(farthest))) + 1, largest_kept(farthest)};
 }
 
 std::vector<std::vector<std::uint32_t>> by_lane(const BlockLayout& layout,

@@ -107,7 +107,10 @@ OccupancyMap add_no_fly(OccupancyMap map, std::span<const Box> boxes) {
   if (boxes.empty()) return map;
   detail::require_three_dimensions(map);
 
-  const VoxelRange reach = grown(known_range(map), kBlockSide);
+  // Whole blocks: where unknown space is free, it is so to the ends of the blocks.
+  const VoxelRange near = grown(known_range(map), kBlockSide);
+  const VoxelRange reach = {voxel_of(block_of(near.min), 0),
+                            voxel_of(block_of(near.max), kBlockVoxels - 1)};
   std::vector<VoxelRange> closed;
   std::vector<BlockIndex> missing;
   double block_count = map.layout.block_count();

@@ -24,7 +24,7 @@ namespace {
 std::string size_text(const Box& box) {
   std::ostringstream text;
   const Eigen::Vector3d size = box.max - box.min;
-  text << std::setprecision(3) << size.x() << " x " << size.y() << " x " << size.z();
+  text << std::setprecision(4) << size.x() << " x " << size.y() << " x " << size.z();
   return text.str();
 }
 

@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <unordered_set>
 #include <utility>
@@ -267,7 +266,9 @@ TsdfFusion TsdfFusion::within_blocks(std::span<const BlockIndex> blocks) const {
   State& s = *part.state_;
   s.config = state_->config;
   if (state_->origin) s.config.origin = state_->origin;
-  if (!s.config.origin) throw std::logic_error("nothing was fused yet, and no origin given");
+  if (!s.config.origin)
+    throw InputError("origin", "is not known, as nothing was fused yet",
+                     "fuse something first, or give FusionConfig::origin");
   s.config.can_undo = false;
   s.blocks.keep_doubts(s.config.forget_after > 0);
   s.only.insert(blocks.begin(), blocks.end());

@@ -63,7 +63,7 @@ struct PlanningConstants {
   double hopeless = 0.75;         ///< of the paths: less, and the map does without corners
   std::size_t linked = 16;        ///< nearest corners that one is linked to
   double over_tangent = 0.2;      ///< sine of the angle above a corner's tangent plane
-  std::size_t looked_at = 72;     ///< corners from a cell, for those that it sees
+  std::size_t looked_at = 72;     ///< corners from a region, for those that it sees
 };
 
 inline constexpr PlanningConstants kPlanning{};

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "common/clock.hpp"
 #include "common/rounding.hpp"
 #include "paths/planning_constants.hpp"
 #include "paths/shorten.hpp"
@@ -133,28 +134,23 @@ class Answering {
   }
 
   PlanStatus search(Route known) {
-    double began = seconds_now();
-    const auto lap = [&](double& seconds) {
-      const double now = seconds_now();
-      seconds += now - began;
-      began = now;
-    };
+    Lap lap;
     const bool is_over_graph = config_.planner == Planner::kGraph;
     if (!is_over_graph && config_.planner != Planner::kDiagram)
       attachment_.emplace();  // find_route needs none
     if (wants_short() && is_over_graph && !space_.is_narrowed() && is_connected()) {
-      lap(result_.seconds.attach);
+      result_.seconds.attach += lap.seconds();
       look_over_cells(known);
       known = improve(std::move(known));
       search_over_voxels(known, 0);
-      lap(result_.seconds.shorten);
+      result_.seconds.shorten += lap.seconds();
       if (is_plausible(known) && accept(known, {})) return PlanStatus::kOk;
     }
     attachment();
-    lap(result_.seconds.attach);
+    result_.seconds.attach += lap.seconds();
     RouteResult found =
         find_route(roadmap_, space_, query_, attachment(), config_.planner, deadline_);
-    lap(result_.seconds.search);
+    result_.seconds.search += lap.seconds();
     result_.answered_by = found.answered_by;
     if (found.status == SearchStatus::kTimeout && known.empty()) return PlanStatus::kTimeout;
     if (found.status == SearchStatus::kNoRoute) {
@@ -168,7 +164,7 @@ class Answering {
                  : PlanStatus::kNoRoute;
     }
     if (wants_short() && accept(tightened(found.route, known), {})) {
-      lap(result_.seconds.shorten);
+      result_.seconds.shorten += lap.seconds();
       return PlanStatus::kOk;
     }
     if (found.status == SearchStatus::kTimeout) return PlanStatus::kTimeout;
@@ -253,14 +249,10 @@ class Answering {
                                       short_config, deadline_)
                                 .run();
     if (!short_path.ok()) return short_path.status;
-    double began = seconds_now();
-    const auto lap = [&](double& seconds) {
-      const double now = seconds_now();
-      seconds += now - std::exchange(began, now);
-    };
+    Lap lap;
     PlanSeconds seconds = short_path.seconds;
     attachment();
-    lap(seconds.attach);
+    seconds.attach += lap.seconds();
     std::vector<Route> routes;
     std::vector<Planner> answered_by;
     for (const double preference : {query_.prefer_clearance, 0.0}) {
@@ -272,14 +264,14 @@ class Answering {
       answered_by.push_back(found.answered_by);
       routes.push_back(std::move(found.route));
     }
-    lap(seconds.search);
+    seconds.search += lap.seconds();
     CheapestRoute best =
         cheapest(space_, query_, std::move(routes), short_path.waypoints, deadline_);
     if (best.found && accept(std::move(best.route), {}))
       result_.answered_by = answered_by[*best.found];
     else
       result_ = std::move(short_path);
-    lap(seconds.shorten);
+    seconds.shorten += lap.seconds();
     result_.seconds = seconds;
     return PlanStatus::kOk;
   }

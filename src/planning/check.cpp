@@ -12,6 +12,7 @@
 #include "common/rounding.hpp"
 #include "esdf/cylinder_room.hpp"
 #include "mapping/memory_limit.hpp"
+#include "paths/planning_constants.hpp"
 #include "query.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
@@ -21,7 +22,7 @@ namespace ridgeway {
 namespace {
 
 /// Half of the radii are one of these times the smallest, half of them between two.
-constexpr std::array<double, 4> kRadiusFactors{1.0, 1.25, 1.5, 2.0};
+constexpr auto& kRadiusFactors = detail::kRadiusLevels;
 constexpr std::size_t kBatch = 64;  // queries between two reports of progress
 
 struct Query {

@@ -34,9 +34,9 @@ bool rises_in_steps(const FreeSpace& space, const Point& a, const Point& b, doub
   return true;
 }
 
-/// Whether it never falls: what falls goes on falling for more than a small step, but for the last
-/// one, which is looked at once more just before its end. Most that fall show it in steps of a
-/// voxel.
+/// Whether it never falls by half a small step or more, as between two looks it changes by no more
+/// than the way, nor at the very end, nor below what it is at `a`. Most that fall show it in steps
+/// of a voxel.
 bool rises(const FreeSpace& space, const Point& a, const Point& b, const Deadline& deadline) {
   const double voxel = space.map().voxel_size;
   if (!rises_in_steps(space, a, b, voxel, deadline) ||

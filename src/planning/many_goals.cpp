@@ -113,13 +113,43 @@ NearestGoal plan_to_nearest(const Roadmap& roadmap, const Point& start,
 
 namespace {
 
+/// What a status of a start says of the same place as a goal.
+PlanStatus of_goal(PlanStatus status) {
+  switch (status) {
+    case PlanStatus::kStartOutsideMap:
+      return PlanStatus::kGoalOutsideMap;
+    case PlanStatus::kStartUnknown:
+      return PlanStatus::kGoalUnknown;
+    case PlanStatus::kStartInCollision:
+      return PlanStatus::kGoalInCollision;
+    case PlanStatus::kStartOutsideLimits:
+      return PlanStatus::kGoalOutsideLimits;
+    default:
+      return status;
+  }
+}
+
+/// Of a leg whose place on the way cannot be used as it is: the goal of a first leg, whose start
+/// may be escaped from, else the start.
+PlanResult why_not(const Roadmap& roadmap, const Point& from, const Point& to, bool is_first,
+                   const PlanConfig& exact) {
+  if (is_first) {
+    PlanResult at_goal = plan(roadmap, to, to, exact);
+    at_goal.status = of_goal(at_goal.status);
+    if (!at_goal.ok()) return at_goal;
+  }
+  return plan(roadmap, from, to, exact);
+}
+
 /// One leg after another, each from where the one before ends.
 void append_leg(const PlanResult& leg, PlanResult& whole) {
   if (whole.waypoints.empty()) {
     whole = leg;
     return;
   }
-  whole.waypoints.insert(whole.waypoints.end(), leg.waypoints.begin() + 1, leg.waypoints.end());
+  for (const Point& place : std::span(leg.waypoints).subspan(1))
+    if (place != whole.waypoints.back() || whole.waypoints.size() < 2)
+      whole.waypoints.push_back(place);
   whole.length += leg.length;
   whole.clearance = std::min(whole.clearance, leg.clearance);
   whole.escape_goal = leg.escape_goal;
@@ -146,7 +176,7 @@ ViaPlan plan_via(const Roadmap& roadmap, std::span<const Point> places, const Pl
     const bool strays =
         (!is_first && (leg.escape_start.length > 0.0 || leg.moved_start.distance > 0.0)) ||
         (!is_last && (leg.escape_goal.length > 0.0 || leg.moved_goal.distance > 0.0));
-    if (strays) leg = plan(roadmap, places[i], places[i + 1], exact);  // which says why not
+    if (strays) leg = why_not(roadmap, places[i], places[i + 1], is_first, exact);
     if (!leg.ok()) return {std::move(leg), i};
     straight += (leg.waypoints.back() - leg.waypoints.front()).norm();
     append_leg(leg, via.plan);

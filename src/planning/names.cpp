@@ -47,7 +47,8 @@ std::optional<Planner> planner_named(std::string_view name) {
 
 void validate_planner(Planner planner) {
   if (!is_in(kPlannerNames, planner))
-    throw InputError("planner", "is no enumerator of Planner", "give one of those, or none");
+    throw InputError("planner", "is no enumerator of Planner",
+                     "give one of its enumerators, or leave it out");
   if (planner == Planner::kGiven)
     throw InputError("planner", "is that of paths that are given", "leave it out to plan one");
 }

@@ -58,7 +58,7 @@ void validate_robot_height(double height) {
   constexpr double kHighest = 1e6;
   if (!(height >= 0.0 && height <= kHighest))
     throw InputError("robot_height", "is " + number_text(height),
-                     "give metres above 0, or 0 for a robot that is a sphere");
+                     "give metres up to 1e6, or 0 for a robot that is a sphere");
 }
 
 void require_height_counts(const EsdfMap& esdf, double height) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 
+#include "esdf/site_limit.hpp"
 #include "ridge_checks.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "skeleton/lanes.hpp"
@@ -89,9 +90,7 @@ class SiteChecks {
       "has a distance that a neighbour's site contradicts";
 
   static int longest_distance(const EsdfMap& esdf) {
-    const double reach =
-        std::min(esdf.max_distance / esdf.voxel_size, static_cast<double>(kFarthestSite));
-    return static_cast<int>(least_clearance(reach, 1.0).value * (1.0 + 4e-9));
+    return static_cast<int>(detail::largest_kept(esdf.max_distance / esdf.voxel_size));
   }
 
   const char* look_at_lanes(std::uint32_t slot) const {

@@ -264,9 +264,7 @@ void build_what_is_learnt(const BuildConfig& config, BuildResult& result, StageC
   result.roadmap.tangents = build_tangent_graph(result.roadmap, tangent_config(config));
   clock.end(report.seconds.tangents);
 
-  const BuildSeconds& s = report.seconds;
-  report.seconds.total =
-      s.esdf + s.gvd + s.edges + s.thin + s.kernel + s.graph + s.attach + s.tangents;
+  report.seconds.total = report.seconds.sum();
 }
 
 }  // namespace detail

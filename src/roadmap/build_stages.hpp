@@ -65,8 +65,8 @@ EsdfConfig distances_config(const BuildConfig& config);
 /// ignored. Consumes the map.
 EsdfMap distances_of(OccupancyMap map, const BuildConfig& config);
 
-/// What needs the distances alone, for threads that would have nothing to do where a stage goes
-/// through its voxels one by one.
+/// Work that needs the distances alone, for threads that would have nothing to do where a stage
+/// goes through its voxels one by one: a batch build makes its cell graph there.
 using Beside = std::function<void()>;
 
 /// All that follows from the distances, which `result.roadmap` holds, with its min_clearance, but
@@ -80,12 +80,14 @@ struct Space {
   Watershed watershed;
 };
 
-/// Asked for once each, at the same time as one another: the thinned edges of the diagram, and
-/// what the kernel is peeled from, which does without these edges.
+/// Called once each, at the same time: EdgesOf gives the thinned edges of the GVD, SpaceOf what the
+/// kernel is peeled from, which does without these edges.
 using EdgesOf = std::function<VoxelMask()>;
 using SpaceOf = std::function<Space()>;
 
-/// And from these. `memory`: where the map is one that changes.
+/// All that follows from these two and the distances, which `result.roadmap` holds: kernel,
+/// diagram, graph and attach field. `memory`: what a live roadmap keeps of its last build; null in
+/// a batch build.
 void build_on_watershed(const EdgesOf& edges_of, const SpaceOf& space_of, const BuildConfig& config,
                         BuildResult& result, StageClock& clock, BuildMemory* memory = nullptr,
                         const Beside& beside = {});

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "best_first_search.hpp"
+#include "common/rounding.hpp"
 #include "ridgeway/roadmap/sparse_graph.hpp"
 
 namespace ridgeway {
@@ -29,7 +30,7 @@ std::vector<double> lengths_from(const SparseGraph& graph, const Sources& source
   search.run([&](VertexId v) {
     for (const Link& link : graph.links_of(v)) {
       const Edge& edge = graph.edges[number(link.edge)];
-      if (edge.clearance >= radius * (1.0 - 1e-9))
+      if (detail::is_as_wide(edge.clearance, radius))
         search.offer(link.vertex, search.cost(v) + edge.length, v);
     }
     return true;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "best_first_search.hpp"
+#include "common/rounding.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -25,7 +26,7 @@ class GraphSearch {
         landmarks_(landmarks),
         goal_(goal),
         target_(graph.vertices[number(goal)].position),
-        narrowest_(radius * (1.0 - 1e-9)),
+        narrowest_(detail::least_fit(radius)),
         penalty_(penalty),
         search_(graph.vertices.size(), std::numeric_limits<double>::infinity()) {
     search_.improve(start, 0.0, start);

@@ -8,7 +8,8 @@
 
 namespace ridgeway::detail {
 
-/// The same, with what is remembered of moves. `memory`: where the map is one that changes.
+/// As ridgeway::join_diagram, with clearances of moves that are remembered. `memory`: what a live
+/// roadmap keeps of its last build; null in a batch build.
 VoxelMask join_diagram(const RememberedSpace& space, const VoxelMask& edges,
                        const VoxelMask& kernel, double min_clearance, Basins& basins,
                        DiagramMemory* memory = nullptr);

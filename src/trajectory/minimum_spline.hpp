@@ -39,8 +39,6 @@ class MinimumSpline {
   MinimumSpline(Smoothness smoothness, std::span<const double> durations,
                 std::span<const DerivativeMask> fixed);
 
-  std::size_t segment_count() const { return durations_.size(); }
-  int knot_rows() const { return rows_; }
   Smoothness smoothness() const { return smoothness_; }
   std::span<const double> durations() const { return durations_; }
 

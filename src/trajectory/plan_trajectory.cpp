@@ -135,14 +135,13 @@ void MotionLimits::validate() const {
 void TrajectoryConfig::validate() const {
   limits.validate();
   flight_limits.validate();
-  if (!(robot_height >= 0.0 && std::isfinite(robot_height)))
-    throw InputError("robot_height", "is " + number_text(robot_height),
-                     "give metres above 0, or 0 for a robot that is a sphere");
+  detail::validate_robot_height(robot_height);
   if (!(radius >= 0.0 && std::isfinite(radius)))
     throw InputError("radius", "is " + number_text(radius), "give the robot's radius in metres");
-  if (!start_velocity.allFinite() || !start_acceleration.allFinite())
-    throw InputError("start_velocity", "or start_acceleration is not finite",
-                     "give three finite numbers each");
+  if (!start_velocity.allFinite())
+    throw InputError("start_velocity", "is not finite", "give three finite numbers");
+  if (!start_acceleration.allFinite())
+    throw InputError("start_acceleration", "is not finite", "give three finite numbers");
   if (start_yaw && !std::isfinite(*start_yaw))
     throw InputError("start_yaw", "is not finite", "give radians");
   if (!std::all_of(via.begin(), via.end(), [](const Point& p) { return p.allFinite(); }))
@@ -237,7 +236,7 @@ bool still_safe(const Trajectory& trajectory, const TrajectoryConfig& config, co
   detail::require_height_counts(now, config.robot_height);
   detail::require_known_radius(now, "radius", config.radius);
   if (trajectory.segments.empty())
-    throw InputError("trajectory", "is empty", "give one that is ok");
+    throw InputError("trajectory", "is empty", "give that of a result that is ok()");
   if (std::isnan(from)) throw InputError("from", "is no number", "give seconds from its start");
   const FlightLimits limits = both_of(now.limits, limits_in_local(now, config.flight_limits));
   const FreeSpace space(now, limits, config.radius, config.robot_height);

@@ -51,6 +51,9 @@ Trajectory head_of(const Trajectory& trajectory, double until) {
   return head;
 }
 
+/// Seconds: what is left of a duration that is no longer comes of rounding.
+constexpr double kLeastPiece = 1e-9;
+
 void turn_to(Trajectory& trajectory, double from_yaw, double to_yaw, double max_rate) {
   const double turn = turn_between(from_yaw, to_yaw);
   const double turning = std::abs(turn) / max_rate;
@@ -66,7 +69,7 @@ void turn_to(Trajectory& trajectory, double from_yaw, double to_yaw, double max_
   };
   for (const TrajectorySegment& segment : trajectory.segments) {
     const double left = turning - begin;
-    if (left <= 0.0) {
+    if (left <= kLeastPiece) {
       add(segment, false);
     } else if (segment.duration <= left) {
       add(segment, true);
@@ -77,7 +80,7 @@ void turn_to(Trajectory& trajectory, double from_yaw, double to_yaw, double max_
       add(tail_of(segment, left), false);
     }
   }
-  if (begin < turning) {
+  if (begin < turning - kLeastPiece) {
     TrajectorySegment stand;
     if (!trajectory.segments.empty()) {
       const TrajectorySegment& last = trajectory.segments.back();

@@ -50,9 +50,9 @@ struct Potential {
 Potential obstacle_potential(double distance, double radius, double margin);
 
 /// Cost of a SpaceSpline as a smooth function of its variables, for any optimiser: positions of
-/// movable knots (knot by knot, x, y, z, in units of length_unit()), then the logarithm of each
-/// duration. Integrals are sums over `kSamples` intervals a segment; the gradient is exact for
-/// these sums.
+/// movable knots (knot by knot, x, y, z, in units of max_speed times the unit of time), then the
+/// logarithm of each duration. Integrals are sums over `kSamples` intervals a segment; the gradient
+/// is exact for these sums.
 class SplineObjective {
  public:
   static constexpr int kSamples = 10;
@@ -63,7 +63,6 @@ class SplineObjective {
   SplineObjective(SpaceSpline spline, const SplineCostConfig& config, const DistanceField& field);
 
   std::size_t variable_count() const;
-  double length_unit() const { return length_unit_; }
   std::vector<double> variables() const;
 
   /// The cost; its gradient too unless `gradient` is empty.

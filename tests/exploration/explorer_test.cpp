@@ -86,6 +86,18 @@ TEST(Explorer, GoesOnFromWhereItDoesNotFitAnyMore) {
   }
 }
 
+/// Before it was given any trajectory.
+TEST(Explorer, BeginsWithTheMotionThatARobotHas) {
+  LiveRoadmap live = live_for_explorers();
+  live.set_voxels(room_behind_a_wall());
+  Explorer explorer({});
+  const Eigen::Vector3d velocity(0.5, 0.1, 0.0);
+  const ExplorationStep step =
+      explorer.decide(live.snapshot(), {.position = {5.1, 3.1, 1.5}, .velocity = velocity});
+  ASSERT_EQ(step.status, ExplorationStatus::kFly) << name_of(step.status);
+  EXPECT_TRUE(step.trajectory.at(0.0).velocity.isApprox(velocity, 1e-9));
+}
+
 /// It is in doubt of its way out only where something turns up there.
 TEST(Explorer, TheWayOutOfWhereItDoesNotFitIsFlownToItsEnd) {
   LiveRoadmap live = live_for_explorers();

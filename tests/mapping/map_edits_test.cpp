@@ -81,6 +81,20 @@ TEST(NoFly, AFlatBoxClosesALayer) {
   EXPECT_EQ(testing::state_at(closed, {3, 3, 7}), VoxelState::kOccupied);
 }
 
+TEST(NoFly, LeavesNoWayAroundABoxWhereUnknownSpaceIsFree) {
+  OccupancyBuilder builder(0.1);
+  builder.fill({{1, 1, 1}, {59, 59, 29}}, VoxelState::kFree);
+  const std::vector<Box> wall = {{{-5, 2.8, -5}, {100, 3.2, 50}}};
+  const EsdfMap esdf = compute_esdf(add_no_fly(std::move(builder).finish(), wall),
+                                    {.unknown = UnknownPolicy::kFree});
+  for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id) {
+    const double y = (esdf.origin + esdf.layout.index_of(id)).y * 0.1 + 0.05;
+    if (y > 2.8 && y < 3.2) {
+      ASSERT_EQ(esdf.state[id], VoxelState::kOccupied);
+    }
+  }
+}
+
 TEST(NoFly, RefusesBoxesInsideOutByNumber) {
   const std::vector<Box> boxes = {{{0, 0, 0}, {1, 1, 1}}, {{0, 2, 0}, {1, 1, 1}}};
   try {

@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "ridgeway/common/error.hpp"
+#include "ridgeway/mapping/occupancy_builder.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "support/dijkstra.hpp"
 #include "support/places.hpp"
@@ -106,6 +108,25 @@ TEST(ManyGoals, DistancesAreThoseOfRawPlansAndOfDijkstra) {
   });
   EXPECT_GT(compared, 100);
   EXPECT_GT(over_vertices, 100);
+}
+
+TEST(ManyGoals, APlaceOnTheWayThatIsTooNearIsBlamedAndNotTheStart) {
+  OccupancyBuilder builder(0.1);
+  builder.fill({{0, 0, 0}, {59, 59, 29}}, VoxelState::kFree);
+  const Roadmap roadmap =
+      build_roadmap(std::move(builder).finish(), {.min_clearance = 0.3}).roadmap;
+  const PlanConfig config{.escape = true};
+  const Point near_wall(0.15, 3.0, 1.5), middle(5.0, 5.0, 1.5);
+  ASSERT_TRUE(plan(roadmap, near_wall, middle, config).ok());
+  const std::vector<Point> places = {near_wall, Point(5.0, 0.1, 1.5), middle};
+  const ViaPlan via = plan_via(roadmap, places, config);
+  EXPECT_EQ(via.plan.status, PlanStatus::kGoalInCollision);
+  EXPECT_EQ(via.leg, 0u);
+  const std::vector<Point> twice = {near_wall, middle, middle, near_wall};
+  const PlanResult whole = plan_via(roadmap, twice, config).plan;
+  ASSERT_TRUE(whole.ok());
+  EXPECT_EQ(std::adjacent_find(whole.waypoints.begin(), whole.waypoints.end()),
+            whole.waypoints.end());
 }
 
 TEST(ManyGoals, RefuseBadInput) {

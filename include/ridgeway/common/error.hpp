@@ -9,7 +9,8 @@
 
 namespace ridgeway {
 
-/// The one exception of the library: something that a caller handed in is bad.
+/// Something that a caller handed in is bad. Functions with a Progress throw Cancelled besides;
+/// that memory is not enough, and defects of the library itself, are told by exceptions of std.
 /// Outcomes of planning ("no route") are values, never exceptions.
 class InputError : public std::runtime_error {
  public:

@@ -202,6 +202,12 @@ struct EsdfMap {
   }
 };
 
+/// Whether voxel i of a block is of the map: a planar one fills its blocks with copies of its
+/// layer.
+inline bool is_of_map(const EsdfMap& esdf, int i) {
+  return !esdf.planar || i / (kBlockSide * kBlockSide) == kPlanarLayer;
+}
+
 /// A place of the world in a map's local frame, where a robot flies: in a planar map at the height
 /// of its layer, whatever its own.
 inline Point flight_place(const EsdfMap& esdf, const Point& point_world) {

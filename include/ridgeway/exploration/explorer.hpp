@@ -33,7 +33,7 @@ struct FieldOfView {
   void validate() const;
 };
 /// Of a camera, counting on a share of its range, since rays that meet no surface within it measure
-/// nothing.
+/// nothing. Both throw InputError for a bad sensor, a share outside of (0, 1], a gap of 0 or less.
 FieldOfView field_of_view(const DepthSensor& sensor, double share_of_range = 0.7);
 /// Of a lidar: all around. So that rows are no farther apart than voxels at its end, `row_gap`
 /// metres, if there is one, bounds its range.

@@ -127,8 +127,8 @@ class TsdfFusion {
   std::vector<BlockIndex> reached_blocks() const;
 
   /// A fusion with the same configuration and origin that measurements reach in some blocks alone,
-  /// with nothing in it yet: for fusing these again. Throws std::logic_error where nothing was
-  /// fused yet and no origin is given.
+  /// with nothing in it yet: for fusing these again. Throws InputError where nothing was fused yet
+  /// and no origin is given.
   TsdfFusion within_blocks(std::span<const BlockIndex> blocks) const;
   /// Takes over the blocks of such a fusion, those with nothing in them too, and all places of the
   /// sensor, metres, world frame, in order: what was fused into them before is forgotten. Can be

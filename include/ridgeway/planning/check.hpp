@@ -41,7 +41,7 @@ struct CheckConfig {
   double robot_height = 0.0;
   /// As in PlanConfig, of the roadmap's answers; what A* finds is made as short as by default.
   bool quick = false;
-  double within = 0.0;  ///< the same
+  double within = 0.0;  ///< as in PlanConfig, of the roadmap's answers; 0: not asked for
 
   /// Throws InputError naming the bad field.
   void validate() const;

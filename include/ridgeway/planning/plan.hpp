@@ -117,8 +117,9 @@ struct PlanSeconds {
 };
 
 /// The first or last segment of a path whose start or goal is too close to an obstacle for the
-/// radius. It stays in known-free voxels, and its distance to obstacles never falls on the way from
-/// that end; it is at most two radii long.
+/// radius. It stays in known-free voxels, and its distance to obstacles never falls, by a 64th of a
+/// voxel or more, on the way from that end, nor anywhere below what it is there; it is at most two
+/// radii long.
 struct Escape {
   double length = 0.0;     ///< metres; 0 where there is no such segment
   double clearance = 0.0;  ///< at that end, the smallest on it, metres

@@ -45,12 +45,12 @@ double widest_way(const SparseGraph& graph, const ClearanceTree& tree, VertexId 
 /// Lengths in metres.
 struct SimplifyConfig {
   double significance = 0.35;  ///< dead ends whose ball reaches less far beyond others go
-  double steepness = 0.6;      ///< and those that reach less far than this share of their length
+  double steepness = 0.6;      ///< dead ends that reach less far than this share of their length go
   double widest_kept = 0.0;    ///< up to this clearance ways stay as wide as they were; 0: twice
                                ///< the graph's min_clearance; what is less counts as that
-  double width_step = 0.25;    ///< which counts in steps of this share of min_clearance: a way as
+  double width_step = 0.25;    ///< widths count in steps of this share of min_clearance: a way as
                                ///< wide as 1.45 times min_clearance may become 1.25 times as wide
-  double stretch = 1.5;        ///< but may become longer by this factor
+  double stretch = 1.5;        ///< by which factor ways may become longer
 
   /// Throws InputError naming the bad field.
   void validate() const;

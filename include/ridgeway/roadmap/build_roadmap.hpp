@@ -41,6 +41,9 @@ struct BuildSeconds {
   double attach = 0.0;    ///< the way of every voxel to the graph
   double tangents = 0.0;  ///< tangent graph
   double total = 0.0;     ///< the sum of these
+
+  /// Of all stages but `total`, seconds.
+  double sum() const { return esdf + gvd + edges + thin + kernel + graph + attach + tangents; }
 };
 
 /// Counts and times of a build, for reports.

@@ -88,9 +88,9 @@ struct TrajectoryResult {
   int stops = 0;                      ///< between start and goal
   bool braked = false;                ///< a moving start came to rest first
   CostTerms cost;                     ///< where the last optimisation ended
-  int optimisations = 0;              ///< of all stretches and steps,
-  int converged = 0;                  ///< those of them that did,
-  int evaluations = 0;                ///< and how often they asked for the cost
+  int optimisations = 0;              ///< that were run, of all stretches and steps
+  int converged = 0;                  ///< optimisations that did
+  int evaluations = 0;                ///< of the cost, by all optimisations
   TrajectorySeconds seconds;          ///< what it took
 
   /// Whether there is a trajectory.
