@@ -80,9 +80,7 @@ Fused fuse_images(const FuseOptions& options, const FusionConfig& config, const 
                [&] { fusion.integrate(*image, sequence.camera, frame.T_world_camera); });
   }
   bar.clear();
-  if (fused.unreadable > 0)
-    warn(globals,
-         count_text(fused.unreadable) + " images were passed over, the first: " + first_problem);
+  warn_of_unreadable(globals, fused.unreadable, first_problem);
   fused.upward_axis = told_of_upward_axis(sequence);
   fused.map = fusion.map();
   return fused;
@@ -164,8 +162,7 @@ int run(const FuseOptions& options, const Globals& globals) {
   require_extension(options.output, "a map", {".ridge"});
   const Fused fused = kind == RecordingKind::kScans ? fuse_scans(options, config, globals)
                                                     : fuse_images(options, config, globals);
-  if (fused.without_pose > 0)
-    note(globals, count_text(fused.without_pose) + " frames have no pose and were passed over");
+  note_without_pose(globals, fused.without_pose, fused.layout);
   const VoxelCounts voxels = count_voxels(occupancy_of(fused.map));
   if (voxels.free == 0)
     throw InputError(options.folder, "shows no free space",

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
-#include <ios>
 #include <optional>
 #include <set>
 #include <string>
@@ -21,27 +19,6 @@
 
 namespace ridgeway::cli {
 
-/// How far the lists of a recording have been written. A line that is cut short may be one of
-/// another pose: half a number is a number.
-struct ListsSeen {
-  std::vector<std::streamoff> bytes;
-  bool end_with_lines = true;
-
-  static ListsSeen of(const std::filesystem::path& folder) {
-    ListsSeen seen;
-    for (const char* name : {"depth.txt", "groundtruth.txt", "trajectory.log"}) {
-      std::error_code error;  // a pipe would be waited for
-      if (!std::filesystem::is_regular_file(folder / name, error)) continue;
-      std::ifstream list(folder / name, std::ios::binary | std::ios::ate);
-      const auto size = static_cast<std::streamoff>(list.tellg());
-      seen.bytes.push_back(size);
-      if (size > 0 && list.seekg(-1, std::ios::end) && list.get() != '\n')
-        seen.end_with_lines = false;
-    }
-    return seen;
-  }
-};
-
 /// Frames of a folder that may still be written to: each once, those first that come first.
 class GrowingRecording {
  public:
@@ -53,25 +30,25 @@ class GrowingRecording {
   /// whether the user still does.
   bool find(DepthSequence& sequence, std::vector<DepthFrame>& next, ProgressBar& bar) {
     const Stopwatch idle;
-    for (;;) {
-      next.clear();
-      try {
-        const ListsSeen before = ListsSeen::of(folder_);
-        sequence = open_sequence(folder_, {});
-        const bool is_whole = before.end_with_lines && before.bytes == ListsSeen::of(folder_).bytes;
-        // A last line that stays as it is has no end of its own.
-        if (is_whole || idle.seconds() >= patience_)
-          for (const DepthFrame& frame : sequence.frames)
-            if (!done_.contains(frame.image.string())) next.push_back(frame);
-      } catch (const InputError&) {  // nothing yet, or a line that is not whole
-        if (idle.seconds() >= patience_) throw;
-      }
+    next.clear();
+    while (!is_over_) {
+      const bool has_last = open(sequence, true);
+      // What is known to be the last has nothing after it that it could be waited for with.
+      is_over_ = idle.seconds() >= (has_last ? std::min(patience_, 1.0) : patience_);
+      if (is_over_) open_at_the_end(sequence);
+      for (const DepthFrame& frame : sequence.frames)
+        if ((is_over_ || frame.time.value_or(0.0) <= sequence.poses_until) &&
+            !done_.contains(frame.image.string()))
+          next.push_back(frame);
       if (!next.empty()) return true;
-      if (idle.seconds() >= patience_) return false;
+      if (is_over_) break;
       bar.show("wait", 0.0);
       std::this_thread::sleep_for(kPause);
     }
+    return false;
   }
+  /// What is the matter with what follows the frames that were found; empty: nothing.
+  const std::string& ending() const { return ending_; }
   void done(const DepthFrame& frame) { done_.insert(frame.image.string()); }
   bool is_last(const DepthFrame& frame) const {
     return !until_.empty() && frame.image.filename() == until_;
@@ -80,25 +57,70 @@ class GrowingRecording {
  private:
   static constexpr std::chrono::milliseconds kPause{100};
 
+  /// What the folder holds so far; whether the last frame is among it.
+  bool open(DepthSequence& sequence, bool is_growing) {
+    sequence.frames.clear();
+    try {
+      sequence = open_sequence(folder_, {.is_growing = is_growing});
+    } catch (const InputError&) {
+      if (!is_growing) throw;
+      return false;  // nothing yet
+    }
+    return std::any_of(sequence.frames.begin(), sequence.frames.end(),
+                       [&](const DepthFrame& frame) { return is_last(frame); });
+  }
+
+  /// All that it holds, a last line without an end too; where that is wrong, what came before it.
+  void open_at_the_end(DepthSequence& sequence) {
+    const DepthSequence whole = sequence;
+    try {
+      open(sequence, false);
+    } catch (const InputError& error) {
+      if (whole.frames.empty() && done_.empty()) throw;
+      ending_ = error.what();
+      sequence = whole;
+    }
+  }
+
   const std::string folder_;
   const double patience_;
   const std::string until_;  // the last frame's name; empty: there is none
   std::set<std::string> done_;
+  std::string ending_;
+  bool is_over_ = false;
 };
 
-/// Of an image that is still being written, once it is whole; nothing, and what is the matter, for
-/// one that never is.
+/// Whether a later image than that of a frame is there.
+inline bool is_overtaken(const DepthSequence& sequence, const DepthFrame& frame) {
+  const auto at = std::find_if(sequence.frames.begin(), sequence.frames.end(),
+                               [&](const DepthFrame& one) { return one.image == frame.image; });
+  return at != sequence.frames.end() &&
+         std::any_of(at + 1, sequence.frames.end(), [](const DepthFrame& later) {
+           std::error_code unused;
+           return std::filesystem::exists(later.image, unused);
+         });
+}
+
+/// Of an image that is still to come or being written, once it is whole; nothing, and what is the
+/// matter, for one that never is. `longest`: seconds to wait for it to come; at most one once it is
+/// there, or one after it.
 inline std::optional<DepthImage> read_when_whole(const DepthSequence& sequence,
                                                  const DepthFrame& frame, double longest,
-                                                 std::string& problem) {
-  const Stopwatch watch;
+                                                 ProgressBar& bar, std::string& problem) {
+  const Stopwatch since_asked;
+  Stopwatch since_there;
   for (;;) {
     try {
       return read_frame(sequence, frame);
     } catch (const InputError& error) {  // real recordings have damaged ones
       problem = error.what();
-      if (watch.seconds() >= std::min(longest, 1.0)) return std::nullopt;
     }
+    std::error_code unused;
+    if (!std::filesystem::exists(frame.image, unused) && !is_overtaken(sequence, frame))
+      since_there = Stopwatch();
+    if (since_asked.seconds() >= longest || since_there.seconds() >= std::min(longest, 1.0))
+      return std::nullopt;
+    bar.show("wait", 0.0);
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
 }

@@ -130,6 +130,7 @@ void replay_images(Run& run, const Globals& globals) {
   std::size_t place = 0;
   bool is_last = false;
   while (!is_last && frames.find(sequence, next, bar)) {
+    run.replay.layout = sequence.layout;
     run.replay.without_pose = sequence.without_pose;
     for (const DepthFrame& frame : next) {
       frames.done(frame);
@@ -138,7 +139,7 @@ void replay_images(Run& run, const Globals& globals) {
       bar.show("live", share_of(run.replay.updates.size(), sequence.frames.size()));
       std::string problem;
       const std::optional<DepthImage> image =
-          read_when_whole(sequence, frame, options.follow, problem);
+          read_when_whole(sequence, frame, options.follow, bar, problem);
       if (image)
         replay_frame(run, frame.image, options.follow == 0.0 ? sequence.frames.size() : 0,
                      scene_at(frame.T_world_camera, Eigen::Vector3d::UnitZ()), [&] {
@@ -151,6 +152,8 @@ void replay_images(Run& run, const Globals& globals) {
     if (options.follow == 0.0) break;
   }
   bar.clear();
+  if (!is_last && !frames.ending().empty())
+    warn(globals, "what follows the last image was not taken: " + frames.ending());
   run.replay.upward_axis = told_of_upward_axis(sequence);
   if (!options.until.empty() && !is_last)
     warn(globals, "no image " + options.until + " has come, so all of them were taken");
@@ -158,6 +161,7 @@ void replay_images(Run& run, const Globals& globals) {
 
 void replay_scans(Run& run, const Globals& globals) {
   const ScanSequence sequence = open_scans(run.options.folder);
+  run.replay.layout = sequence.layout;
   run.replay.without_pose = sequence.without_pose;
   PointCounts points;
   ProgressBar bar(globals);
@@ -184,9 +188,7 @@ LiveOptions completed(const LiveOptions& options, RecordingKind kind) {
   config.build.limits = limits_of(options.limits);
   if (kind == RecordingKind::kScans) config.fusion.integrator = Integrator::kRayCasting;
   config.source = (std::filesystem::path(options.folder) / "").parent_path().filename().string();
-  nlohmann::ordered_json record = build_record(config.build, config.fusion.voxel_size);
-  if (options.limits.any()) record["limits"] = limits_record(config.build.limits);
-  config.record = record.dump();
+  config.record = build_record(config.build, config.fusion.voxel_size).dump();
   return all;
 }
 
@@ -224,17 +226,17 @@ int run(const LiveOptions& given, const Globals& globals) {
                          ? "give wider limits of the flight, or a smaller --min-clearance"
                          : "give a smaller --min-clearance, or --unknown ignore");
   const LiveReplay& replay = run.replay;
-  if (replay.unreadable > 0)
-    warn(globals, count_text(replay.unreadable) +
-                      " images were passed over, the first: " + replay.first_unreadable);
-  if (replay.without_pose > 0)
-    note(globals, count_text(replay.without_pose) + " frames have no pose and were passed over");
+  warn_of_unreadable(globals, replay.unreadable, replay.first_unreadable);
+  note_without_pose(globals, replay.without_pose, replay.layout);
   save_roadmap(*snapshot, options.output);
   if (!replay.upward_axis.empty()) note(globals, replay.upward_axis);
   if (!options.csv.empty()) write_text_file(options.csv, csv_of(replay));
   if (options.verify > 0 && replay.verified == 0)
-    warn(globals, "nothing was verified, as the recording has less than " +
-                      std::to_string(options.verify) + " frames (--verify)");
+    warn(globals,
+         "nothing was verified (--verify), as " +
+             (replay.updates.size() < static_cast<std::size_t>(options.verify)
+                  ? "the recording has less than " + std::to_string(options.verify) + " frames"
+                  : "there was no roadmap at any scan that was to be verified"));
   print(replay, *snapshot, options.output, globals);
   if (replay.identical != replay.verified)
     throw std::logic_error("after " + replay.first_other + " a batch build gives another roadmap");

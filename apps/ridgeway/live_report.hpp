@@ -16,6 +16,7 @@ namespace ridgeway::cli {
 /// What came of a recording that was replayed.
 struct LiveReplay {
   std::vector<UpdateReport> updates;  ///< a scan each
+  std::string layout;                 ///< of the recording
   std::size_t unreadable = 0, without_pose = 0;
   std::string first_unreadable;             ///< which image it was, and what is the matter with it
   std::string upward_axis;                  ///< what a person should be told of it

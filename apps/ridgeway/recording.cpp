@@ -54,6 +54,23 @@ void note_points_without_surface(const Globals& globals, const PointCounts& poin
                       " points beyond --max-range show no surface: they free the way up to there");
 }
 
+void note_without_pose(const Globals& globals, std::size_t count, const std::string& layout) {
+  if (count == 0) return;
+  const SequenceConfig config;
+  std::string why;
+  if (layout == "tum")
+    why = ": a pose within " + number_text(config.longest_gap) + " s is needed, or two around it " +
+          number_text(config.longest_step) + " s apart at most";
+  note(globals, count_text(count) + (count == 1 ? " frame has" : " frames have") + " no pose and " +
+                    (count == 1 ? "was" : "were") + " passed over" + why);
+}
+
+void warn_of_unreadable(const Globals& globals, std::size_t count, const std::string& first) {
+  if (count == 0) return;
+  warn(globals, count_text(count) + (count == 1 ? " image was" : " images were") +
+                    " passed over, " + (count == 1 ? "" : "the first: ") + first);
+}
+
 std::string told_of_upward_axis(const DepthSequence& sequence) {
   Eigen::Vector3d up = Eigen::Vector3d::Zero();
   for (const DepthFrame& frame : sequence.frames) up -= frame.T_world_camera.linear().col(1);

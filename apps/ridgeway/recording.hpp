@@ -32,6 +32,10 @@ struct PointCounts {
 /// A note on points that show no surface, if there are any.
 void note_points_without_surface(const Globals& globals, const PointCounts& points);
 
+/// A note on frames without a pose, if there are any, and a warning of images that cannot be read.
+void note_without_pose(const Globals& globals, std::size_t count, const std::string& layout);
+void warn_of_unreadable(const Globals& globals, std::size_t count, const std::string& first);
+
 /// Maps, pictures and heights take the world's z for up; recordings by hand often have another
 /// axis, mostly that of the first image. Cameras are held upright more often than not: y is down.
 /// What a person should be told where they are not upright in the world; else nothing.

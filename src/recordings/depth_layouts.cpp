@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <system_error>
 #include <vector>
@@ -40,6 +41,10 @@ std::vector<fs::path> images_in(const fs::path& folder, std::string_view ending)
   return images;
 }
 
+Lines lines_of(const SequenceConfig& config) {
+  return config.is_growing ? Lines::kWhole : Lines::kAll;
+}
+
 // --- TUM RGB-D
 
 struct StampedImage {
@@ -48,32 +53,41 @@ struct StampedImage {
 };
 struct StampedPose {
   double time;
-  Eigen::Isometry3d T_world_camera;
+  std::optional<Eigen::Isometry3d> T_world_camera;  ///< none: tracking was lost
 };
 
 /// In the order of time.
-std::vector<StampedImage> read_image_list(const fs::path& file) {
+std::vector<StampedImage> read_image_list(const fs::path& file, Lines lines) {
   const char* remedy = "give lines of: timestamp filename";
   std::vector<StampedImage> images;
-  for_each_row(file, [&](const TextRow& row) {
-    const double time = row.number(0, remedy);
-    if (!std::isfinite(time)) row.refuse("has a time that is not finite", remedy);
-    if (row.words.size() < 2) row.refuse("names no image", remedy);
-    images.push_back({time, file.parent_path() / row.words[1]});
-  });
+  for_each_row(
+      file,
+      [&](const TextRow& row) {
+        const double time = row.number(0, remedy);
+        if (!std::isfinite(time)) row.refuse("has a time that is not finite", remedy);
+        if (row.words.size() < 2) row.refuse("names no image", remedy);
+        images.push_back({time, file.parent_path() / row.words[1]});
+      },
+      lines);
   std::stable_sort(images.begin(), images.end(),
                    [](const auto& a, const auto& b) { return a.time < b.time; });
   return images;
 }
 
-std::vector<StampedPose> read_trajectory(const fs::path& file) {
+/// In the order of time.
+std::vector<StampedPose> read_trajectory(const fs::path& file, Lines lines) {
   const char* remedy = "give lines of: timestamp tx ty tz qx qy qz qw";
   std::vector<StampedPose> poses;
-  for_each_row(file, [&](const TextRow& row) {
-    const double time = row.number(0, remedy);
-    const auto pose = pose_in_row(row, 1, remedy);
-    if (pose && std::isfinite(time)) poses.push_back({time, *pose});
-  });
+  for_each_row(
+      file,
+      [&](const TextRow& row) {
+        const double time = row.number(0, remedy);
+        const auto pose = pose_in_row(row, 1, remedy);
+        if (std::isfinite(time)) poses.push_back({time, pose});
+      },
+      lines);
+  std::stable_sort(poses.begin(), poses.end(),
+                   [](const auto& a, const auto& b) { return a.time < b.time; });
   return poses;
 }
 
@@ -83,6 +97,61 @@ std::vector<double> times_of(const std::vector<Stamped>& all) {
   times.reserve(all.size());
   for (const Stamped& one : all) times.push_back(one.time);
   return times;
+}
+
+/// Of times in seconds since 1970: 0.2 s are no more than 0.2.
+constexpr double kTimeRounding = 1e-6;
+
+/// The pose at a time that two poses lie around which are no farther apart than a step: on the line
+/// between them, turning evenly. Poses in the order of time.
+std::optional<Eigen::Isometry3d> pose_between(const std::vector<StampedPose>& poses, double time,
+                                              double longest_step) {
+  const auto after =
+      std::lower_bound(poses.begin(), poses.end(), time,
+                       [](const StampedPose& pose, double asked) { return pose.time < asked; });
+  if (after == poses.end()) return std::nullopt;
+  if (after->time == time) return after->T_world_camera;
+  if (after == poses.begin()) return std::nullopt;
+  const StampedPose& before = after[-1];
+  const double step = after->time - before.time;
+  if (!before.T_world_camera || !after->T_world_camera || step > longest_step + kTimeRounding)
+    return std::nullopt;
+  const double share = (time - before.time) / step;
+  const Eigen::Isometry3d &from = *before.T_world_camera, &to = *after->T_world_camera;
+  Eigen::Isometry3d between = Eigen::Isometry3d::Identity();
+  between.linear() = Eigen::Quaterniond(from.linear())
+                         .slerp(share, Eigen::Quaterniond(to.linear()))
+                         .toRotationMatrix();
+  between.translation() = from.translation() + share * (to.translation() - from.translation());
+  return between;
+}
+
+/// The pose of each image, both in the order of time: that between two poses, else the nearest one
+/// that no other image has.
+std::vector<std::optional<Eigen::Isometry3d>> poses_of(const std::vector<StampedImage>& images,
+                                                       const std::vector<StampedPose>& poses,
+                                                       const SequenceConfig& config) {
+  const std::vector<double> times = times_of(images);
+  const bool between = config.longest_step > 0.0;
+  std::vector<std::optional<Eigen::Isometry3d>> found(images.size());
+  std::vector<std::size_t> others;
+  std::vector<double> times_of_others;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    if (between) found[i] = pose_between(poses, times[i], config.longest_step);
+    if (found[i]) continue;
+    others.push_back(i);
+    times_of_others.push_back(times[i]);
+  }
+  std::vector<StampedPose> left;
+  for (const StampedPose& pose : poses)
+    if (pose.T_world_camera &&
+        !(between && std::binary_search(times.begin(), times.end(), pose.time)))
+      left.push_back(pose);
+  const auto nearest =
+      associate(times_of_others, times_of(left), config.longest_gap + kTimeRounding);
+  for (std::size_t i = 0; i < others.size(); ++i)
+    if (nearest[i]) found[others[i]] = left[*nearest[i]].T_world_camera;
+  return found;
 }
 
 [[noreturn]] void refuse_clocks(const std::vector<double>& images, const std::vector<double>& poses,
@@ -126,29 +195,32 @@ void require_in_order(const std::vector<double>& numbers, const fs::path& file) 
 
 /// Five lines a pose: three whole numbers, then a 4 x 4 matrix, camera to world. Nothing for those
 /// that are not finite.
-std::vector<std::optional<Eigen::Isometry3d>> read_log(const fs::path& file) {
+std::vector<std::optional<Eigen::Isometry3d>> read_log(const fs::path& file, Lines lines) {
   const char* remedy = "give for each frame a line of three numbers and a 4 x 4 matrix";
   std::vector<std::optional<Eigen::Isometry3d>> poses;
   std::vector<double> numbers;  // that poses have
   Eigen::Matrix4d matrix;
   int row_of_pose = 0;
   std::size_t last_line = 0;
-  for_each_row(file, [&](const TextRow& row) {
-    last_line = row.line;
-    if (row.words.size() != (row_of_pose == 0 ? 3 : 4))
-      row.refuse("has " + std::to_string(row.words.size()) + " numbers", remedy);
-    for (std::size_t i = 0; i < row.words.size(); ++i) {
-      const double number = row.number(i, remedy);
-      if (row_of_pose == 0 && i == 0) numbers.push_back(number);
-      if (row_of_pose > 0) matrix(row_of_pose - 1, static_cast<Eigen::Index>(i)) = number;
-    }
-    row_of_pose = (row_of_pose + 1) % 5;
-    if (row_of_pose != 0) return;
-    const auto pose = matrix.allFinite() ? pose_of_matrix(matrix) : std::nullopt;
-    if (!pose && matrix.allFinite()) row.refuse("ends a matrix that is no pose", remedy);
-    poses.push_back(pose);
-  });
-  if (row_of_pose != 0)
+  for_each_row(
+      file,
+      [&](const TextRow& row) {
+        last_line = row.line;
+        if (row.words.size() != (row_of_pose == 0 ? 3 : 4))
+          row.refuse("has " + std::to_string(row.words.size()) + " numbers", remedy);
+        for (std::size_t i = 0; i < row.words.size(); ++i) {
+          const double number = row.number(i, remedy);
+          if (row_of_pose == 0 && i == 0) numbers.push_back(number);
+          if (row_of_pose > 0) matrix(row_of_pose - 1, static_cast<Eigen::Index>(i)) = number;
+        }
+        row_of_pose = (row_of_pose + 1) % 5;
+        if (row_of_pose != 0) return;
+        const auto pose = matrix.allFinite() ? pose_of_matrix(matrix) : std::nullopt;
+        if (!pose && matrix.allFinite()) row.refuse("ends a matrix that is no pose", remedy);
+        poses.push_back(pose);
+      },
+      lines);
+  if (row_of_pose != 0 && lines == Lines::kAll)
     throw InputError(file.string(), "ends within a pose, at line " + std::to_string(last_line),
                      remedy);
   require_in_order(numbers, file);
@@ -161,17 +233,22 @@ DepthSequence open_tum(const fs::path& folder, const SequenceConfig& config) {
   DepthSequence sequence;
   sequence.layout = "tum";
   sequence.units_per_metre = kTumUnits;
-  const std::vector<StampedImage> images = read_image_list(folder / kTumImages);
-  const std::vector<StampedPose> poses = read_trajectory(folder / kTumPoses);
-  const auto pose_of = associate(times_of(images), times_of(poses), config.longest_gap);
+  const std::vector<StampedImage> images = read_image_list(folder / kTumImages, lines_of(config));
+  const std::vector<StampedPose> poses = read_trajectory(folder / kTumPoses, lines_of(config));
+  const auto pose_of = poses_of(images, poses, config);
   for (std::size_t i = 0; i < images.size(); ++i) {
-    if (const auto pose = pose_of[i])
-      sequence.frames.push_back({images[i].image, poses[*pose].T_world_camera, images[i].time});
+    if (pose_of[i])
+      sequence.frames.push_back({images[i].image, *pose_of[i], images[i].time});
     else
       ++sequence.without_pose;
   }
-  if (sequence.frames.empty() && !images.empty() && !poses.empty())
-    refuse_clocks(times_of(images), times_of(poses), config.longest_gap, folder);
+  sequence.poses_until =
+      poses.empty() ? -std::numeric_limits<double>::infinity() : poses.back().time;
+  std::vector<double> known;
+  for (const StampedPose& pose : poses)
+    if (pose.T_world_camera) known.push_back(pose.time);
+  if (sequence.frames.empty() && !images.empty() && !known.empty())
+    refuse_clocks(times_of(images), known, config.longest_gap, folder);
   return sequence;
 }
 
@@ -201,18 +278,20 @@ bool holds_log(const fs::path& folder) {
   return is_there(folder / kOpen3dPoses) && fs::is_directory(folder / kOpen3dImages, error);
 }
 
-DepthSequence open_log(const fs::path& folder) {
+DepthSequence open_log(const fs::path& folder, const SequenceConfig& config) {
   DepthSequence sequence;
   sequence.layout = "open3d";
   sequence.units_per_metre = kSevenScenesUnits;
-  const auto poses = read_log(folder / kOpen3dPoses);
+  const auto poses = read_log(folder / kOpen3dPoses, lines_of(config));
   const std::vector<fs::path> images = images_in(folder / kOpen3dImages, ".png");
-  if (images.size() != poses.size())
+  if (images.size() != poses.size() && !config.is_growing)
     throw InputError((folder / kOpen3dPoses).string(),
                      "has " + std::to_string(poses.size()) + " poses for " +
                          std::to_string(images.size()) + " images in " + kOpen3dImages,
                      "give one for each image, in the order of the numbers in their names");
-  for (std::size_t i = 0; i < images.size(); ++i)
+  const std::size_t pairs = std::min(images.size(), poses.size());
+  sequence.without_pose = images.size() - pairs;
+  for (std::size_t i = 0; i < pairs; ++i)
     if (poses[i])
       sequence.frames.push_back({images[i], *poses[i], {}});
     else

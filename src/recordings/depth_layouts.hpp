@@ -28,6 +28,6 @@ DepthSequence open_seven_scenes(const std::filesystem::path& folder);
 
 /// Open3D and Redwood: depth/*.png beside trajectory.log.
 bool holds_log(const std::filesystem::path& folder);
-DepthSequence open_log(const std::filesystem::path& folder);
+DepthSequence open_log(const std::filesystem::path& folder, const SequenceConfig& config);
 
 }  // namespace ridgeway

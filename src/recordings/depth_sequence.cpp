@@ -95,7 +95,7 @@ DepthSequence open_sequence(const fs::path& folder, const SequenceConfig& config
   const bool is_log = !is_tum && holds_log(folder);
   const fs::path inner = is_tum || is_log ? folder : image_folder(folder);
   DepthSequence sequence = is_tum   ? open_tum(folder, config)
-                           : is_log ? open_log(folder)
+                           : is_log ? open_log(folder, config)
                                     : open_seven_scenes(inner);
   if (sequence.frames.empty())
     throw InputError(folder.string(),

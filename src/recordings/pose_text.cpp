@@ -59,10 +59,11 @@ double TextRow::number(std::size_t place, const std::string& remedy) const {
 }
 
 void for_each_row(const std::filesystem::path& file,
-                  const std::function<void(const TextRow&)>& body) {
+                  const std::function<void(const TextRow&)>& body, Lines lines) {
   const std::string bytes = read_file(file);
   std::string_view rest = bytes;
-  if (rest.starts_with("\xef\xbb\xbf")) rest.remove_prefix(3);  // byte order mark
+  if (lines == Lines::kWhole) rest = rest.substr(0, rest.rfind('\n') + 1);  // npos + 1 is 0
+  if (rest.starts_with("\xef\xbb\xbf")) rest.remove_prefix(3);              // byte order mark
   for (TextRow row{file, 1, {}}; !rest.empty(); ++row.line) {
     std::string_view line = rest.substr(0, rest.find('\n'));
     rest.remove_prefix(std::min(line.size() + 1, rest.size()));

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -28,10 +29,14 @@ struct TextRow {
   double number(std::size_t place, const std::string& remedy) const;
 };
 
+/// Which lines count: all, or those that end, as the last one of a file that grows may be half of
+/// what it will be, and half a number is a number.
+enum class Lines : std::uint8_t { kAll, kWhole };
+
 /// Calls body(row) for the lines that are not empty. Throws InputError for a file that cannot be
 /// read and for lines of more than a few dozen words.
 void for_each_row(const std::filesystem::path& file,
-                  const std::function<void(const TextRow&)>& body);
+                  const std::function<void(const TextRow&)>& body, Lines lines = Lines::kAll);
 
 /// The numbers of a file of so many. Throws InputError where there are more or fewer.
 std::vector<double> read_numbers(const std::filesystem::path& file, std::size_t count,

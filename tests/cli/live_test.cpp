@@ -4,6 +4,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -122,6 +123,94 @@ TEST_F(CliLive, TakesNoPoseFromALineThatIsHalfWritten) {
   again.push_back(path("whole.ridge"));
   ASSERT_EQ(run(again).code, 0);
   EXPECT_TRUE(read_whole(folder_ / "followed.ridge") == read_whole(folder_ / "whole.ridge"));
+}
+
+TEST_F(CliLive, KeepsWhatCameBeforeALineThatIsNeverWhole) {
+  const std::filesystem::path growing = folder_ / "growing";
+  begin_recording(growing);
+  add_frames(growing, 0, 3);
+  std::thread writer([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    add_frames(growing, 3, 6);
+    // The last pose is cut off, as where a recorder writes blocks of bytes and dies.
+    const std::string poses = read_whole(growing / "groundtruth.txt");
+    write_whole(growing / "groundtruth.txt", poses.substr(0, poses.rfind(' ') - 3));
+  });
+  const Outcome followed = run({"live", growing.string(), "--voxel-size", "0.2", "--max-distance",
+                                "2", "-o", path("followed.ridge"), "--follow", "3", "--json"});
+  writer.join();
+  ASSERT_EQ(followed.code, 0) << followed.err;
+  EXPECT_EQ(followed.json()["scans"].get<int>(), 5);
+  EXPECT_NE(followed.err.find("was not taken"), std::string::npos) << followed.err;
+}
+
+TEST_F(CliLive, FollowsImagesWhosePosesComeAlone) {
+  namespace fs = std::filesystem;
+  const fs::path growing = folder_ / "growing";
+  fs::create_directories(growing / "depth");
+  fs::copy_file(fs::path(kRecording) / "camera-intrinsics.txt", growing / "camera-intrinsics.txt");
+  const DepthSequence recording = open_sequence(kRecording);
+  std::thread writer([&] {
+    for (std::size_t i = 0; i < 6; ++i) {
+      std::ostringstream pose;
+      pose << i << " " << i << " 0\n" << recording.frames[i].T_world_camera.matrix() << "\n";
+      fs::copy_file(recording.frames[i].image, growing / "depth" / (std::to_string(i) + ".png"));
+      std::this_thread::sleep_for(std::chrono::milliseconds(150));
+      const std::string text = pose.str(), cut = text.substr(0, text.size() / 2 + 1);
+      std::ofstream(growing / "trajectory.log", std::ios::app) << cut << std::flush;
+      std::this_thread::sleep_for(std::chrono::milliseconds(150));
+      std::ofstream(growing / "trajectory.log", std::ios::app) << text.substr(cut.size());
+    }
+  });
+  const Outcome followed =
+      run({"live", growing.string(), "--voxel-size", "0.2", "--max-distance", "2", "-o",
+           path("followed.ridge"), "--follow", "60", "--until", "5.png", "--json"});
+  writer.join();
+  ASSERT_EQ(followed.code, 0) << followed.err;
+  EXPECT_EQ(followed.json()["scans"].get<int>(), 6);
+}
+
+TEST_F(CliLive, ImagesAfterTheLastPoseAreTakenWhenItIsOver) {
+  const std::filesystem::path growing = folder_ / "growing";
+  begin_recording(growing);
+  add_frames(growing, 0, 3);
+  // Each pose a little before its image.
+  std::istringstream poses(read_whole(growing / "groundtruth.txt"));
+  std::string earlier;
+  for (std::string line; std::getline(poses, line);) {
+    const std::size_t end = line.find(' ');
+    earlier += line.starts_with('#')
+                   ? line
+                   : std::to_string(std::stod(line.substr(0, end)) - 0.005) + line.substr(end);
+    earlier += "\n";
+  }
+  write_whole(growing / "groundtruth.txt", earlier);
+  const auto began = std::chrono::steady_clock::now();
+  const Outcome followed =
+      run({"live", growing.string(), "--voxel-size", "0.2", "--max-distance", "2", "-o",
+           path("followed.ridge"), "--follow", "600", "--until", "000002.png", "--json"});
+  ASSERT_EQ(followed.code, 0) << followed.err;
+  EXPECT_EQ(followed.json()["scans"].get<int>(), 3);
+  EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(300));
+}
+
+TEST_F(CliLive, WaitsForAnImageThatComesAfterItsLine) {
+  const std::filesystem::path growing = folder_ / "growing";
+  begin_recording(growing);
+  add_frames(growing, 0, 3);
+  const std::filesystem::path late = growing / "depth" / "000002.png", aside = folder_ / "aside";
+  std::filesystem::rename(late, aside);
+  std::thread writer([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2500));
+    std::filesystem::rename(aside, late);
+  });
+  const Outcome followed =
+      run({"live", growing.string(), "--voxel-size", "0.2", "--max-distance", "2", "-o",
+           path("followed.ridge"), "--follow", "60", "--until", "000002.png", "--json"});
+  writer.join();
+  ASSERT_EQ(followed.code, 0) << followed.err;
+  EXPECT_EQ(followed.json()["scans"].get<int>(), 3);
+  EXPECT_EQ(followed.json()["unreadable"].get<int>(), 0);
 }
 
 TEST_F(CliLive, KeepsToTheRecordingsClock) {

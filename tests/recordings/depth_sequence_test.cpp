@@ -74,8 +74,69 @@ class TumFolder : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(TumFolder, TimesAreMatchedNearestFirst) {
+TEST_F(TumFolder, AnImageBetweenTwoPosesHasThePoseBetweenThem) {
+  // Ten poses a second, on a line, a radian a second about the camera's axis.
+  std::string poses;
+  for (int k = 0; k <= 10; ++k) {
+    const double time = 1.0 + 0.1 * k;
+    poses += number_text(time) + " " + number_text(2.0 * time) + " 0 0 0 0 " +
+             number_text(std::sin(0.5 * time)) + " " + number_text(std::cos(0.5 * time)) + "\n";
+  }
+  write_whole(folder_ / "groundtruth.txt", poses);
+  std::string images;
+  for (int i = 0; i < 30; ++i) images += number_text(1.0 + i / 30.0) + " a.png\n";
+  write_whole(folder_ / "depth.txt", images);
   const DepthSequence sequence = open_sequence(folder_.path());
+  EXPECT_EQ(sequence.without_pose, 0u);
+  EXPECT_EQ(sequence.poses_until, 2.0);
+  ASSERT_EQ(sequence.frames.size(), 30u);
+  for (const DepthFrame& frame : sequence.frames) {
+    Eigen::Isometry3d exact = Eigen::Isometry3d::Identity();
+    exact.translation().x() = 2.0 * *frame.time;
+    exact.linear() = Eigen::AngleAxisd(*frame.time, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    EXPECT_TRUE(frame.T_world_camera.isApprox(exact, 1e-9)) << *frame.time;
+  }
+}
+
+TEST_F(TumFolder, NothingIsMadeUpWherePosesAreFarApart) {
+  write_whole(folder_ / "depth.txt",
+              "0.9 a.png\n0.97 a.png\n1 a.png\n1.1 a.png\n1.295 a.png\n2 a.png\n");
+  write_whole(folder_ / "groundtruth.txt", "1.3 3 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n");
+  const DepthSequence sequence = open_sequence(folder_.path());
+  ASSERT_EQ(sequence.frames.size(), 2u);
+  EXPECT_EQ(sequence.frames[0].T_world_camera.translation().x(), 1.0);
+  EXPECT_EQ(*sequence.frames[0].time, 1.0);
+  EXPECT_EQ(sequence.frames[1].T_world_camera.translation().x(), 3.0);
+  EXPECT_EQ(sequence.without_pose, 4u);
+}
+
+TEST_F(TumFolder, NothingIsMadeUpWhereTrackingWasLost) {
+  write_whole(folder_ / "depth.txt", "1.05 a.png\n1.15 a.png\n1.25 a.png\n");
+  write_whole(folder_ / "groundtruth.txt",
+              "1 1 0 0 0 0 0 1\n1.1 nan 0 0 0 0 0 1\n1.2 2 0 0 0 0 0 1\n1.3 3 0 0 0 0 0 1\n");
+  const DepthSequence sequence = open_sequence(folder_.path());
+  EXPECT_EQ(sequence.without_pose, 2u);
+  ASSERT_EQ(sequence.frames.size(), 1u);
+  EXPECT_NEAR(sequence.frames[0].T_world_camera.translation().x(), 2.5, 1e-6);
+}
+
+TEST_F(TumFolder, ALimitHoldsForTimesSince1970) {
+  std::string poses;
+  for (int k = 0; k <= 20; ++k)
+    poses += "13050311" + std::to_string(10 + k / 5) + "." + std::to_string(k % 5 * 2) +
+             " 1 0 0 0 0 0 1\n";
+  write_whole(folder_ / "groundtruth.txt", poses);
+  std::string images;
+  for (int i = 0; i < 40; ++i)
+    images += "13050311" + std::to_string(10 + i / 10) + "." + std::to_string(i % 10) + "5 a.png\n";
+  write_whole(folder_ / "depth.txt", images);
+  EXPECT_EQ(open_sequence(folder_.path()).without_pose, 0u);
+}
+
+TEST_F(TumFolder, TimesAreMatchedNearestFirst) {
+  SequenceConfig config;
+  config.longest_step = 0.0;
+  const DepthSequence sequence = open_sequence(folder_.path(), config);
   ASSERT_EQ(sequence.frames.size(), 2u);
   EXPECT_EQ(sequence.frames[0].T_world_camera.translation().x(), 1.0);
   EXPECT_EQ(sequence.frames[1].T_world_camera.translation().x(), 3.0);
@@ -93,6 +154,7 @@ TEST_F(TumFolder, ClocksThatDoNotMeetAreToldApart) {
 
 TEST_F(TumFolder, TimesAreMatchedAsByBruteForce) {
   SequenceConfig config;
+  config.longest_step = 0.0;
   config.longest_gap = 0.03;
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     Random random(seed);
@@ -279,6 +341,12 @@ TEST(DepthSequence, ATrajectoryLogGivesThePosesOfTheImagesInOrder) {
   write_whole(folder / "trajectory.log", "0 0 1\n" + turn);
   EXPECT_NE(refusal([&] { open_sequence(folder.path()); }).find("1 poses for 3 images"),
             std::string::npos);
+  EXPECT_EQ(open_sequence(folder.path(), {.is_growing = true}).frames.size(), 1u);
+  const std::string four = "0 0 1\n" + turn + "1 1 2\n" + turn + "2 2 3\n" + turn + "3 3 4\n";
+  write_whole(folder / "trajectory.log", four + turn);
+  EXPECT_EQ(open_sequence(folder.path(), {.is_growing = true}).frames.size(), 3u);
+  write_whole(folder / "trajectory.log", four + turn.substr(0, 6));
+  EXPECT_EQ(open_sequence(folder.path(), {.is_growing = true}).frames.size(), 3u);
   write_whole(folder / "trajectory.log", "0 0 1\n1 2 3\n");
   EXPECT_NE(refusal([&] { open_sequence(folder.path()); }).find("trajectory.log"),
             std::string::npos);

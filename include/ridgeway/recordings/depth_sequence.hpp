@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,6 +30,8 @@ struct DepthSequence {
   double units_per_metre = 5000.0;  ///< of the images
   std::vector<DepthFrame> frames;   ///< in the order of time
   std::size_t without_pose = 0;     ///< images that no pose belongs to, passed over
+  /// Time of the last pose: what is later may get another one when the recording grows (TUM).
+  double poses_until = std::numeric_limits<double>::infinity();
 };
 
 /// What a recording of depth images does not say of itself.
@@ -36,20 +39,27 @@ struct SequenceConfig {
   /// fx, fy, cx, cy in pixels; else those of camera-intrinsics.txt in the folder, else, for images
   /// of 640 x 480, the defaults of the layout (525, 525, 319.5, 239.5; of 7-Scenes 585, 585, 320,
   /// 240).
-  std::optional<Eigen::Vector4d> intrinsics;
-  double longest_gap = 0.02;  ///< seconds between an image and its pose (TUM)
+  std::optional<Eigen::Vector4d> intrinsics = {};
+  /// An image between two poses that are no more seconds apart than this has the pose between
+  /// them: on the line, turning evenly (TUM). 0: none has.
+  double longest_step = 0.2;
+  double longest_gap = 0.02;  ///< seconds between any other image and its pose (TUM)
+  /// The folder is still written to, in order: at its end lines and poses that are not whole are
+  /// left out, and images and poses that the other is not there for yet (Open3D).
+  bool is_growing = false;
 };
 
 /// Whether open_sequence() knows the layout of a folder.
 bool holds_depth_images(const std::filesystem::path& folder);
 
-/// Opens a folder in the layout of TUM RGB-D (depth.txt, groundtruth.txt, images of 1/5000 m; times
-/// are matched nearest first, each once), of 7-Scenes and 3DMatch (frame-*.depth.png in millimetres
-/// with frame-*.pose.txt, 4 x 4, camera to world), or of Open3D and Redwood (depth/*.png in
-/// millimetres with trajectory.log, one pose for each image, in the order of the numbers in their
-/// names). Throws InputError, with the file and the line, for what is missing or wrong; poses that
-/// are not finite ("lost") are passed over and counted. The camera has the size of the first image
-/// that can be read.
+/// Opens a folder in the layout of TUM RGB-D (depth.txt, groundtruth.txt, images of 1/5000 m; an
+/// image between two poses has the pose between them, the other images are matched with the nearest
+/// pose, nearest first, each pose once: SequenceConfig), of 7-Scenes and 3DMatch (frame-*.depth.png
+/// in millimetres with frame-*.pose.txt, 4 x 4, camera to world), or of Open3D and Redwood
+/// (depth/*.png in millimetres with trajectory.log, one pose for each image, in the order of the
+/// numbers in their names). Throws InputError, with the file and the line, for what is missing or
+/// wrong; poses that are not finite ("lost") are passed over and counted. The camera has the size
+/// of the first image that can be read.
 DepthSequence open_sequence(const std::filesystem::path& folder, const SequenceConfig& config = {});
 
 /// The image of a frame. Throws InputError where it cannot be read. Its size is as it is: fusion
