@@ -22,16 +22,19 @@ void plan_meanwhile(const ridgeway::LiveRoadmap& live, const ridgeway::Point& st
   ridgeway::PlanResult path;
   for (std::size_t done = 0; done < all.frames.size(); scans.wait(done), done = scans) {
     const std::shared_ptr<const ridgeway::Roadmap> now = live.snapshot();
-    if (!now || now == last) continue;
+    if (now == last) continue;
     if (path.ok() && last) {
-      const ridgeway::GraphDelta delta = ridgeway::delta_between(*last, *now);
-      if (ridgeway::may_be_invalid(path, delta) && !ridgeway::still_safe(path, *now))
-        std::printf("the path is blocked now\n");
+      // Without a roadmap there is no room anywhere any more.
+      const bool is_safe = now && (!may_be_invalid(path, delta_between(*last, *now)) ||
+                                   ridgeway::still_safe(path, *now));
+      if (!is_safe) std::printf("the path is blocked now\n");
     }
+    last = now;
+    path = {};
+    if (!now) continue;
     const std::size_t at = done > 0 ? done - 1 : 0;
     path = ridgeway::plan(*now, start, all.frames[at].T_world_camera.translation());
     if (path.ok()) std::printf("after %zu scans: a path of %.2f m\n", at + 1, path.length);
-    last = now;
   }
 }
 

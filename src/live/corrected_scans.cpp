@@ -136,7 +136,7 @@ void Correction::fuse(TsdfFusion& fusion, std::uint32_t frame) const {
   if (is_given_up_) return;
   try {
     if (frame < log_.first())
-      throw InputError("log", "no longer has this scan", "let log_bytes be more");
+      throw InputError("log", "no longer holds this scan", "give log_bytes that hold more");
     const LoggedScan scan = log_.read(frame);
     if (scan.is_image)
       fusion.integrate(scan.image, scan.camera, scans_.frames.poses[frame]);

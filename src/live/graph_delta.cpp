@@ -54,7 +54,8 @@ void compare(const Clearances<Name>& before, const Clearances<Name>& now, std::v
 }
 
 /// The voxels of a block where a robot may not be any more, or that it has to keep away from now.
-/// Null states: all unknown.
+/// Null states: the map has no such block. There nothing is open, under any policy: where unknown
+/// space is free it ends with the box of the blocks.
 void find_closed(const VoxelIndex& first, const VoxelState* old, const VoxelState* states,
                  UnknownPolicy policy, std::vector<VoxelIndex>& closed) {
   if (old != nullptr && states != nullptr &&
@@ -63,7 +64,8 @@ void find_closed(const VoxelIndex& first, const VoxelState* old, const VoxelStat
   for (int v = 0; v < kBlockVoxels; ++v) {
     const VoxelState was = old == nullptr ? VoxelState::kUnknown : old[v];
     const VoxelState is = states == nullptr ? VoxelState::kUnknown : states[v];
-    if ((is_open(was, policy) && !is_open(is, policy)) ||
+    const bool was_open = old != nullptr && is_open(was, policy);
+    if ((was_open && (states == nullptr || !is_open(is, policy))) ||
         (!is_obstacle(was, policy) && is_obstacle(is, policy)))
       closed.push_back(first + voxel_of({}, v));
   }

@@ -14,7 +14,7 @@ namespace ridgeway {
 namespace {
 
 void validate_changes(std::span<const VoxelChange> changes, const VoxelIndex& origin) {
-  const VoxelRange reach = grown({origin, origin}, kMaxVoxelIndex / 2);
+  const VoxelRange reach = detail::reach_of_map(origin);
   for (std::size_t i = 0; i < changes.size(); ++i) {
     const auto refuse = [i](const char* what, const char* remedy) {
       throw InputError("change " + std::to_string(i), what, remedy);
@@ -24,8 +24,7 @@ void validate_changes(std::span<const VoxelChange> changes, const VoxelIndex& or
     if (!kAllVoxels.contains(changes[i].voxel))
       refuse("lies farther than 1e9 voxels from the world's zero",
              "check its units and the voxel size");
-    if (!reach.contains(changes[i].voxel))
-      refuse("lies farther than 5e8 voxels from the map's origin", "give an origin near the map");
+    if (!reach.contains(changes[i].voxel)) refuse(detail::kTooFar, detail::kNearerOrigin);
   }
 }
 

@@ -10,6 +10,18 @@
 
 namespace ridgeway {
 
+/// Of changes that the first scan makes the sensor's voxel is the origin, unless one is given.
+void LiveRoadmap::State::require_near_origin(std::span<const VoxelChange> changes,
+                                             const Point& sensor) const {
+  const VoxelIndex origin =
+      now ? now->field.esdf.origin
+          : config.origin.value_or(voxel_at(sensor, config.fusion.voxel_size));
+  const VoxelRange reach = detail::reach_of_map(origin);
+  if (!std::all_of(changes.begin(), changes.end(),
+                   [&](const VoxelChange& change) { return reach.contains(change.voxel); }))
+    throw InputError("pose", detail::kTooFar, detail::kNearerOrigin);
+}
+
 template <typename Fuse, typename Keep>
 UpdateReport LiveRoadmap::State::integrate_frame(const Eigen::Isometry3d& T_world_sensor,
                                                  const Fuse& fuse, const Keep& keep) {
@@ -34,6 +46,7 @@ UpdateReport LiveRoadmap::State::integrate_frame(const Eigen::Isometry3d& T_worl
     }
     const Point& sensor = T_world_sensor.translation();
     const std::vector<VoxelChange> changes = window.take_near(fusion.find_changes(), sensor);
+    require_near_origin(changes, sensor);
     report.fusion_seconds = lap.seconds();
     update(changes, voxel_at(sensor, config.fusion.voxel_size), report);
   } catch (const InputError& error) {
@@ -123,6 +136,7 @@ UpdateReport LiveRoadmap::State::finish_correcting() {
   try {
     fusion.take_over(scans.part, places);
     const std::vector<VoxelChange> changes = window.take_near(fusion.find_changes(), places.back());
+    require_near_origin(changes, places.back());
     report.fusion_seconds = lap.seconds();
     update(changes, std::nullopt, report);
   } catch (...) {

@@ -26,17 +26,12 @@
 namespace ridgeway {
 namespace detail {
 
-/// Times one step after the other.
-class Lap {
- public:
-  double seconds() {
-    const double before = std::exchange(start_, seconds_now());
-    return start_ - before;
-  }
-
- private:
-  double start_ = seconds_now();
-};
+/// Where the voxels of a map may lie: places are relative to its origin, and exact near it.
+inline VoxelRange reach_of_map(const VoxelIndex& origin) {
+  return grown({origin, origin}, kMaxVoxelIndex / 2);
+}
+inline constexpr const char* kTooFar = "lies farther than 5e8 voxels from the map's origin";
+inline constexpr const char* kNearerOrigin = "give an origin near the map";
 
 }  // namespace detail
 
@@ -86,6 +81,7 @@ struct LiveRoadmap::State {
   std::shared_ptr<const Roadmap> settled();
 
  private:
+  void require_near_origin(std::span<const VoxelChange> changes, const Point& sensor) const;
   template <typename Fuse, typename Keep>
   UpdateReport integrate_frame(const Eigen::Isometry3d& T_world_sensor, const Fuse& fuse,
                                const Keep& keep);

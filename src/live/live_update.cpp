@@ -233,8 +233,7 @@ detail::TouchedSpace LiveRoadmap::State::touched_space_of(Live& live, bool has_l
 /// A roadmap that is complete but for what is learnt.
 std::shared_ptr<const Roadmap> LiveRoadmap::State::published(BuildResult result,
                                                              BuildReport& report) const {
-  BuildSeconds& s = result.report.seconds;
-  s.total = s.esdf + s.gvd + s.edges + s.thin + s.kernel + s.graph + s.attach;
+  result.report.seconds.total = result.report.seconds.sum();
   report = result.report;
   result.roadmap.is_settled = false;
   result.roadmap.source = config.source;

@@ -63,6 +63,7 @@ std::vector<VoxelChange> LiveWindow::take_near(std::span<const VoxelChange> chan
   begin();
   std::vector<VoxelChange> near;
   take_waiting_near(sensor, near);
+  const bool has_waited = !near.empty();
   for (const VoxelChange& change : changes) {
     const BlockIndex block = block_of(change.voxel);
     if (std::isinf(reach_) || is_near(block, sensor)) {
@@ -75,7 +76,7 @@ std::vector<VoxelChange> LiveWindow::take_near(std::span<const VoxelChange> chan
     next->second.push_back(change);
   }
   for (auto& [block, next] : next_) next = last_of_each(next);
-  return near;
+  return has_waited ? last_of_each(near) : near;
 }
 
 std::vector<VoxelChange> LiveWindow::take_with(std::span<const VoxelChange> changes) {

@@ -17,8 +17,9 @@ class LiveWindow {
   /// `reach`: metres along each axis.
   LiveWindow(double reach, double voxel_size) : reach_(reach), voxel_size_(voxel_size) {}
 
-  /// Of new changes, those that count now, after what waited for the same blocks; the others are to
-  /// wait. Nothing waits for another block than before until keep() is called.
+  /// What counts now: what waited near the sensor and the new changes there (of each voxel one), of
+  /// each voxel the last. The others are to wait. Nothing waits for another block than before
+  /// until keep() is called.
   std::vector<VoxelChange> take_near(std::span<const VoxelChange> changes, const Point& sensor);
   /// What waits for the blocks of some changes, and then these.
   std::vector<VoxelChange> take_with(std::span<const VoxelChange> changes);

@@ -123,6 +123,20 @@ TEST(GraphDelta, ObstaclesInWhatWasUnknownAreTold) {
   }
 }
 
+TEST(GraphDelta, WhereUnknownSpaceIsFreeItsEndIsTold) {
+  LiveRoadmap live(
+      {.build = {.min_clearance = kRadius, .unknown = UnknownPolicy::kFree, .tangent_pairs = 0}});
+  live.set_voxels(box({0, 0, 0}, {15, 15, 15}, VoxelState::kFree));
+  live.set_voxels(box({60, 8, 8}, {60, 8, 8}, VoxelState::kFree));
+  const auto before = live.snapshot();
+  const std::vector<Point> path = {{0.8, 0.8, 0.8}, {5.0, 0.8, 0.8}};
+  ASSERT_TRUE(still_safe(path, kRadius, *before));
+  live.set_voxels(box({60, 8, 8}, {60, 8, 8}, VoxelState::kUnknown));
+  const auto now = live.snapshot();
+  EXPECT_FALSE(still_safe(path, kRadius, *now));
+  EXPECT_TRUE(may_be_invalid(path, kRadius, delta_between(*before, *now)));
+}
+
 TEST(GraphDelta, APathThatIsLeftAloneStaysFree) {
   int kept = 0, lost = 0;
   std::mt19937 random(5);

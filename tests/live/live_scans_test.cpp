@@ -294,6 +294,19 @@ World corridor() {
   return world;
 }
 
+TEST(LiveRoadmap, RefusesScansFarFromItsOrigin) {
+  LiveConfig config = house_config();
+  config.origin = VoxelIndex{-1'000'000'000, 0, 0};
+  LiveRoadmap live(config);
+  const std::vector<Point> points = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+  EXPECT_NE(refusal([&] {
+              live.integrate(points, Eigen::Isometry3d::Identity());
+            }).find("farther than 5e8 voxels"),
+            std::string::npos);
+  EXPECT_EQ(live.snapshot(), nullptr);
+  EXPECT_EQ(live.map().layout.block_count(), 0u);
+}
+
 TEST(LiveRoadmap, OfAWorldThatChangesHasTheBytesOfABatchBuildAndForgets) {
   const World world = corridor();
   LiveConfig config = house_config();

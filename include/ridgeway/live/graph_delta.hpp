@@ -29,7 +29,8 @@ struct GraphDelta {
   std::vector<EdgeName> came_edges;          ///< were not there before
   std::vector<EdgeName> gone_edges;          ///< are not there any more
   std::vector<EdgeName> changed_edges;       ///< have another clearance
-  /// Voxels of the lattice that are free no longer, or obstacles now that were none.
+  /// Voxels of the lattice where a robot might be and may not be any more, those included that the
+  /// box of a map has left in which unknown space is free, or that are obstacles now and were none.
   std::vector<VoxelIndex> closed;
   double voxel_size = 0.0;  ///< metres
 

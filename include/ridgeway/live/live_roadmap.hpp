@@ -31,7 +31,7 @@ struct LiveConfig {
   std::filesystem::path log_folder = {};
   std::uint64_t log_bytes = std::uint64_t{4} << 30;  ///< of all scans that are kept: the newest
   std::string source = {};  ///< what snapshots say of where they are from (Roadmap::source)
-  std::string record = {};  ///< and of their configuration (Roadmap::config)
+  std::string record = {};  ///< what snapshots say of their configuration (Roadmap::config)
 
   /// Throws InputError naming the bad field.
   void validate() const;
@@ -82,7 +82,8 @@ class LiveRoadmap {
   /// The one moved from can only be assigned to or destroyed.
   LiveRoadmap& operator=(LiveRoadmap&&) noexcept;
 
-  /// Fuses a depth image of a camera with a pose (camera to world), as TsdfFusion does.
+  /// Fuses a depth image of a camera with a pose (camera to world), as TsdfFusion does. Throws
+  /// InputError as that does, and for a scan that changes voxels farther than 5e8 from the origin.
   UpdateReport integrate(const DepthImage& image, const PinholeCamera& camera,
                          const Eigen::Isometry3d& T_world_camera);
   /// Fuses points in the sensor's frame, its origin at 0.
@@ -115,8 +116,8 @@ class LiveRoadmap {
   /// Follows what waits outside of the window.
   UpdateReport catch_up();
 
-  /// The roadmap after the last update, which stays as it is; none as long as no voxel is
-  /// traversable. Thread-safe.
+  /// The roadmap after the last update, which stays as it is; none while no voxel is
+  /// traversable: then no path is safe. Thread-safe.
   std::shared_ptr<const Roadmap> snapshot() const;
 
   /// The same with cell graph and tangent graph, which are of the whole map and take as long as
