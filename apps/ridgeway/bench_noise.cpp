@@ -71,7 +71,7 @@ void draw_elements(const NoiseResult& result, const std::filesystem::path& out) 
     graph.points.emplace_back(map.voxel_size, static_cast<double>(graph_size(map)));
   }
   ScatterChart chart;
-  chart.title = "The diagram grows with resolution and noise, the graph does not";
+  chart.title = "Elements of diagram and graph of one house, by voxel size and noise";
   chart.x_label = "voxel size (m)";
   chart.y_label = "elements";
   chart.series = {diagram, graph};

@@ -73,6 +73,9 @@ BuildConfig build_config(const BuildOptions& options) {
   if (options.unknown == "ignore") config.unknown = UnknownPolicy::kIgnore;
   if (options.unknown == "free") config.unknown = UnknownPolicy::kFree;
   config.limits = limits_of(options.limits);
+  // Unknown space that is free goes on to the ends of the blocks, beyond what was cut off.
+  if (options.bounds && config.unknown == UnknownPolicy::kFree)
+    config.limits = both_of(config.limits, {.keep_in = *options.bounds, .keep_out = {}});
   config.basis_point_edges = options.edges == "basis-points";
   config.paper_diagram = options.diagram == "paper";
   config.simplify = options.graph == "simple";
@@ -86,7 +89,6 @@ std::string config_text(const BuildOptions& options, const BuildConfig& build, d
   if (options.bounds) json["bounds"] = box_text(*options.bounds);
   for (const Box& box : options.exclude) json["exclude"].push_back(box_text(box));
   if (!options.planar.empty()) json["planar"] = options.planar;
-  if (options.limits.any()) json["limits"] = limits_record(build.limits);
   if (const auto units = load_config(options).units) json["units"] = *units;
   if (!options.up.empty()) json["up"] = options.up;
   for (const Point& place : options.inside) json["inside"].push_back(cli::json_of(place));

@@ -105,7 +105,8 @@ class Command {
   /// Several between commas.
   Option wholes(const std::string& names, std::vector<int>& values, Wholes range,
                 const std::string& help);
-  Option point(const std::string& names, std::optional<Point>& value, const std::string& help);
+  Option point(const std::string& names, std::optional<Point>& value, const std::string& help,
+               const std::string& shown = "X,Y,Z");
   /// So many numbers between commas, which the help shows as "fx,fy,cx,cy".
   Option tuple(const std::string& names, std::vector<double>& values, std::size_t count,
                const std::string& shown, const std::string& help);

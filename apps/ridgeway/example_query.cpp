@@ -50,6 +50,7 @@ std::optional<std::pair<Point, Point>> example_query(const Roadmap& roadmap) {
   // A room with one vertex has its widest place besides.
   const std::pair exact(place_of(first),
                         first == second ? parts.components.front().widest : place_of(second));
+  if (exact.first == exact.second) return std::nullopt;  // nowhere to go
   const std::pair rounded(to_the_millimetre(exact.first), to_the_millimetre(exact.second));
   for (const auto& query : {rounded, exact})
     if (plan(roadmap, query.first, query.second).ok()) return query;

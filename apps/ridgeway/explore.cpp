@@ -100,7 +100,7 @@ Json json_of_unseen(const ExplorationFlight& flight) {
 Spread milliseconds_of(const ExplorationFlight& flight) {
   std::vector<double> milliseconds;
   for (const ExplorationSample& sample : flight.samples)
-    milliseconds.push_back(1e3 * sample.decision_seconds);
+    milliseconds.push_back(1e3 * sample.seconds.total);
   return spread_of(std::move(milliseconds));
 }
 

@@ -53,9 +53,18 @@ void require_format(const std::filesystem::path& file, const std::string& what) 
   if (!known && !is_picture(file) && !is_page(file))
     throw InputError(file.string(), "names no format that a " + what + " can be written in",
                      what == "diagram"
-                         ? "use .ply or .vxblx, or .png or .svg for a picture, or .html"
+                         ? "use .ply, with .vxblx, .png, .svg or .html beside it"
                          : "use .json, .graphml, .ply, .pb, .vxblx, .png, .svg or .html");
   if (is_page(file)) require_page_planner(file.string());
+}
+
+/// What a .ply file is to hold says nothing where none is written.
+void require_ply(const ExportOptions& options, const std::vector<std::filesystem::path>& files) {
+  if (options.what == "diagram" && std::none_of(files.begin(), files.end(), [](const auto& file) {
+        return file.extension() == ".ply";
+      }))
+    throw InputError("--what diagram", "is of .ply files, and none is written",
+                     "give -o FILE.ply too, or leave it out");
 }
 
 /// Of options that would say nothing where no picture is written.
@@ -79,6 +88,7 @@ std::vector<std::filesystem::path> list_outputs(const ExportOptions& options) {
   if (files.empty())
     throw InputError("export", "nothing to write was asked for",
                      "give -o FILE, --json-graph FILE, --picture FILE or --mesh FILE");
+  require_ply(options, files);
   if (std::none_of(files.begin(), files.end(), is_picture)) refuse_picture_options(options);
   std::vector<std::filesystem::path> inputs = {options.file};
   inputs.insert(inputs.end(), options.paths.begin(), options.paths.end());

@@ -3,7 +3,9 @@
 #include "live_table.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <utility>
 
 #include "files/atomic_file.hpp"
@@ -153,8 +155,9 @@ void write_scans(const std::vector<LiveScan>& scans, const std::string& folder,
   constexpr std::size_t kMostPoints = 50;
   const std::size_t together = (scans.size() + kMostPoints - 1) / kMostPoints;
   ScatterChart chart;
-  chart.title = "From scan to snapshot, by stage: medians of " + std::to_string(together) +
-                (together == 1 ? " scan" : " scans");
+  chart.title = "From scan to snapshot, by stage";
+  if (together > 1)
+    chart.title += ": medians of " + std::to_string(together) + " scans, of those where it ran";
   chart.x_label = "scan";
   chart.y_label = "milliseconds";
   chart.log_y = true;
@@ -166,11 +169,15 @@ void write_scans(const std::vector<LiveScan>& scans, const std::string& folder,
         if (const double seconds = time.seconds(scans[i]);
             seconds > 0.0 && (scans[i].is_judged || !time.of_judged))
           values.push_back(1e3 * seconds);
-      if (!values.empty())
-        series.points.emplace_back(static_cast<double>(first) + 0.5 * static_cast<double>(together),
-                                   spread_of(std::move(values)).median);
+      // Batch builds are some scans apart; stages that nothing was to be done in leave a gap.
+      if (values.empty() && time.of_judged) continue;
+      series.points.emplace_back(static_cast<double>(first) + 0.5 * static_cast<double>(together),
+                                 values.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                                : spread_of(std::move(values)).median);
     }
-    if (time.is_drawn && !series.points.empty()) chart.series.push_back(series);
+    const bool is_empty = std::all_of(series.points.begin(), series.points.end(),
+                                      [](const auto& point) { return std::isnan(point.second); });
+    if (time.is_drawn && !is_empty) chart.series.push_back(series);
   }
   for (const char* extension : {".png", ".svg"}) draw_scatter(chart, path / (name + extension));
 }

@@ -260,7 +260,8 @@ void add_plan_command(Command& program) {
                    "Path to write, .csv or .json; or a mission of QGroundControl, .plan");
   command.point("--datum", options->datum,
                 "Latitude, longitude and altitude of the world's 0,0,0, for missions: degrees, and "
-                "metres above the sea");
+                "metres above the sea",
+                "LAT,LON,ALT");
   command.number("--x-heading", options->x_heading, {-360.0, 360.0},
                  "Compass heading of the map's x axis, for missions, degrees (default: 90, so that "
                  "x is east and y north)");

@@ -159,10 +159,7 @@ py::dict view_of_camera(const PinholeCamera& camera, py::handle min_range, py::h
   sensor.camera = camera;
   read(min_range, "min_range", sensor.min_range);
   read(max_range, "max_range", sensor.max_range);
-  sensor.validate();
   const double share = number_from(share_of_range, "share_of_range");
-  if (!(share > 0.0 && share <= 1.0))
-    throw InputError("share_of_range", "is " + literal(share), "give a share above 0, up to 1");
   return dict_of(field_of_view(sensor, share));
 }
 

@@ -21,9 +21,7 @@
 namespace ridgeway::python {
 
 std::string record_of(const BuildConfig& config, double voxel_size) {
-  nlohmann::ordered_json record = build_record(config, voxel_size);
-  if (config.limits.any()) record["limits"] = limits_record(config.limits);
-  return record.dump();
+  return build_record(config, voxel_size).dump();
 }
 
 namespace {

@@ -40,12 +40,8 @@ std::string lidar_repr(const SpinningLidar& l) {
 
 py::dict view_of_lidar(const SpinningLidar& lidar, py::handle share_of_range, py::handle row_gap) {
   const double share = number_from(share_of_range, "share_of_range");
-  if (!(share > 0.0 && share <= 1.0))
-    throw InputError("share_of_range", "is " + literal(share), "give a share above 0, up to 1");
   std::optional<double> gap;
   read(row_gap, "row_gap", gap);
-  if (gap && !(*gap > 0.0))
-    throw InputError("row_gap", "is " + literal(*gap), "give metres, above 0");
   return python::dict_of(gap ? field_of_view(lidar, share, *gap) : field_of_view(lidar, share));
 }
 

@@ -207,7 +207,6 @@ class ExplorationRun {
     ++flight_.decisions;
     sample.frontiers = step.frontiers;
     sample.seconds = step.seconds;
-    sample.decision_seconds = step.seconds.total;
     flight_.doubts += step.was_in_doubt;
     flight_.brakes += step.is_braking;
     if (!step.trajectory.segments.empty()) {

@@ -70,11 +70,10 @@ struct ExplorationFlightConfig {
 /// At a scan.
 struct ExplorationSample {
   FlightState state;
-  double mapped = 0.0;            ///< share of what can be seen at all that is known
-  std::size_t frontiers = 0;      ///< clusters that are worth a look
-  double decision_seconds = 0.0;  ///< of this machine; no part of the simulated time
-  ExplorationSeconds seconds;
-  double update_seconds = 0.0;  ///< of the roadmap
+  double mapped = 0.0;          ///< share of what can be seen at all that is known
+  std::size_t frontiers = 0;    ///< clusters that are worth a look
+  ExplorationSeconds seconds;   ///< of the decision on this machine; no part of the simulated time
+  double update_seconds = 0.0;  ///< of the roadmap, likewise
 };
 
 struct ExplorationFlight {

@@ -88,12 +88,14 @@ DoorResult run_door(const DoorConfig& config, const Progress& progress) {
   const World world = two_rooms();
   const LiveConfig live_config = {
       .fusion = {.voxel_size = config.voxel_size, .forget_after = config.forget_after},
-      .build = {.min_clearance = 0.3, .max_distance = 2.0, .tangent_pairs = 0}};
+      .build = {.min_clearance = config.min_clearance,
+                .max_distance = config.max_distance,
+                .tangent_pairs = 0}};
   DoorResult result;
   result.flight.scans.reserve(kScans);
   const std::uint64_t before = detail::allocated_bytes();
   LiveRoadmap live(live_config);
-  auto judge = std::make_unique<LiveJudge>(live_config.build, 1);
+  auto judge = std::make_unique<LiveJudge>(live_config.build, config.verify_every);
   Random seeds(config.seed);
   for (int scan = 0; scan < kScans; ++scan) {
     if (progress && !progress("door", static_cast<double>(scan) / kScans)) throw Cancelled();

@@ -61,9 +61,12 @@ void run_live_flight(const World& world, const LiveFlightConfig& config, const P
 /// A door between two rooms is closed in front of a camera, and opened again.
 struct DoorConfig {
   double voxel_size = 0.1;
+  double min_clearance = 0.3;
+  double max_distance = 2.0;
   double sigma = 0.01;
   int forget_after = 8;  ///< see FusionConfig
   std::uint64_t seed = 1;
+  std::size_t verify_every = 1;  ///< scans to a comparison with a batch build; 0: none
 
   /// Throws InputError naming the bad field.
   void validate() const;

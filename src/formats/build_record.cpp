@@ -10,17 +10,33 @@
 namespace ridgeway {
 
 nlohmann::ordered_json build_record(const BuildConfig& config, double voxel_size) {
-  return {{"voxel_size", voxel_size},
-          {"min_clearance", config.min_clearance},
-          {"max_distance", config.max_distance},
-          {"unknown", name_of(config.unknown)},
-          {"theta", config.theta},
-          {"prune_radius", config.prune_radius},
-          {"split_deviation", config.split_deviation},
-          {"edges", config.basis_point_edges ? "basis-points" : "neighbours"},
-          {"significance", config.significance},
-          {"diagram", config.paper_diagram ? "paper" : "full"},
-          {"graph", config.simplify ? "simple" : "fitted"}};
+  nlohmann::ordered_json record = {
+      {"voxel_size", voxel_size},
+      {"min_clearance", config.min_clearance},
+      {"max_distance", config.max_distance},
+      {"unknown", name_of(config.unknown)},
+      {"theta", config.theta},
+      {"prune_radius", config.prune_radius},
+      {"split_deviation", config.split_deviation},
+      {"edges", config.basis_point_edges ? "basis-points" : "neighbours"},
+      {"significance", config.significance},
+      {"diagram", config.paper_diagram ? "paper" : "full"},
+      {"graph", config.simplify ? "simple" : "fitted"}};
+  if (config.least_apart > 0.0) record["least_apart"] = config.least_apart;
+  if (config.limits.any()) record["limits"] = limits_record(config.limits);
+  return record;
+}
+
+GvdConfig gvd_of_record(const std::string& record) {
+  GvdConfig config;
+  const auto json = nlohmann::ordered_json::parse(record, nullptr, false);
+  if (!json.is_object()) return config;
+  const auto take = [&](const char* name, double& value) {
+    if (json.contains(name) && json[name].is_number()) value = json[name].get<double>();
+  };
+  take("theta", config.theta);
+  take("least_apart", config.least_apart);
+  return config;
 }
 
 nlohmann::ordered_json limits_record(const FlightLimits& limits) {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "common/number_text.hpp"
 #include "common/require.hpp"
 #include "files/atomic_file.hpp"
 #include "ridgeway/common/error.hpp"
@@ -54,6 +55,10 @@ GeoPoint geodetic_of(const Point& p) {
 /// stops at corners instead of cutting them, and what was verified are the legs between them.
 constexpr double kHold = 1.0, kAcceptance = 0.2;
 
+/// Metres from the datum to a place of a mission. A path that is farther away is given in the
+/// coordinates of a grid; its altitude would be kilometres off.
+constexpr double kFarthest = 2e5;
+
 // Of MAVLink and QGroundControl.
 constexpr int kNavWaypoint = 16, kGlobalFrame = 0, kAboveSeaLevel = 2, kPx4 = 12, kQuadrotor = 2;
 
@@ -83,6 +88,11 @@ void Datum::validate() const {
 }
 
 GeoPoint geodetic(const Point& p, const Datum& datum) {
+  if (!(p.norm() <= kFarthest))
+    throw InputError(
+        "datum", "is " + number_text(std::round(1e-3 * p.norm())) + " km from where the path leads",
+        "give the place of the map's 0,0,0; the numbers of a grid such as UTM are not "
+        "metres from a place: build the map near an origin of its own");
   const double latitude = datum.latitude * kDegree, longitude = datum.longitude * kDegree;
   const double heading = datum.x_heading * kDegree;
   // The world's y axis points a quarter turn to the left of its x axis.

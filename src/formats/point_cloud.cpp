@@ -67,9 +67,8 @@ void require_no_faces(const PointCloud& cloud, const std::string& name) {
   throw InputError(name,
                    "is a mesh of " + std::to_string(cloud.faces) +
                        " faces; a map of its vertices alone would be open between them",
-                   "name it in a world (`meshes: [{file: ...}]`), record that with `ridgeway "
-                   "simulate` and make a map of it with `ridgeway fuse`; or sample its faces as "
-                   "points, no farther from each other than a voxel");
+                   "write the points of the scan without faces; the mesh itself is mapped by "
+                   "`ridgeway build`");
 }
 
 Box extent(const PointCloud& cloud, const Eigen::Isometry3d& T_map_cloud) {

@@ -23,7 +23,6 @@ namespace {
 
 constexpr const char* kLayerDamaged = "the file is damaged, fetch or write it again";
 constexpr int kMostSide = 64;
-constexpr float kLeastWeight = 1e-6f;                  // of a voxel of a TSDF that was seen
 constexpr std::uint32_t kObserved = 1, kSupposed = 2;  // flags of a voxel of an ESDF
 
 struct LayerType {

@@ -27,6 +27,9 @@ struct VoxbloxLayer {
   std::vector<VoxbloxBlock> blocks;
 };
 
+/// A voxel of a TSDF of no more weight was not seen.
+inline constexpr float kLeastWeight = 1e-6f;
+
 /// Words of a voxel in layers of a type; 0 for a type that is not known.
 int words_per_voxel(std::string_view type);
 

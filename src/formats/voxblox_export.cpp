@@ -19,7 +19,8 @@ namespace {
 
 constexpr int kVoxbloxSide = 16;             // of a block, voxels, as the original has it
 constexpr std::uint32_t kGrey = 0x7f7f7fff;  // red, green, blue, alpha
-constexpr std::uint32_t kObservedFlag = 1;   // flag of a voxel of an ESDF
+constexpr double kSeenWeight = 2.0 * kLeastWeight;
+constexpr std::uint32_t kObservedFlag = 1;  // flag of a voxel of an ESDF
 constexpr std::uint32_t kEdgeFlag = 1u << 16,
                         kVertexFlag = 1u << 24;  // flags of a voxel of a skeleton
 constexpr std::uint32_t kNoVertexId = 0xffffffffu;
@@ -73,7 +74,7 @@ VoxbloxLayer tsdf_layer(const TsdfMap& map) {
     if (map.weight[id] > 0.0f)
       layer.set(map.origin + map.layout.index_of(id),
                 {word_of_float(static_cast<double>(map.distance[id])),
-                 word_of_float(static_cast<double>(map.weight[id])), kGrey});
+                 word_of_float(std::max(static_cast<double>(map.weight[id]), kSeenWeight)), kGrey});
   return std::move(layer).finish();
 }
 
@@ -95,7 +96,9 @@ double signed_distance(const EsdfMap& esdf, VoxelId id) {
 VoxbloxLayer esdf_layer(const EsdfMap& esdf) {
   LayerWriter<2> layer("esdf", esdf.voxel_size, {0, 0});
   for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id) {
-    if (esdf.state[id] == VoxelState::kUnknown) continue;
+    if (esdf.state[id] == VoxelState::kUnknown ||
+        !is_of_map(esdf, static_cast<int>(id % kBlockVoxels)))
+      continue;
     const std::uint32_t parent = esdf.squared[id] == kNoSite ? 0 : parent_word(esdf.site[id]);
     layer.set(esdf.origin + esdf.layout.index_of(id),
               {word_of_float(signed_distance(esdf, id)), parent | kObservedFlag});

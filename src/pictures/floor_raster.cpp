@@ -19,7 +19,7 @@ void for_each_known(const EsdfMap& esdf, const Visit& visit) {
   for (std::uint32_t slot = 0; slot < esdf.layout.block_count(); ++slot) {
     const VoxelState* state = esdf.state.block(slot);
     for (int i = 0; i < kBlockVoxels; ++i) {
-      if (state[i] != VoxelState::kUnknown)
+      if (state[i] != VoxelState::kUnknown && is_of_map(esdf, i))
         visit(esdf.origin + voxel_of(esdf.layout.block(slot), i), state[i]);
     }
   }
@@ -38,7 +38,7 @@ KnownExtent known_extent(const EsdfMap& esdf) {
     const VoxelState* state = esdf.state.block(slot);
     free_in_layer.fill(0);
     for (int i = 0; i < kBlockVoxels; ++i) {
-      if (state[i] == VoxelState::kUnknown) continue;
+      if (state[i] == VoxelState::kUnknown || !is_of_map(esdf, i)) continue;
       const VoxelIndex v = esdf.origin + voxel_of(esdf.layout.block(slot), i);
       found.min = {std::min(found.min.x, v.x), std::min(found.min.y, v.y),
                    std::min(found.min.z, v.z)};

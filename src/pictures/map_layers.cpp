@@ -218,11 +218,7 @@ void draw_limits(Canvas& canvas, const FlightLimits& limits, const MapFrame& fra
       });
   within(limits.keep_in, [&](double x, double y, double width, double height) {
     if (width >= frame.width && height >= frame.height) return;  // no limit within the map
-    cairo_rectangle(canvas.cairo(), x, y, width, height);
-    canvas.set_colour(ink::kNoFly);
-    canvas.set_line(2.0 * frame.unit, {9.0 * frame.unit, 6.0 * frame.unit});
-    cairo_stroke(canvas.cairo());
-    canvas.set_line(frame.unit);
+    stroke_keep_in(canvas, x, y, width, height, frame.unit);
   });
 }
 
@@ -244,7 +240,9 @@ void draw_narrow_places(Canvas& canvas, const MapMarks& marks, const MapFrame& f
     texts.emplace_back(x, y);
     const std::string label = short_number_at_most(join.radius, 2) + " m";
     canvas.set_font(14.0 * u, true);
-    const double width = canvas.text_width(label), top = y - 30.0 * u;
+    // Above its ring, but not over what is written above the map.
+    const double width = canvas.text_width(label);
+    const double top = y - 30.0 * u < frame.top ? y + 12.0 * u : y - 30.0 * u;
     canvas.fill_rectangle(x - 0.5 * width - 3.0 * u, top, width + 6.0 * u, 18.0 * u, ink::kHalo);
     canvas.set_colour(ink::kNarrow);
     canvas.draw_text(x, top + 14.0 * u, label, Canvas::Align::kMiddle);

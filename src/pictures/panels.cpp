@@ -19,13 +19,23 @@ std::string between(const HeightBand& band) {
   return short_number(band.low, 2) + " to " + short_number(band.high, 2) + " m";
 }
 
+}  // namespace
+
+std::string heights_text(const EsdfMap& esdf, const FloorRaster& raster) {
+  if (!esdf.planar) return "walls at heights " + between(raster.band);
+  const double low = raster.first.z * esdf.voxel_size;
+  return "the plane's voxels at heights " + between({low, low + esdf.voxel_size});
+}
+
+namespace {
+
 void add_plans(const Roadmap& roadmap, const PictureConfig& config, std::vector<Panel>& panels) {
   const EsdfMap& esdf = roadmap.esdf;
   const std::vector<Storey> storeys =
       config.floors ? find_storeys(esdf, 2.0 * roadmap.min_clearance) : std::vector<Storey>{};
   if (storeys.size() < 2) {
     Panel plan{make_floor_raster(esdf, kFromAbove, config.band, config.width), kAll, {}, {}};
-    plan.caption = "From above, walls at heights " + between(plan.raster.band);
+    plan.caption = "From above, " + heights_text(esdf, plan.raster);
     panels.push_back(std::move(plan));
     return;
   }

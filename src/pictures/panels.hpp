@@ -22,6 +22,9 @@ struct Panel {
 /// The views that are asked for, the plan first.
 std::vector<Panel> make_panels(const Roadmap& roadmap, const PictureConfig& config);
 
+/// Which heights the walls of a plan are from, in words.
+std::string heights_text(const EsdfMap& esdf, const FloorRaster& raster);
+
 /// Puts panels one below the other, all at one scale, in a column `width` wide, `top` from the
 /// page's top (pixels). Returns where the last one ends, its axis included.
 double lay_out_panels(std::vector<Panel>& panels, double voxel_size, double left, double top,

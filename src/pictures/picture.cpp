@@ -57,8 +57,17 @@ std::vector<PathLayer> path_layers(std::span<const Point> path, const PictureCon
   return layers;
 }
 
+/// Whether a place lies in the part of the page that a frame shows.
+bool is_within(const MapFrame& frame, const Point& p) {
+  const double x = frame.x(p) - frame.left, y = frame.y(p) - frame.top;
+  return x >= 0.0 && x <= frame.width && y >= 0.0 && y <= frame.height;
+}
+
 void draw_paths(Canvas& canvas, const std::vector<PathLayer>& layers, const MapFrame& frame) {
   const double u = frame.unit;
+  cairo_save(canvas.cairo());
+  cairo_rectangle(canvas.cairo(), frame.left, frame.top, frame.width, frame.height);
+  cairo_clip(canvas.cairo());
   for (const PathLayer& layer : layers) {
     trace(canvas, layer.waypoints, frame);
     if (layer.halo) {
@@ -69,20 +78,36 @@ void draw_paths(Canvas& canvas, const std::vector<PathLayer>& layers, const MapF
     set_stroke(canvas, layer.stroke, u);
     cairo_stroke(canvas.cairo());
   }
+  cairo_restore(canvas.cairo());
 }
 
-/// The path whose ends are marked.
-std::span<const Point> marked_path(std::span<const Point> path, const PictureConfig& config) {
+/// The paths whose ends are marked.
+std::vector<std::span<const Point>> marked_paths(std::span<const Point> path,
+                                                 const PictureConfig& config) {
+  std::vector<std::span<const Point>> marked;
   for (const NamedPath& other : config.paths)
-    if (path.empty()) path = other.waypoints;
-  return path;
+    if (!other.waypoints.empty()) marked.emplace_back(other.waypoints);
+  if (!path.empty()) marked.push_back(path);
+  return marked;
 }
 
-void draw_ends(Canvas& canvas, std::span<const Point> path, const MapFrame& frame) {
-  if (path.empty()) return;
-  const Point &start = path.front(), &goal = path.back();
-  if (frame.shows(start)) draw_start(canvas, frame.x(start), frame.y(start), frame.unit);
-  if (frame.shows(goal)) draw_goal(canvas, frame.x(goal), frame.y(goal), frame.unit);
+/// Starts over goals: the disc leaves the star to be seen where a path ends at its start.
+void draw_ends(Canvas& canvas, const std::vector<std::span<const Point>>& paths,
+               const MapFrame& frame) {
+  const auto draw = [&](const Point& place, const auto& mark) {
+    if (frame.shows(place) && is_within(frame, place))
+      mark(canvas, frame.x(place), frame.y(place), frame.unit);
+  };
+  for (const std::span<const Point> path : paths) draw(path.back(), draw_goal);
+  for (const std::span<const Point> path : paths) draw(path.front(), draw_start);
+}
+
+/// Whether no panel cuts a path.
+bool is_drawn_whole(std::span<const Point> path, const std::vector<Panel>& panels) {
+  return std::all_of(path.begin(), path.end(), [&](const Point& p) {
+    return std::all_of(panels.begin(), panels.end(),
+                       [&](const Panel& panel) { return is_within(panel.frame, p); });
+  });
 }
 
 std::string title_of(const Roadmap& roadmap, const PictureConfig& config) {
@@ -92,28 +117,46 @@ std::string title_of(const Roadmap& roadmap, const PictureConfig& config) {
 }
 
 std::string subtitle_of(const Roadmap& roadmap, std::span<const Point> path,
-                        const std::vector<Panel>& panels) {
+                        const std::vector<Panel>& panels, const PictureConfig& config) {
   const std::string gap = "  \u00b7  ";
   std::string text = "voxels of " + short_number(roadmap.esdf.voxel_size, 4) + " m" + gap +
                      grouped(roadmap.graph.vertices.size()) + " vertices, " +
                      grouped(roadmap.graph.edges.size()) + " edges";
-  if (!path.empty()) text += gap + "path of " + short_number(length_of(path), 2) + " m";
+  if (!path.empty())
+    text += gap + config.path_label + " of " + short_number(length_of(path), 2) + " m" +
+            (is_drawn_whole(path, panels) ? "" : ", part of it outside of the map");
   if (panels.size() > 1) return text;  // their captions tell
-  const HeightBand& band = panels.front().raster.band;
-  return text + gap + "walls at heights " + short_number(band.low, 2) + " to " +
-         short_number(band.high, 2) + " m";
+  return text + gap + heights_text(roadmap.esdf, panels.front().raster);
+}
+
+/// Whether a panel shows an edge of the box that flights stay within.
+bool is_cut(const Box& keep_in, const FloorRaster& raster, double voxel_size) {
+  const Point low = raster.min_corner(voxel_size);
+  const auto [across, up, along] = raster.projection;
+  if (keep_in.min[up] >= keep_in.max[up]) return false;  // the plane of a planar map
+  return keep_in.min[across] > low[across] || keep_in.min[up] > low[up] ||
+         keep_in.max[across] < low[across] + raster.width(voxel_size) ||
+         keep_in.max[up] < low[up] + raster.height(voxel_size);
+}
+
+/// So many that a number has two digits that count.
+int decimals_of(double value) {
+  constexpr int kMost = 6;
+  if (!(value > 0.0)) return 1;
+  return std::clamp(1 - static_cast<int>(std::floor(std::log10(value))), 1, kMost);
 }
 
 std::string diagram_text(const Range& range, const PictureConfig& config) {
   if (config.diagram_colour == DiagramColour::kComponent)
     return "diagram and graph, a colour for each connected component";
   const bool height = config.diagram_colour == DiagramColour::kHeight;
+  const int decimals = decimals_of(height ? range.high - range.low : range.low);
   return std::string("diagram, ") + (height ? "height " : "clearance ") +
-         short_number(range.low, 1) + " to " + short_number(range.high, 1) + " m";
+         short_number(range.low, decimals) + " to " + short_number(range.high, decimals) + " m";
 }
 
 std::vector<LegendItem> legend_items(const MapMarks& marks, const std::vector<PathLayer>& layers,
-                                     bool ends, const PictureConfig& config) {
+                                     bool ends, bool keep_in, const PictureConfig& config) {
   using Mark = LegendItem::Mark;
   std::vector<LegendItem> items = {
       {Mark::kFree, "free"}, {Mark::kWall, "occupied"}, {Mark::kUnknown, "unknown"}};
@@ -122,6 +165,7 @@ std::vector<LegendItem> legend_items(const MapMarks& marks, const std::vector<Pa
     items.push_back({marks.by_component() ? Mark::kComponents : Mark::kDiagram,
                      diagram_text(marks.range, config)});
   if (!marks.limits.keep_out.empty()) items.push_back({Mark::kNoFly, "no flights"});
+  if (keep_in) items.push_back({Mark::kKeepIn, "flights stay within"});
   if (!marks.narrow.empty()) items.push_back({Mark::kNarrow, "narrow: the radius that fits"});
   for (auto layer = layers.rbegin(); layer != layers.rend(); ++layer)
     items.push_back({Mark::kPath, layer->label, layer->stroke, layer->ending});
@@ -217,8 +261,12 @@ void draw_floor_plan(const Roadmap& roadmap, std::span<const Point> path,
   std::vector<Panel> panels = make_panels(roadmap, config);
   const MapMarks marks = marks_of(roadmap, config);
   const std::vector<PathLayer> layers = path_layers(path, config);
-  const std::span<const Point> marked = marked_path(path, config);
-  const std::vector<LegendItem> items = legend_items(marks, layers, !marked.empty(), config);
+  const std::vector<std::span<const Point>> marked = marked_paths(path, config);
+  const bool keep_in = std::any_of(panels.begin(), panels.end(), [&](const Panel& panel) {
+    return is_cut(marks.limits.keep_in, panel.raster, voxel_size);
+  });
+  const std::vector<LegendItem> items =
+      legend_items(marks, layers, !marked.empty(), keep_in, config);
   Canvas measure(out, 8, 8);  // is not written
   const Page page = lay_out_page(measure, panels, voxel_size, items, config);
   const double u = page.unit;
@@ -235,7 +283,8 @@ void draw_floor_plan(const Roadmap& roadmap, std::span<const Point> path,
     draw_ends(canvas, marked, frame);
     draw_caption(canvas, panel);
   }
-  draw_title(canvas, title_of(roadmap, config), subtitle_of(roadmap, path, panels), config, page);
+  draw_title(canvas, title_of(roadmap, config), subtitle_of(roadmap, path, panels, config), config,
+             page);
   draw_scale_bar(canvas, panels.front().frame, page.left, page.legend_top, (kScaleBar - 80.0) * u);
   draw_legend(canvas, items, page.legend, page.legend_left, page.legend_top, u);
   draw_charts(canvas, config.charts, page.left, page.charts_top,

@@ -81,6 +81,8 @@ void draw_mark(Canvas& canvas, const LegendItem& item, double x, double y, doubl
       return draw_component_marks(canvas, x, y, width, unit);
     case Mark::kNoFly:
       return draw_no_fly(canvas, x, y - 8.0 * unit, width, 16.0 * unit, unit);
+    case Mark::kKeepIn:
+      return stroke_keep_in(canvas, x, y - 8.0 * unit, width, 16.0 * unit, unit);
     case Mark::kNarrow:
       return draw_narrow(canvas, middle, y, 7.0 * unit, unit);
     case Mark::kStart:
@@ -131,6 +133,14 @@ void draw_no_fly(Canvas& canvas, double x, double y, double width, double height
   canvas.set_colour(ink::kNoFly);
   canvas.set_line(2.6 * unit);
   cairo_stroke(cairo);
+}
+
+void stroke_keep_in(Canvas& canvas, double x, double y, double width, double height, double unit) {
+  cairo_rectangle(canvas.cairo(), x, y, width, height);
+  canvas.set_colour(ink::kNoFly);
+  canvas.set_line(2.0 * unit, {9.0 * unit, 6.0 * unit});
+  cairo_stroke(canvas.cairo());
+  canvas.set_line(unit);
 }
 
 void draw_narrow(Canvas& canvas, double x, double y, double radius, double unit) {

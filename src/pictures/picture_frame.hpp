@@ -56,6 +56,9 @@ struct MapFrame {
 /// A box that nobody may fly through: hatched, so that it is no wall.
 void draw_no_fly(Canvas& canvas, double x, double y, double width, double height, double unit);
 
+/// Strokes the edge of the box that flights have to stay in: dashed.
+void stroke_keep_in(Canvas& canvas, double x, double y, double width, double height, double unit);
+
 /// Where it is narrow: a ring.
 void draw_narrow(Canvas& canvas, double x, double y, double radius, double unit);
 
@@ -84,6 +87,7 @@ struct LegendItem {
     kStart,
     kGoal,
     kNoFly,
+    kKeepIn,
     kNarrow
   };
   Mark mark;

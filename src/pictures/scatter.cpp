@@ -29,6 +29,7 @@ void require_drawable(const ScatterChart& chart) {
   std::size_t count = 0;
   for (const ScatterSeries& series : chart.series)
     for (const auto& [x, y] : series.points) {
+      if (std::isnan(y)) continue;
       ++count;
       if (!std::isfinite(x) || !std::isfinite(y)) fail("has a value that is no number", "drop it");
       if ((chart.log_x && x <= 0.0) || (chart.log_y && y <= 0.0))
@@ -45,6 +46,7 @@ Axis axis_of(const ScatterChart& chart, bool log, const Value& value) {
   Axis axis{log, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const ScatterSeries& series : chart.series)
     for (const auto& point : series.points) {
+      if (std::isnan(point.second)) continue;
       axis.low = std::min(axis.low, axis.at(value(point)));
       axis.high = std::max(axis.high, axis.at(value(point)));
     }
@@ -119,11 +121,16 @@ void draw_point(Canvas& canvas, double x, double y, double unit) {
 
 void draw_values(Canvas& canvas, const ScatterSeries& series, const ScatterPlot& plot) {
   if (series.style != SeriesStyle::kPoints) {
-    for (const auto& [x, y] : series.points) cairo_line_to(canvas.cairo(), plot.x(x), plot.y(y));
+    for (const auto& [x, y] : series.points)
+      if (std::isnan(y))
+        cairo_new_sub_path(canvas.cairo());
+      else
+        cairo_line_to(canvas.cairo(), plot.x(x), plot.y(y));
     cairo_stroke(canvas.cairo());
   }
   if (series.style == SeriesStyle::kGuide) return;
-  for (const auto& [x, y] : series.points) draw_point(canvas, plot.x(x), plot.y(y), plot.unit);
+  for (const auto& [x, y] : series.points)
+    if (!std::isnan(y)) draw_point(canvas, plot.x(x), plot.y(y), plot.unit);
 }
 
 /// A line of the legend, to the right of the plot.

@@ -17,7 +17,7 @@ enum class SeriesStyle : std::uint8_t { kPoints, kLine, kGuide };
 /// Values that belong together: one colour, and a line in the legend.
 struct ScatterSeries {
   std::string name;
-  std::vector<std::pair<double, double>> points;  ///< x, y
+  std::vector<std::pair<double, double>> points;  ///< x, y; where y is NaN a line has a gap
   SeriesStyle style = SeriesStyle::kPoints;
 };
 

@@ -91,6 +91,16 @@ TEST(Mission, IsAPlanOfQGroundControlWithAWaypointACorner) {
   }
 }
 
+TEST(Mission, CoordinatesOfAGridAreRefused) {
+  const Datum datum{41.99, -93.0, 0.0};
+  EXPECT_NEAR(geodetic(Point(1e5, 0.0, 0.0), datum).altitude, 784.0, 5.0);
+  geodetic(Point(199e3, 0.0, 0.0), datum);
+  EXPECT_NE(refusal([&] { geodetic(Point(201e3, 0.0, 0.0), datum); }).find("201 km"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] { geodetic(Point(500123.4, 4649777.65, 120.0), datum); }).find("4677 km"),
+            std::string::npos);
+}
+
 TEST(Mission, ABadDatumOrNameIsRefused) {
   const TemporaryFolder folder;
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -138,7 +138,6 @@ TEST(Octomap, SingleVoxelsOutOfReachAreRefusedForThat) {
 TEST(Octomap, RealMapsEqualTheOracle) {
   std::size_t files = 0;
   const std::filesystem::path folder = RIDGEWAY_DATA_DIR;
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no data folder";
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     const std::string extension = entry.path().extension().string();
     if (extension != ".bt" && extension != ".ot") continue;
@@ -155,11 +154,13 @@ TEST(Octomap, RealMapsEqualTheOracle) {
     }
     const std::unique_ptr<octomap::AbstractOcTree> tree(
         octomap::AbstractOcTree::read(entry.path().string()));
-    if (const auto* plain = dynamic_cast<octomap::OcTree*>(tree.get())) expect_same(*plain, map);
-    if (const auto* colour = dynamic_cast<octomap::ColorOcTree*>(tree.get()))
-      expect_same(*colour, map);
+    const auto* plain = dynamic_cast<octomap::OcTree*>(tree.get());
+    const auto* colour = dynamic_cast<octomap::ColorOcTree*>(tree.get());
+    ASSERT_TRUE(plain != nullptr || colour != nullptr);
+    if (plain != nullptr) expect_same(*plain, map);
+    if (colour != nullptr) expect_same(*colour, map);
   }
-  if (files == 0) GTEST_SKIP() << "no OctoMap files in " << folder;
+  EXPECT_GT(files, 0u);
 }
 
 }  // namespace

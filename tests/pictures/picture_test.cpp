@@ -342,6 +342,36 @@ TEST(Picture, NothingOfTheGraphIsBeyondTheFrame) {
   EXPECT_EQ(pixels_with(Point(beside, inside.y(), inside.z())), legend);
 }
 
+TEST(Picture, NothingOfAPathIsBeyondTheFrame) {
+  const TemporaryFolder folder;
+  const Roadmap roadmap = synthetic_roadmap();
+  const auto pixels_of = [&](const std::vector<Point>& path) {
+    draw_floor_plan(roadmap, path, folder / "plan.png");
+    return count_pixels(open_png(folder / "plan.png").get(), 0xd62629);
+  };
+  const auto at = [&](double x, double y) { return to_world(roadmap.esdf, Point(x, y, 0.5)); };
+  const std::vector<Point> in_the_margin = {at(-1.45, 2.0), at(-1.45, 6.0)},
+                           off_the_page = {at(-900.0, 2.0), at(-900.0, 6.0)};
+  EXPECT_EQ(pixels_of(in_the_margin), pixels_of(off_the_page));
+  EXPECT_GT(pixels_of(diagonal(roadmap)), 2 * pixels_of(off_the_page));
+}
+
+TEST(Picture, OfEveryPathTheEndsAreMarked) {
+  const TemporaryFolder folder;
+  const Roadmap roadmap = synthetic_roadmap();
+  const std::vector<Point> ends = diagonal(roadmap);
+  const Point middle = 0.5 * (ends[0] + ends[1]);
+  const auto starts_of = [&](std::vector<NamedPath> paths) {
+    PictureConfig config;
+    config.paths = std::move(paths);
+    draw_floor_plan(roadmap, {}, folder / "plan.png", config);
+    return count_pixels(open_png(folder / "plan.png").get(), 0x1a8c45);
+  };
+  const std::size_t one = starts_of({{"there", ends}});
+  EXPECT_GT(starts_of({{"there", ends}, {"on", {middle, ends[1]}}}), one + one / 3);
+  EXPECT_GT(starts_of({{"round", {ends[0], middle, ends[0]}}}), one - one / 10);
+}
+
 TEST(Picture, BadRequestsAreRefused) {
   const TemporaryFolder folder;
   const Roadmap roadmap = synthetic_roadmap();

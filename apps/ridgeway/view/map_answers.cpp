@@ -13,6 +13,7 @@
 
 #include "arguments.hpp"
 #include "console.hpp"
+#include "formats/build_record.hpp"
 #include "limit_options.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/free_space.hpp"
@@ -126,19 +127,6 @@ PlanConfig config_of(const Question& question, double radius) {
   config.snap = number_of(question, "snap", kLengthsFromZero, 0.0);
   config.escape = is_set(question, "escape", false);
   config.validate();
-  return config;
-}
-
-/// The theta and least_apart that the roadmap was built with, where its configuration says so.
-GvdConfig gvd_config(const Roadmap& roadmap) {
-  GvdConfig config;
-  const Json json = Json::parse(roadmap.config, nullptr, false);
-  if (!json.is_object()) return config;
-  const auto take = [&](const char* name, double& value) {
-    if (json.contains(name) && json[name].is_number()) value = json[name].get<double>();
-  };
-  take("theta", config.theta);
-  take("least_apart", config.least_apart);
   return config;
 }
 
@@ -314,8 +302,9 @@ Reply MapAnswers::answer(const Question& question) {
     if (path == "/api/graph") return kept(graph_, kBytes, [&] { return graph_layer(roadmap_); });
     if (path == "/api/components") return components_of(get(question, "of"));
     if (path == "/api/gvd")
-      return kept(gvd_, kBytes,
-                  [&] { return gvd_layer(roadmap_, gvd_config(roadmap_), kMostGvdPoints); });
+      return kept(gvd_, kBytes, [&] {
+        return gvd_layer(roadmap_, gvd_of_record(roadmap_.config), kMostGvdPoints);
+      });
     if (path == "/api/narrow") return kept(narrow_, kJson, [&] { return narrow_places(); });
     if (path == "/api/slice")
       return {200, kBytes,
