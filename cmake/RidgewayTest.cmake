@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 The Ridgeway authors
 
-# ridgeway_test(<name> [COMPUTES] [SOURCES <file>...] [DEPENDS <target>...] [DEFINITIONS <definition>...])
+# ridgeway_test(<name> [COMPUTES|LIGHT] [SOURCES <file>...] [DEPENDS <target>...] [DEFINITIONS <definition>...])
 #
 # One test executable, <name>_tests, its cases registered with ctest. Skipped without sources. What is
 # tested is optimised; of the tests' own code that would cost a minute of a first build, so it is only
-# where that code computes for long (brute force): COMPUTES.
+# where that code computes for long (brute force): COMPUTES. LIGHT is code that is expectations for the
+# most part: it has RIDGEWAY_LIGHT_OPTIONS.
 # Tests find the files of data/ by the macro RIDGEWAY_DATA_DIR.
 function(ridgeway_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "COMPUTES" "" "SOURCES;DEPENDS;DEFINITIONS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "COMPUTES;LIGHT" "" "SOURCES;DEPENDS;DEFINITIONS")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "ridgeway_test(${name}): what is '${arg_UNPARSED_ARGUMENTS}'?")
   endif()
@@ -24,9 +25,12 @@ function(ridgeway_test name)
   target_compile_options(
     ${name}_tests PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds -Wno-dangling-else>)
   set(group computing_tests)
-  if(NOT arg_COMPUTES)
+  if(arg_LIGHT AND RIDGEWAY_LIGHT_OPTIONS)
+    set(group light_tests)
+    set(level ${RIDGEWAY_LIGHT_OPTIONS})
+  elseif(NOT arg_COMPUTES)
     set(group tests)
-    set(level $<$<CONFIG:Release>:-Og> ${RIDGEWAY_TEST_OPTIONS})
+    set(level $<$<CONFIG:Release>:-Og>)
   endif()
   target_compile_options(${name}_tests PRIVATE ${level})
   ridgeway_precompile(
