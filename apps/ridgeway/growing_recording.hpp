@@ -33,7 +33,7 @@ class GrowingRecording {
     next.clear();
     while (!is_over_) {
       const bool has_last = open(sequence, true);
-      // What is known to be the last has nothing after it that it could be waited for with.
+      // Where the last frame is listed, only poses of it and of those before it can still come.
       is_over_ = idle.seconds() >= (has_last ? std::min(patience_, 1.0) : patience_);
       if (is_over_) open_at_the_end(sequence);
       for (const DepthFrame& frame : sequence.frames)
@@ -76,7 +76,8 @@ class GrowingRecording {
     try {
       open(sequence, false);
     } catch (const InputError& error) {
-      if (whole.frames.empty() && done_.empty()) throw;
+      const bool is_followed = patience_ > 0.0;  // else what is wrong is wrong
+      if (!is_followed || (whole.frames.empty() && done_.empty())) throw;
       ending_ = error.what();
       sequence = whole;
     }

@@ -10,7 +10,8 @@
 
 namespace ridgeway {
 
-/// Of changes that the first scan makes the sensor's voxel is the origin, unless one is given.
+/// Throws InputError for changes too far from the map's origin: before the first update that is the
+/// one that was given, else the sensor's voxel.
 void LiveRoadmap::State::require_near_origin(std::span<const VoxelChange> changes,
                                              const Point& sensor) const {
   const VoxelIndex origin =

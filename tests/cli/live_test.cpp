@@ -168,6 +168,9 @@ TEST_F(CliLive, FollowsImagesWhosePosesComeAlone) {
   writer.join();
   ASSERT_EQ(followed.code, 0) << followed.err;
   EXPECT_EQ(followed.json()["scans"].get<int>(), 6);
+  // A recording that is not followed has to be whole.
+  fs::remove(growing / "depth/5.png");
+  expect_refused({"live", growing.string(), "-o", path("none.ridge")}, {"6 poses for 5 images"});
 }
 
 TEST_F(CliLive, ImagesAfterTheLastPoseAreTakenWhenItIsOver) {
