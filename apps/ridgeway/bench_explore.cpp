@@ -153,8 +153,8 @@ int run(const BenchExploreOptions& options, const Globals& globals) {
   const ExplorationFlightConfig& config = options.settings.config;
   const Json facts = {{"voxel_size", config.voxel_size},
                       {"radius", config.radius},
-                      {"max_speed", config.explorer.limits.max_speed},
-                      {"max_acceleration", config.explorer.limits.max_acceleration},
+                      {"max_speed", config.explorer.motion.max_speed},
+                      {"max_acceleration", config.explorer.motion.max_acceleration},
                       {"scan_rate", config.scan_rate}};
   return table.report(globals, options.output, "explore", facts, complete);
 }

@@ -113,7 +113,7 @@ void draw(const NamedMap& map, const FlightsResult& result, const BenchTrajector
   const Flight& flight = flight_to_draw(result.flights);
   TrajectoryConfig config;
   config.radius = options.config.min_clearance;
-  config.limits = options.config.limits;
+  config.motion = options.config.motion;
   for (const char* extension : {".png", ".svg"})
     draw_flight(result.roadmap, flight.path, flight.flown, config,
                 fs::path(options.output) / ("trajectory_" + map.name + extension), map.name);
@@ -155,7 +155,7 @@ int run(const BenchTrajectoryOptions& options, const Globals& globals) {
     for (const NamedMap& map : load_maps(options)) {
       const FlightsResult result = run_flights(map.map, options.config, bar.callback());
       table.add(row_of(map.name, result));
-      series.push_back(series_of(map.name, result, options.config.limits));
+      series.push_back(series_of(map.name, result, options.config.motion));
       if (!options.output.empty()) draw(map, result, options);
     }
   });
@@ -164,8 +164,8 @@ int run(const BenchTrajectoryOptions& options, const Globals& globals) {
   return table.report(globals, options.output, "trajectory",
                       {{"seed", options.config.seed},
                        {"radius", options.config.min_clearance},
-                       {"max_speed", options.config.limits.max_speed},
-                       {"max_acceleration", options.config.limits.max_acceleration}},
+                       {"max_speed", options.config.motion.max_speed},
+                       {"max_acceleration", options.config.motion.max_acceleration}},
                       complete);
 }
 
@@ -184,8 +184,8 @@ void add_bench_trajectory(Command& bench) {
                  "And radius of the robot, metres");
   command.whole("--queries", config.queries, {1, 100'000},
                 "On each map, of starts and goals with a path");
-  command.number("--max-speed", config.limits.max_speed, kMotions, "Metres a second");
-  command.number("--max-acceleration", config.limits.max_acceleration, kMotions,
+  command.number("--max-speed", config.motion.max_speed, kMotions, "Metres a second");
+  command.number("--max-acceleration", config.motion.max_acceleration, kMotions,
                  "Metres a second^2");
   command.path("-o,--output", options->output,
                "Folder for trajectory.json, trajectory.csv and the pictures (PNG, SVG)");

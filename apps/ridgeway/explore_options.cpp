@@ -34,7 +34,7 @@ ExplorationFlightConfig ExploreSettings::flight() const {
       throw InputError(option.name(), "is of planners that look for frontiers",
                        "leave it out, or give --planner ridgeway or frontier");
   flight.bounds = bounds;
-  flight.explorer.limits.max_yaw_rate = max_yaw_rate * std::numbers::pi / 180.0;
+  flight.explorer.motion.max_yaw_rate = max_yaw_rate * std::numbers::pi / 180.0;
   if (planner == "frontier") flight.planner = ExplorationPlanner::kFrontier;
   if (planner == "nbvp") flight.planner = ExplorationPlanner::kNextBest;
   if (planner == "offline") flight.planner = ExplorationPlanner::kOffline;
@@ -51,8 +51,8 @@ void add_explore_settings(Command& command, ExploreSettings& settings) {
       "--start-radius", config.start_radius, kLengthsFromZero,
       "Around the start, known to be free, metres; 0: as much as it takes to fly out of it");
   command.number("--max-distance", config.max_distance, kLengths, "Distances stop here, metres");
-  command.number("--max-speed", config.explorer.limits.max_speed, kMotions, "Metres a second");
-  command.number("--max-acceleration", config.explorer.limits.max_acceleration, kMotions,
+  command.number("--max-speed", config.explorer.motion.max_speed, kMotions, "Metres a second");
+  command.number("--max-acceleration", config.explorer.motion.max_acceleration, kMotions,
                  "Metres a second^2");
   command.number("--max-yaw-rate", settings.max_yaw_rate, {.least = 1e-3, .most = 1e6},
                  "Degrees a second");

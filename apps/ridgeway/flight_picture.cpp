@@ -15,8 +15,8 @@ namespace {
 std::vector<Chart> charts_of(const EsdfMap& esdf, const std::vector<TrajectoryState>& states,
                              const TrajectoryConfig& config) {
   const FreeSpace space(esdf);
-  Chart speed{"speed (m/s)", {}, {}, config.limits.max_speed, "limit"};
-  Chart acceleration{"acceleration (m/s\u00b2)", {}, {}, config.limits.max_acceleration, "limit"};
+  Chart speed{"speed (m/s)", {}, {}, config.motion.max_speed, "limit"};
+  Chart acceleration{"acceleration (m/s\u00b2)", {}, {}, config.motion.max_acceleration, "limit"};
   Chart clearance{"clearance (m)", {}, {}, config.radius, "robot's radius"};
   for (const TrajectoryState& state : states) {
     for (Chart* chart : {&speed, &acceleration, &clearance}) chart->times.push_back(state.time);

@@ -46,15 +46,15 @@ struct TrajectoryOptions {
 TrajectoryConfig trajectory_config(const TrajectoryOptions& options, double radius) {
   TrajectoryConfig config;
   config.radius = radius;
-  config.limits.max_speed = options.max_speed;
-  config.limits.max_acceleration = options.max_acceleration;
-  if (options.max_jerk) config.limits.max_jerk = *options.max_jerk;
-  config.limits.max_yaw_rate = options.max_yaw_rate * kDegree;
+  config.motion.max_speed = options.max_speed;
+  config.motion.max_acceleration = options.max_acceleration;
+  if (options.max_jerk) config.motion.max_jerk = *options.max_jerk;
+  config.motion.max_yaw_rate = options.max_yaw_rate * kDegree;
   if (options.derivative == "jerk") config.smoothness = Smoothness::kJerk;
   if (options.from_velocity) config.start_velocity = *options.from_velocity;
   if (options.yaw) config.start_yaw = *options.yaw * kDegree;
   config.follow_yaw = !options.yaw;
-  config.flight_limits = limits_of(options.limits);
+  config.limits = limits_of(options.limits);
   config.robot_height = options.robot_height;
   config.stop_and_go = options.stop_and_go;
   config.via = options.via;
@@ -65,7 +65,7 @@ TrajectoryConfig trajectory_config(const TrajectoryOptions& options, double radi
 /// Of the first leg that is not free.
 std::string explain_not_free(const EsdfMap& esdf, const std::vector<Point>& path,
                              const TrajectoryConfig& config) {
-  const FlightLimits limits = both_of(esdf.limits, limits_in_local(esdf, config.flight_limits));
+  const FlightLimits limits = both_of(esdf.limits, limits_in_local(esdf, config.limits));
   const FreeSpace space(esdf, limits, config.radius, config.robot_height);
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Point &from = path[i == 0 ? 0 : i - 1], &to = path[i];

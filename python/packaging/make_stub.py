@@ -54,7 +54,7 @@ PARAMETERS = {
     "simplify basis_point_edges paper_diagram shorten quick escape follow_yaw stop_and_go carve floors sides narrow_places": "bool",
     "threads count queries seed slot index min_cluster isolated_below tangent_pairs most_evaluations "
     "width height rows columns forget_after log_bytes least_frontier headings most_rays most_stops most_looks": "int",
-    "limits flight_limits": "Optional[FlightLimits]",
+    "limits": "Optional[FlightLimits]",
     "progress": "_Progress",
     "loading": "Any",
     "log_folder folder": "_Path",

@@ -334,7 +334,7 @@ class Roadmap:
         start_acceleration: _Point = ...,
         start_yaw: Optional[float] = ...,
         follow_yaw: bool = ...,
-        flight_limits: Optional[FlightLimits] = ...,
+        limits: Optional[FlightLimits] = ...,
         robot_height: float = ...,
         stop_and_go: bool = ...,
         via: ArrayLike = ...,

@@ -166,17 +166,17 @@ const Fields<TrajectoryConfig>& trajectory_fields() {
   using Config = TrajectoryConfig;
   static const Fields<Config> fields =
       Fields<Config>()
-          .add(&Config::limits, "max_speed", &MotionLimits::max_speed, "metres a second")
-          .add(&Config::limits, "max_acceleration", &MotionLimits::max_acceleration,
+          .add(&Config::motion, "max_speed", &MotionLimits::max_speed, "metres a second")
+          .add(&Config::motion, "max_acceleration", &MotionLimits::max_acceleration,
                "metres a second^2")
-          .add(&Config::limits, "max_jerk", &MotionLimits::max_jerk, "metres a second^3")
-          .add(&Config::limits, "max_yaw_rate", &MotionLimits::max_yaw_rate, "radians a second")
+          .add(&Config::motion, "max_jerk", &MotionLimits::max_jerk, "metres a second^3")
+          .add(&Config::motion, "max_yaw_rate", &MotionLimits::max_yaw_rate, "radians a second")
           .add("smoothness", &Config::smoothness, "what is least: 'snap' or 'jerk'")
           .add("start_velocity", &Config::start_velocity, "(x, y, z), metres a second")
           .add("start_acceleration", &Config::start_acceleration, "(x, y, z), metres a second^2")
           .add("start_yaw", &Config::start_yaw, "radians; None: the direction of travel")
           .add("follow_yaw", &Config::follow_yaw, "yaw follows the direction of travel")
-          .add("flight_limits", &Config::flight_limits, "FlightLimits, or None")
+          .add("limits", &Config::limits, "FlightLimits, or None")
           .add("robot_height", &Config::robot_height, "as in plan(), metres")
           .add("stop_and_go", &Config::stop_and_go, "straight from corner to corner")
           .add("via", &Config::via,
@@ -223,11 +223,11 @@ const Fields<ExplorerConfig>& explorer_fields() {
   using Config = ExplorerConfig;
   static const Fields<Config> fields =
       Fields<Config>()
-          .add(&Config::limits, "max_speed", &MotionLimits::max_speed, "metres a second")
-          .add(&Config::limits, "max_acceleration", &MotionLimits::max_acceleration,
+          .add(&Config::motion, "max_speed", &MotionLimits::max_speed, "metres a second")
+          .add(&Config::motion, "max_acceleration", &MotionLimits::max_acceleration,
                "metres a second^2")
-          .add(&Config::limits, "max_jerk", &MotionLimits::max_jerk, "metres a second^3")
-          .add(&Config::limits, "max_yaw_rate", &MotionLimits::max_yaw_rate, "radians a second")
+          .add(&Config::motion, "max_jerk", &MotionLimits::max_jerk, "metres a second^3")
+          .add(&Config::motion, "max_yaw_rate", &MotionLimits::max_yaw_rate, "radians a second")
           .add(&Config::view, "horizontal", &FieldOfView::horizontal,
                "angle that the sensor sees, radians; a whole turn: all around")
           .add(&Config::view, "vertical", &FieldOfView::vertical,

@@ -42,8 +42,7 @@ TrajectoryConfig config_for(const PlanConfig& plan, const RoadmapFace& face, py:
   config.radius = radius.is_none() ? plan.radius.value_or(face.roadmap->min_clearance)
                                    : number_from(radius, "radius");
   if (config.robot_height == 0.0) config.robot_height = plan.robot_height;
-  if (!keywords.contains("flight_limits") || keywords["flight_limits"].is_none())
-    config.flight_limits = plan.limits;
+  if (!keywords.contains("limits") || keywords["limits"].is_none()) config.limits = plan.limits;
   config.validate();
   return config;
 }
@@ -239,7 +238,7 @@ void add_trajectories(py::class_<RoadmapFace>& type) {
             ")\n--\n\nA verified Trajectory along a path: a PlanResult, or points (N, 3), metres, "
             "world.\n\n  radius: of the robot, metres; None: that which the plan was asked for, of "
             "points the "
-            "roadmap's;\n    flight_limits and robot_height are the plan's, too, unless given "
+            "roadmap's;\n    limits and robot_height are the plan's, too, unless given "
             "(FlightLimits(): none)" +
             trajectory_fields().docs())
                .c_str());

@@ -285,9 +285,9 @@ def test_a_plan_is_flown_by_the_robot_and_within_the_limits_that_it_was_asked_fo
     around = roadmap.plan(START, (0.8, 3.4, 1.0), limits=ridgeway.FlightLimits(keep_out=[(low, high)]))
     places = roadmap.trajectory(around).sample(0.01).position
     assert not ((places > low) & (places < high)).all(axis=1).any()
-    as_planned = roadmap.trajectory(around, flight_limits=None).coefficients
+    as_planned = roadmap.trajectory(around, limits=None).coefficients
     np.testing.assert_array_equal(as_planned, roadmap.trajectory(around).coefficients)
-    for flown in (roadmap.trajectory(around, flight_limits=ridgeway.FlightLimits()), roadmap.trajectory(around.waypoints)):
+    for flown in (roadmap.trajectory(around, limits=ridgeway.FlightLimits()), roadmap.trajectory(around.waypoints)):
         assert flown.duration < roadmap.trajectory(around).duration
         places = flown.sample(0.01).position
         assert ((places > low) & (places < high)).all(axis=1).any()

@@ -95,7 +95,7 @@ class ExplorationRun {
     flight_.viewable_volume = viewable_.volume();
     if (config.planner == ExplorationPlanner::kOffline)
       offline_.emplace(world_at(world, 0.0), config.voxel_size, within_, config.clearance(),
-                       config.max_distance, config.start, config.view(), config.explorer.limits,
+                       config.max_distance, config.start, config.view(), config.explorer.motion,
                        viewable_);
   }
 

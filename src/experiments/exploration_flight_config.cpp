@@ -33,10 +33,10 @@ void ExplorationFlightConfig::validate() const {
   else
     sensor.validate();
   require(max_range() >= 2.0 * voxel_size, "max_range", max_range(), "give at least two voxels");
-  explorer.limits.validate();
+  explorer.motion.validate();
   require(!std::isfinite(budget) || is_by_explorer(), "budget", budget,
           "leave it out, or take the planner ridgeway or frontier: no other comes back in time");
-  const double turn = 2.0 * std::numbers::pi / explorer.limits.max_yaw_rate;
+  const double turn = 2.0 * std::numbers::pi / explorer.motion.max_yaw_rate;
   require(budget >= turn, "budget", budget,
           "give at least the " + number_text(std::ceil(10.0 * turn) / 10.0) +
               " s that the drone takes to turn once around");

@@ -150,7 +150,7 @@ FlightVerdict FlightJudge::judge(const TrajectoryResult& flown, const Point& sta
   measure_motion(samples, step, config.start_velocity, verdict);
   verdict.complaint = complaint_about_ends(segments, start, goal);
   if (verdict.holds())
-    verdict.complaint = complaint_about_motion(verdict, config.limits, step, largest_coordinate);
+    verdict.complaint = complaint_about_motion(verdict, config.motion, step, largest_coordinate);
   look_around(samples, config.radius, verdict);
   if (verdict.holds() && verdict.clearance < config.radius + 0.5 * voxel_size_ &&
       verdict.clearance < flown.clearance - 1e-9)

@@ -20,7 +20,7 @@ constexpr std::size_t kDrawsAQuery = 50;  // pairs drawn for each that is asked 
 TrajectoryConfig trajectory_config(const FlightsConfig& config) {
   TrajectoryConfig result;
   result.radius = config.min_clearance;
-  result.limits = config.limits;
+  result.motion = config.motion;
   return result;
 }
 
@@ -70,7 +70,7 @@ double trapezoid_duration(const std::vector<Point>& path, const MotionLimits& li
 
 void fly(const EsdfMap& esdf, const FlightsConfig& config, Flight& flight) {
   flight.flown = plan_trajectory(esdf, flight.path, trajectory_config(config));
-  flight.trapezoid_duration = trapezoid_duration(flight.path, config.limits);
+  flight.trapezoid_duration = trapezoid_duration(flight.path, config.motion);
 }
 
 void judge(const FlightJudge& judge, const FlightsConfig& config, Flight& flight) {
@@ -138,7 +138,7 @@ void summarise(const MotionLimits& limits, FlightsResult& result) {
 }  // namespace
 
 void FlightsConfig::validate() const {
-  limits.validate();
+  motion.validate();
   if (!(min_clearance > 0.0 && std::isfinite(min_clearance)))
     throw InputError("min_clearance", "is " + number_text(min_clearance), "give metres, above 0");
   if (queries < 1) throw InputError("queries", "is 0", "give 1 or more");
@@ -164,7 +164,7 @@ FlightsResult run_flights(const OccupancyMap& map, const FlightsConfig& config,
   parallel_for_each_index(result.flights.size(),
                           [&](std::size_t i) { judge(impartial, config, result.flights[i]); });
   count(result);
-  summarise(config.limits, result);
+  summarise(config.motion, result);
   return result;
 }
 

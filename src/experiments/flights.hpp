@@ -17,7 +17,7 @@ namespace ridgeway {
 struct FlightsConfig {
   double min_clearance = 0.3;  ///< of the roadmap, and radius of the robot
   UnknownPolicy unknown = UnknownPolicy::kObstacle;
-  MotionLimits limits = {};
+  MotionLimits motion = {};
   std::size_t queries = 200;  ///< pairs of traversable voxels that a path connects
   std::uint64_t seed = 1;     ///< of starts and goals
 

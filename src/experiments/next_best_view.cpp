@@ -127,14 +127,14 @@ std::optional<Trajectory> NextBestView::fly(const Roadmap& roadmap, const Flight
                                             const Point& root, const Viewpoint& to) const {
   if (root != to_local(roadmap.esdf, state.position))
     return detail::fly_to_rest(  // what is left of its motion is rounding
-        roadmap, config_.limits, to,
+        roadmap, config_.motion, to,
         {.time = state.time, .position = state.position, .yaw = state.yaw});
   const std::vector<Point> edge = {state.position, to.position};
   TrajectoryResult flown = plan_trajectory(
       roadmap.esdf, edge,
-      {.radius = roadmap.min_clearance, .limits = config_.limits, .follow_yaw = false});
+      {.radius = roadmap.min_clearance, .motion = config_.motion, .follow_yaw = false});
   if (!flown.ok()) return std::nullopt;
-  detail::turn_to(flown.trajectory, state.yaw, to.yaw, config_.limits.max_yaw_rate);
+  detail::turn_to(flown.trajectory, state.yaw, to.yaw, config_.motion.max_yaw_rate);
   return std::move(flown.trajectory);
 }
 

@@ -126,7 +126,7 @@ bool Explorer::State::fly_tour(const std::vector<TourStop>& stops,
         config.strategy == ExplorationStrategy::kTour && !passed.contains({place.id, stop.heading});
     const double began = detail::thread_seconds_now();
     auto passing = may_pass && flights-- > 0
-                       ? detail::fly_past(*roadmap, config.limits, std::span(step.tour).subspan(i),
+                       ? detail::fly_past(*roadmap, config.motion, std::span(step.tour).subspan(i),
                                           state, kNear * config.spacing)
                        : std::nullopt;
     step.seconds.trajectory += detail::thread_seconds_now() - began;

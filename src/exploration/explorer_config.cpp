@@ -56,9 +56,9 @@ FieldOfView field_of_view(const SpinningLidar& lidar, double share_of_range, dou
 }
 
 void ExplorerConfig::validate() const {
-  limits.validate();
+  motion.validate();
   view.validate();
-  detail::require(std::isfinite(limits.max_yaw_rate), "max_yaw_rate", limits.max_yaw_rate,
+  detail::require(std::isfinite(motion.max_yaw_rate), "max_yaw_rate", motion.max_yaw_rate,
                   "give radians a second");
   if (within.empty())
     throw InputError("within", "holds no voxel", "give a last voxel that is not before the first");

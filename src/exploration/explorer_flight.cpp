@@ -23,7 +23,7 @@ constexpr double kBetweenWaysHome = 1.0;  // seconds
 bool Explorer::State::fly_to(const Point& goal_local, double yaw, const FlightState& state,
                              ExplorationStep& step) const {
   const double began = detail::thread_seconds_now();
-  auto flown = detail::fly_to_rest(*roadmap, config.limits,
+  auto flown = detail::fly_to_rest(*roadmap, config.motion,
                                    {to_world(roadmap->esdf, goal_local), yaw}, state);
   step.seconds.trajectory += detail::thread_seconds_now() - began;
   if (flown) step.trajectory = std::move(*flown);
@@ -43,9 +43,9 @@ bool Explorer::State::leaves_time_for_home(const FlightState& state, const Traje
   }
   const double began = detail::thread_seconds_now(), left = config.until - rest.time - longest_gap;
   bool is_in_time =
-      detail::most_seconds_to_rest(*roadmap, config.limits, rest.position, *config.home) <= left;
+      detail::most_seconds_to_rest(*roadmap, config.motion, rest.position, *config.home) <= left;
   if (!is_in_time) {
-    const auto back = detail::fly_to_rest(*roadmap, config.limits, {*config.home, rest.yaw}, rest);
+    const auto back = detail::fly_to_rest(*roadmap, config.motion, {*config.home, rest.yaw}, rest);
     is_in_time = back && back->duration() <= left;
   }
   step.seconds.trajectory += detail::thread_seconds_now() - began;
@@ -107,7 +107,7 @@ bool Explorer::State::brake(const FlightState& state, ExplorationStep& step) con
   const FreeSpace space(roadmap->esdf);
   const Point here = to_local(roadmap->esdf, state.position);
   for (const double slack : kSlack) {
-    const double length = slack * speed * speed / (2.0 * config.limits.max_acceleration);
+    const double length = slack * speed * speed / (2.0 * config.motion.max_acceleration);
     const Point straight_on = state.position + length * state.velocity / speed;
     for (const Point& end : {straight_on, ahead(state.time, length)}) {
       const Point there = to_local(roadmap->esdf, end);

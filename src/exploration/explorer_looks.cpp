@@ -73,8 +73,8 @@ void Explorer::State::look_on_the_way(Trajectory& trajectory, double until) cons
   const std::vector<detail::Glance> glances =
       detail::glances_along(local, until, views, places, config.spacing);
   if (const std::optional<double> yaw = detail::yaw_between(views, config.headings, glances, from,
-                                                            to, until, config.limits.max_yaw_rate))
-    detail::turn_by_way_of(trajectory, *yaw, until, config.limits.max_yaw_rate);
+                                                            to, until, config.motion.max_yaw_rate))
+    detail::turn_by_way_of(trajectory, *yaw, until, config.motion.max_yaw_rate);
 }
 
 /// In flight a look counts where the robot is elsewhere, or turned, since the last one.

@@ -30,9 +30,9 @@ constexpr double kAsGood = 0.8;    // of a stop's gain: a nearer place that sees
 /// To a stop from the motion that the robot has now.
 double Explorer::State::seconds_from_robot(const TourStop& stop, const FlightState& state) const {
   const Place& place = places[stop.stop.place];
-  const double v = config.limits.max_speed, a = config.limits.max_acceleration;
+  const double v = config.motion.max_speed, a = config.motion.max_acceleration;
   const double turn = detail::turn_between(state.yaw, views.yaw_of(stop.stop.heading));
-  double seconds = detail::seconds_of_leg(config.limits, stop.from_robot, turn);
+  double seconds = detail::seconds_of_leg(config.motion, stop.from_robot, turn);
   const Eigen::Vector3d way = place.position - to_local(roadmap->esdf, state.position);
   const double speed = state.velocity.norm();
   if (speed > 0.0 && way.norm() > 0.0) {
@@ -41,7 +41,7 @@ double Explorer::State::seconds_from_robot(const TourStop& stop, const FlightSta
     // Where there is no time to turn until the stop is passed, the robot comes back to it.
     const double braking = kBraking * speed * speed / (2.0 * a);
     if (braking > stop.from_robot &&
-        std::abs(turn) / config.limits.max_yaw_rate > stop.from_robot / v + kLate)
+        std::abs(turn) / config.motion.max_yaw_rate > stop.from_robot / v + kLate)
       seconds += speed / a + 2.0 * std::sqrt((braking - stop.from_robot) / a);
   }
   if (goal && (place.position - goal->place.position).norm() < config.spacing)
@@ -56,7 +56,7 @@ void Explorer::State::keep_in_time(std::vector<TourStop>& stops, const FlightSta
   const detail::WaysFrom from_home(*roadmap, home, access_at(home));
   std::erase_if(stops, [&](const TourStop& stop) {
     const double length = from_home.to(places[stop.stop.place].position, stop.access);
-    const double back = detail::seconds_of_leg(config.limits, length, 0.0);
+    const double back = detail::seconds_of_leg(config.motion, length, 0.0);
     const double likely = kCorners * (seconds_from_robot(stop, state) + back);
     return state.time + likely + longest_gap > config.until;
   });
@@ -154,7 +154,7 @@ std::vector<std::size_t> Explorer::State::order(const std::vector<TourStop>& sto
     costs.between[i].reserve(stops.size());
     for (const TourStop& to : stops)
       costs.between[i].push_back(detail::seconds_of_leg(
-          config.limits, &from == &to ? 0.0 : ways.to(places[to.stop.place].position, to.access),
+          config.motion, &from == &to ? 0.0 : ways.to(places[to.stop.place].position, to.access),
           detail::turn_between(views.yaw_of(from.stop.heading), views.yaw_of(to.stop.heading))));
   });
   for (const TourStop& stop : stops) costs.gain.push_back(stop.expected);
@@ -182,7 +182,7 @@ void Explorer::State::refine_first(std::vector<TourStop>& stops,
     double cost = seconds_from_robot(stop, state);
     if (onward)
       cost += detail::seconds_of_leg(
-          config.limits, onward->to(places[stop.stop.place].position, stop.access),
+          config.motion, onward->to(places[stop.stop.place].position, stop.access),
           detail::turn_between(views.yaw_of(stop.stop.heading),
                                views.yaw_of(stops[tour[1]].stop.heading)));
     return cost;

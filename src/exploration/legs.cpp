@@ -27,7 +27,7 @@ bool is_moving(const FlightState& state) {
 TrajectoryConfig flight_from(const Roadmap& roadmap, const MotionLimits& limits,
                              const FlightState& state) {
   TrajectoryConfig fly = {.radius = roadmap.min_clearance,
-                          .limits = limits,
+                          .motion = limits,
                           .follow_yaw = false,
                           .most_evaluations = kMostEvaluations};
   const auto within = [](const Point& vector, double most) -> Point {

@@ -73,8 +73,8 @@ OccupancyMap finished(OccupancyMap map, const LoadConfig& config, const std::str
                    "check bounds, exclude and voxel_size");
 }
 
-OccupancyMap load_voxels(const VoxelSource& source, const LoadConfig& config,
-                         const std::string& name, LoadNotes* notes) {
+OccupancyMap placed_voxels(const VoxelSource& source, const LoadConfig& config,
+                           const std::string& name, LoadNotes* notes) {
   const double voxel_size = config.voxel_size.value_or(source.voxel_size);
   if (voxel_size < source.voxel_size * (1.0 - 1e-6)) {
     std::ostringstream what;
@@ -95,15 +95,16 @@ OccupancyMap load_voxels(const VoxelSource& source, const LoadConfig& config,
                             : reach_before(config.transform, around, source.voxel_size);
   }
   OccupancyMap map = source.read(placement);
-  if (motion) {
-    map = resample(std::move(map), voxel_size);
-  } else {
-    map = transform_map(map, config.transform, voxel_size);
-    tell(notes,
-         "the transform is not made of quarter turns and whole voxels: obstacles and unknown space "
-         "grew by up to a voxel's diagonal");
-  }
-  return finished(std::move(map), config, name, notes);
+  if (motion) return resample(std::move(map), voxel_size);
+  tell(notes,
+       "the transform is not made of quarter turns and whole voxels: obstacles and unknown space "
+       "grew by up to a voxel's diagonal");
+  return transform_map(map, config.transform, voxel_size);
+}
+
+OccupancyMap load_voxels(const VoxelSource& source, const LoadConfig& config,
+                         const std::string& name, LoadNotes* notes) {
+  return finished(placed_voxels(source, config, name, notes), config, name, notes);
 }
 
 namespace {

@@ -16,15 +16,6 @@
 namespace ridgeway {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// Heights play no part in a planar map.
-Box of_all_heights(Box box) {
-  box.min.z() = -kInfinity;
-  box.max.z() = kInfinity;
-  return box;
-}
-
 /// The image as columns of voxels, the lower left pixel's at zero.
 OccupancyMap columns_of(const GreyImage& image, const MapServerFile& file, int layers,
                         const VoxelPlacement& placement, const std::string& name) {
@@ -54,8 +45,11 @@ OccupancyMap load_planar_map(const std::filesystem::path& file, std::string_view
   const GreyImage image = read_grey_image(read_file(path), path.string());
 
   LoadConfig config = given;
-  if (config.bounds) config.bounds = of_all_heights(*config.bounds);
-  for (Box& box : config.exclude) box = of_all_heights(box);
+  if (config.bounds) {  // in the plane: all heights are read
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    config.bounds->min.z() = -kInfinity;
+    config.bounds->max.z() = kInfinity;
+  }
   config.transform = Eigen::Translation3d(facts.x, facts.y, 0.0) *
                      Eigen::AngleAxisd(facts.yaw, Eigen::Vector3d::UnitZ());
   const double voxel_size = config.voxel_size.value_or(facts.resolution);
@@ -69,8 +63,8 @@ OccupancyMap load_planar_map(const std::filesystem::path& file, std::string_view
                                 return columns_of(image, facts, static_cast<int>(layers), placement,
                                                   name);
                               }};
-  const OccupancyMap map = load_voxels(source, config, name, notes);
-  return flatten(map, 0.0, map.voxel_size);
+  const OccupancyMap columns = placed_voxels(source, config, name, notes);
+  return finished(flatten(columns, 0.0, columns.voxel_size), config, name, notes);
 }
 
 }  // namespace ridgeway

@@ -31,8 +31,12 @@ inline void tell(LoadNotes* notes, std::string_view note) {
 OccupancyMap finished(OccupancyMap map, const LoadConfig& config, const std::string& name,
                       LoadNotes* notes, double beyond = 0.0);
 
-/// Reads the voxels, moves them, makes them coarser, and ends as `finished`. Only what can come to
-/// lie within the bounds is read: large files with small bounds fit.
+/// Reads the voxels, moves them, makes them coarser. Only what can come to lie within the bounds is
+/// read: large files with small bounds fit.
+OccupancyMap placed_voxels(const VoxelSource& source, const LoadConfig& config,
+                           const std::string& name, LoadNotes* notes);
+
+/// The same, with the edits of `finished`.
 OccupancyMap load_voxels(const VoxelSource& source, const LoadConfig& config,
                          const std::string& name, LoadNotes* notes);
 

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -44,6 +46,7 @@ OccupancyMap with_blocks(OccupancyMap map, std::vector<BlockIndex> more) {
   OccupancyMap result;
   result.voxel_size = map.voxel_size;
   result.origin = map.origin;
+  result.planar = map.planar;
   result.layout = BlockLayout(std::move(more));
   result.state = VoxelField<VoxelState>(result.layout);
   for_each_block(map.layout, [&](std::uint32_t slot, const VoxelRange&) {
@@ -52,6 +55,16 @@ OccupancyMap with_blocks(OccupancyMap map, std::vector<BlockIndex> more) {
     std::copy(from, from + kBlockVoxels, result.state.block(target));
   });
   return result;
+}
+
+/// A box as a map has it: in a plane heights play no part.
+Box box_in(const OccupancyMap& map, Box box) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (map.planar) {
+    box.min.z() = -kInfinity;
+    box.max.z() = kInfinity;
+  }
+  return box;
 }
 
 /// A range of the lattice's voxels as the map's own.
@@ -83,9 +96,9 @@ void change_small_clusters(OccupancyMap& map, VoxelState state, double enough, V
 
 }  // namespace
 
-OccupancyMap crop(OccupancyMap map, const Box& box, double beyond) {
-  validate_box(box, "bounds");
-  detail::require_three_dimensions(map);
+OccupancyMap crop(OccupancyMap map, const Box& bounds, double beyond) {
+  validate_box(bounds, "bounds");
+  const Box box = box_in(map, bounds);
   const VoxelRange inside = own_voxels(map, voxels_inside(box, map.voxel_size));
   const Box with_upper_faces = {box.min, box.max + Point::Constant(beyond)};
   const VoxelRange touched = own_voxels(map, voxels_overlapping(with_upper_faces, map.voxel_size));
@@ -105,10 +118,11 @@ OccupancyMap add_no_fly(OccupancyMap map, std::span<const Box> boxes) {
   for (std::size_t i = 0; i < boxes.size(); ++i)
     validate_box(boxes[i], "no-fly box " + std::to_string(i + 1));
   if (boxes.empty()) return map;
-  detail::require_three_dimensions(map);
 
   // Whole blocks: where unknown space is free, it is so to the ends of the blocks.
-  const VoxelRange near = grown(known_range(map), kBlockSide);
+  const VoxelRange known = known_range(map);
+  VoxelRange near = grown(known, kBlockSide);
+  if (map.planar) std::tie(near.min.z, near.max.z) = std::tie(known.min.z, known.max.z);
   const VoxelRange reach = {voxel_of(block_of(near.min), 0),
                             voxel_of(block_of(near.max), kBlockVoxels - 1)};
   std::vector<VoxelRange> closed;
@@ -116,7 +130,7 @@ OccupancyMap add_no_fly(OccupancyMap map, std::span<const Box> boxes) {
   double block_count = map.layout.block_count();
   for (const Box& box : boxes) {
     const VoxelRange range =
-        intersection(own_voxels(map, voxels_overlapping(box, map.voxel_size)), reach);
+        intersection(own_voxels(map, voxels_overlapping(box_in(map, box), map.voxel_size)), reach);
     if (range.empty()) continue;
     closed.push_back(range);
     block_count = std::max(block_count, range.block_count());

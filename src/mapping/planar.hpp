@@ -10,8 +10,7 @@ namespace ridgeway::detail {
 /// Throws InputError where an edit in three dimensions would take the layers of a planar map apart.
 inline void require_three_dimensions(const OccupancyMap& map) {
   if (map.planar)
-    throw InputError("map", "is planar, which cannot be edited",
-                     "edit it before flatten, or give bounds and no-fly boxes where it is loaded");
+    throw InputError("map", "is planar, whose layers stay together", "do this before flatten");
 }
 
 /// The layer of a planar map's blocks that stands for all of them: the one that robots are in.

@@ -69,7 +69,7 @@ Trajectory SmoothPath::brake_if_quicker(const Trajectory& found, std::span<const
 /// allow; nothing where it does not hold.
 std::optional<Trajectory> SmoothPath::come_to_rest(const Point& from, const StartState& start,
                                                    DerivativeMask fixed_at_start) const {
-  const MotionLimits& limits = config_.limits;
+  const MotionLimits& limits = config_.motion;
   constexpr DerivativeMask kStopped = kAllFixed & ~kPositionFixed;
   const auto rows = static_cast<Eigen::Index>(knot_size(config_.smoothness));
   Eigen::MatrixXd derivatives = Eigen::MatrixXd::Zero(2 * rows, 3);
@@ -91,7 +91,7 @@ std::optional<Trajectory> SmoothPath::come_to_rest(const Point& from, const Star
 std::optional<Trajectory> SmoothPath::brake(const Point& from, const StartState& start) const {
   auto braking = come_to_rest(from, start, kStateFixed);
   if (braking || start.acceleration.isZero(0.0)) return braking;
-  const Ramps ease = stop_accelerating(from, start, config_.limits);
+  const Ramps ease = stop_accelerating(from, start, config_.motion);
   braking = come_to_rest(ease.state().position, {.velocity = ease.state().velocity}, kAllFixed);
   if (!braking) return std::nullopt;
   braking->segments.insert(braking->segments.begin(), ease.segments.front());

@@ -69,7 +69,7 @@ class Flights {
 TrajectoryConfig for_robot_of(const PlannedFor& planned_for, TrajectoryConfig config) {
   if (config.radius == 0.0) config.radius = planned_for.radius;
   if (config.robot_height == 0.0) config.robot_height = planned_for.robot_height;
-  if (!config.flight_limits.any()) config.flight_limits = planned_for.limits;
+  if (!config.limits.any()) config.limits = planned_for.limits;
   return config;
 }
 

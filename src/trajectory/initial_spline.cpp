@@ -109,7 +109,7 @@ void add_knots_near_rest(bool starts_at_rest, double spacing, std::vector<Point>
 SpaceSpline initial_spline(const std::vector<Point>& knots, const StartState& start,
                            const SplineCostConfig& config, std::span<const Point> kept) {
   const std::vector<double> speeds =
-      knot_speeds(knots, std::min(start.velocity.norm(), config.limits.max_speed), config.limits);
+      knot_speeds(knots, std::min(start.velocity.norm(), config.motion.max_speed), config.motion);
   const int rows = knot_size(config.smoothness);
   SpaceSpline spline;
   spline.derivatives.setZero(static_cast<Eigen::Index>(knots.size()) * rows, 3);
@@ -119,7 +119,7 @@ SpaceSpline initial_spline(const std::vector<Point>& knots, const StartState& st
   spline.derivatives.row(2) = start.acceleration.transpose();
   for (std::size_t i = 1; i < knots.size(); ++i)
     spline.durations.push_back(profile_duration((knots[i] - knots[i - 1]).norm(), speeds[i - 1],
-                                                speeds[i], config.limits));
+                                                speeds[i], config.motion));
   spline.fixed.assign(knots.size(), kPositionFixed);
   spline.fixed.front() = start.is_rest() ? kAllFixed : kStateFixed;
   spline.fixed.back() = kAllFixed;

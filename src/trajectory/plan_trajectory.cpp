@@ -88,7 +88,7 @@ void describe(const FreeSpace& space, const std::vector<Point>& path,
               const TrajectoryConfig& config, TrajectoryResult& result) {
   Trajectory& trajectory = result.trajectory;
   if (trajectory.segments.empty()) trajectory.segments.push_back(standing_at(path.front()));
-  detail::assign_yaw(trajectory, knot_size(config.smoothness), config.limits.max_yaw_rate,
+  detail::assign_yaw(trajectory, knot_size(config.smoothness), config.motion.max_yaw_rate,
                      config.start_yaw, config.follow_yaw);
   const int corners = static_cast<int>(path.size()) - 2;
   const int at_corners = result.stops - (result.braked ? 1 : 0);
@@ -100,9 +100,9 @@ void describe(const FreeSpace& space, const std::vector<Point>& path,
 }
 
 void require_start_within_limits(const TrajectoryConfig& config) {
-  if (config.start_velocity.norm() > config.limits.max_speed)
+  if (config.start_velocity.norm() > config.motion.max_speed)
     throw InputError("start_velocity", "is faster than max_speed", "raise the limit or slow down");
-  if (config.start_acceleration.norm() > config.limits.max_acceleration)
+  if (config.start_acceleration.norm() > config.motion.max_acceleration)
     throw InputError("start_acceleration", "is beyond max_acceleration", "raise the limit");
 }
 
@@ -133,8 +133,8 @@ void MotionLimits::validate() const {
 }
 
 void TrajectoryConfig::validate() const {
+  motion.validate();
   limits.validate();
-  flight_limits.validate();
   detail::validate_robot_height(robot_height);
   if (!(radius >= 0.0 && std::isfinite(radius)))
     throw InputError("radius", "is " + number_text(radius), "give the robot's radius in metres");
@@ -179,7 +179,7 @@ TrajectoryResult fly_locally(const EsdfMap& esdf, std::span<const Point> path,
     result.seconds.total = detail::seconds_now() - began;
     return result;
   };
-  const FlightLimits limits = both_of(esdf.limits, limits_in_local(esdf, config.flight_limits));
+  const FlightLimits limits = both_of(esdf.limits, limits_in_local(esdf, config.limits));
   const FreeSpace space(esdf, limits, config.radius, config.robot_height);
   if (!is_free(space, points, config.radius)) return finish(TrajectoryStatus::kPathNotFree);
 
@@ -238,7 +238,7 @@ bool still_safe(const Trajectory& trajectory, const TrajectoryConfig& config, co
   if (trajectory.segments.empty())
     throw InputError("trajectory", "is empty", "give that of a result that is ok()");
   if (std::isnan(from)) throw InputError("from", "is no number", "give seconds from its start");
-  const FlightLimits limits = both_of(now.limits, limits_in_local(now, config.flight_limits));
+  const FlightLimits limits = both_of(now.limits, limits_in_local(now, config.limits));
   const FreeSpace space(now, limits, config.radius, config.robot_height);
   std::vector<Point> places;
   for (const TrajectorySegment& segment : trajectory.segments)
@@ -253,14 +253,14 @@ Trajectory plain_spline(std::span<const Point> path, const TrajectoryConfig& con
   require_radius(config);
   const std::vector<Point> points = distinct_points(path);
   if (points.size() == 1) return {{standing_at(points.front())}};
-  const MotionLimits along = detail::limits_along(points, 0.0, config.limits);
+  const MotionLimits along = detail::limits_along(points, 0.0, config.motion);
   SpaceSpline spline = detail::initial_spline(
       detail::place_knots(points, detail::knot_spacing(points, along, config.radius), config.via),
-      {}, {.smoothness = config.smoothness, .limits = along}, config.via);
+      {}, {.smoothness = config.smoothness, .motion = along}, config.via);
   MinimumSpline(config.smoothness, spline.durations, spline.fixed).solve(spline.derivatives);
   Trajectory trajectory = spline.trajectory(config.smoothness);
-  detail::scale_to_limits(trajectory, config.limits);
-  detail::assign_yaw(trajectory, knot_size(config.smoothness), config.limits.max_yaw_rate,
+  detail::scale_to_limits(trajectory, config.motion);
+  detail::assign_yaw(trajectory, knot_size(config.smoothness), config.motion.max_yaw_rate,
                      config.start_yaw, config.follow_yaw);
   return trajectory;
 }

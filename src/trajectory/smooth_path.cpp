@@ -85,7 +85,7 @@ SmoothPath::SmoothPath(const FreeSpace& space, const TrajectoryConfig& config,
                        TrajectoryResult& result)
     : space_(space), config_(config), result_(result) {
   cost_.smoothness = config.smoothness;
-  cost_.limits = config.limits;
+  cost_.motion = config.motion;
   cost_.radius = config.radius;
   cost_.margin = std::max(kLeastMargin * space.map().voxel_size, kMarginOfRadius * config.radius);
   field_ = obstacle_field(space, cost_.radius, cost_.margin);
@@ -96,13 +96,13 @@ void SmoothPath::note(TrajectoryStep step) { result_.step = std::max(result_.ste
 Trajectory SmoothPath::stop_and_go(std::span<const Point> path) const {
   Trajectory trajectory;
   for (std::size_t i = 1; i < path.size(); ++i)
-    append(trajectory, straight_motion(path[i - 1], path[i], config_.limits));
+    append(trajectory, straight_motion(path[i - 1], path[i], config_.motion));
   return trajectory;
 }
 
 bool SmoothPath::holds(const Trajectory& trajectory) const {
   const Stopwatch watch(result_.seconds.verify);
-  return keeps_limits(trajectory, config_.limits) &&
+  return keeps_limits(trajectory, config_.motion) &&
          find_doubts(space_, trajectory, config_.radius).empty();
 }
 
@@ -118,7 +118,7 @@ std::optional<Trajectory> SmoothPath::run(std::span<const Point> path, const Sta
   auto found = path.size() > 1 ? smooth_or_stop(path, start) : std::nullopt;
   if (path.size() == 2 && !start.is_rest()) {
     const auto accepts = [&](const Trajectory& trajectory) { return holds(trajectory); };
-    auto arrival = arrive(path[0], start, path[1], config_.limits, accepts);
+    auto arrival = arrive(path[0], start, path[1], config_.motion, accepts);
     if (arrival && (!found || arrival->duration() < found->duration())) {
       found = std::move(arrival);
       result_.step = before;
@@ -172,8 +172,8 @@ SplineCostConfig SmoothPath::cost_along(std::span<const Point> path, const Start
                                         double share) const {
   SplineCostConfig cost = cost_;
   const double start_speed = start.velocity.norm();
-  cost.limits = limits_along(path, start_speed, config_.limits);
-  cost.limits.max_speed = std::max(share * cost.limits.max_speed, start_speed);
+  cost.motion = limits_along(path, start_speed, config_.motion);
+  cost.motion.max_speed = std::max(share * cost.motion.max_speed, start_speed);
   return cost;
 }
 
@@ -182,7 +182,7 @@ SplineCostConfig SmoothPath::cost_along(std::span<const Point> path, const Start
 SmoothPath::Attempt SmoothPath::smooth(std::span<const Point> path, const StartState& start,
                                        double share) {
   const SplineCostConfig along = cost_along(path, start, share);
-  const double spacing = knot_spacing(path, along.limits, config_.radius);
+  const double spacing = knot_spacing(path, along.motion, config_.radius);
   SpaceSpline spline;
   Attempt attempt;
   for (const Try& t : kTries) {
@@ -217,7 +217,7 @@ void SmoothPath::quicken(std::span<const Point> path, const StartState& start,
 bool SmoothPath::is_slow(const Trajectory& trajectory, std::span<const Point> path,
                          const StartState& start) const {
   const SplineCostConfig along = cost_along(path, start, 1.0);
-  const double spacing = knot_spacing(path, along.limits, config_.radius);
+  const double spacing = knot_spacing(path, along.motion, config_.radius);
   const SpaceSpline likely =
       initial_spline(place_knots(path, spacing, config_.via), start, along, config_.via);
   const double seconds = std::accumulate(likely.durations.begin(), likely.durations.end(), 0.0);
@@ -238,10 +238,10 @@ SmoothPath::Attempt SmoothPath::optimise(SpaceSpline& spline, const SplineCostCo
     result_.cost = found.report.after;
     if (from_rest) {
       trajectory = spline.trajectory(cost.smoothness);
-      scale_to_limits(trajectory, config_.limits);
+      scale_to_limits(trajectory, config_.motion);
     } else {
       trajectory = stretch_to_limits(cost.smoothness, spline.durations, spline.fixed,
-                                     spline.derivatives, config_.limits);
+                                     spline.derivatives, config_.motion);
     }
   }
   return verify(std::move(trajectory));
@@ -252,7 +252,7 @@ SmoothPath::Attempt SmoothPath::verify(Trajectory trajectory) {
   Attempt attempt{std::move(trajectory), {}};
   for (const double time : find_doubts(space_, attempt.trajectory, config_.radius))
     attempt.doubts.push_back(attempt.trajectory.at(time).position);
-  if (!keeps_limits(attempt.trajectory, config_.limits))
+  if (!keeps_limits(attempt.trajectory, config_.motion))
     attempt.doubts.push_back(attempt.trajectory.at(0.0).position);
   return attempt;
 }

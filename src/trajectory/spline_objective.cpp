@@ -60,8 +60,8 @@ SplineObjective::SplineObjective(SpaceSpline spline, const SplineCostConfig& con
     : spline_(std::move(spline)),
       config_(config),
       field_(field),
-      time_unit_(config.limits.max_speed / config.limits.max_acceleration),
-      length_unit_(config.limits.max_speed * time_unit_),
+      time_unit_(config.motion.max_speed / config.motion.max_acceleration),
+      length_unit_(config.motion.max_speed * time_unit_),
       basis_(sample_basis(config.smoothness)) {}
 
 std::size_t SplineObjective::variable_count() const {
@@ -93,7 +93,7 @@ void SplineObjective::set(std::span<const double> variables) {
 /// Terms that depend on one instant, per second, and the gradient of their sum.
 SplineObjective::Density SplineObjective::density(const Sample& at, Sample& gradient) const {
   gradient.setZero();
-  const MotionLimits& limits = config_.limits;
+  const MotionLimits& limits = config_.motion;
   const double per_second = config_.limit_weight / time_unit_;
   Density cost;
   cost.limits = excess(at.row(1), limits.max_speed, per_second, gradient.row(1)) +

@@ -34,7 +34,7 @@ struct SpaceSpline {
 
 struct SplineCostConfig {
   Smoothness smoothness = Smoothness::kSnap;
-  MotionLimits limits;
+  MotionLimits motion;
   double radius = 0.0;  ///< of the robot, metres
   double margin = 0.1;  ///< metres beyond the radius within which the collision cost pushes
   double smoothness_weight = 1e-5;

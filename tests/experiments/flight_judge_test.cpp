@@ -73,15 +73,15 @@ TEST(FlightJudge, ComplainsOfAFlightBeyondItsLimits) {
   EXPECT_EQ(complaint(slowed_down(good_flight(), 1.01)), "");
   EXPECT_EQ(complaint(slowed_down(good_flight(), 0.999)).substr(0, 12), "acceleration");
   TrajectoryConfig config{.radius = 0.3};
-  config.limits.max_speed = 0.5;
+  config.motion.max_speed = 0.5;
   const FlightJudge judge(room(), UnknownPolicy::kObstacle);
   const auto words = [&] {
     return judge.judge(good_flight(), kStart, kGoal, config).complaint.substr(0, 5);
   };
   EXPECT_EQ(words(), "speed");
-  config.limits = {.max_jerk = 1.0};
+  config.motion = {.max_jerk = 1.0};
   EXPECT_EQ(words(), "jerk ");
-  config.limits = {.max_yaw_rate = 0.01};
+  config.motion = {.max_yaw_rate = 0.01};
   EXPECT_EQ(words(), "yaw r");
 }
 

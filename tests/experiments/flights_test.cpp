@@ -53,7 +53,7 @@ TEST(Flights, TheSameSeedFliesTheSame) {
 TEST(Flights, BadConfigurationsAreRefused) {
   EXPECT_THROW(run_flights(rooms(), {.min_clearance = 0.0}), InputError);
   EXPECT_THROW(run_flights(rooms(), {.queries = 0}), InputError);
-  EXPECT_THROW(run_flights(rooms(), {.limits = {.max_speed = -1.0}}), InputError);
+  EXPECT_THROW(run_flights(rooms(), {.motion = {.max_speed = -1.0}}), InputError);
   EXPECT_THROW(run_flights(rooms(), {.min_clearance = 1.5}), InputError);  // fits nowhere
 }
 

@@ -59,9 +59,9 @@ TEST(Exploration, MapsTwoRoomsWithoutTouchingAndComesBack) {
   EXPECT_GE(flight.nearest, 0.0);
   EXPECT_LT((flight.samples.back().state.position - config.start).norm(), 1e-6);
   for (const ExplorationSample& sample : flight.samples) {
-    EXPECT_LE(sample.state.velocity.norm(), config.explorer.limits.max_speed * (1.0 + 1e-6));
+    EXPECT_LE(sample.state.velocity.norm(), config.explorer.motion.max_speed * (1.0 + 1e-6));
     EXPECT_LE(sample.state.acceleration.norm(),
-              config.explorer.limits.max_acceleration * (1.0 + 1e-6));
+              config.explorer.motion.max_acceleration * (1.0 + 1e-6));
   }
   EXPECT_LT(flight.seconds_to(0.9), flight.seconds);
 }

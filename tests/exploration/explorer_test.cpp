@@ -153,7 +153,7 @@ TEST(Explorer, BrakesInWhatRoomThereIs) {
     LiveRoadmap live = live_for_explorers();
     live.set_voxels(closed_room());
     ExplorerConfig config = with_a_home();
-    config.limits.max_jerk = 8.0;
+    config.motion.max_jerk = 8.0;
     Explorer explorer(config);
     const ExplorationStep home = way_home(explorer, live);
     const FlightState fast = state_at(home.trajectory, 2.0);

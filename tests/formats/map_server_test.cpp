@@ -149,6 +149,25 @@ TEST(MapServer, PixelsCountAsTheyAre) {
   }
 }
 
+/// A pixel is one voxel of the plane, however many layers it is read into.
+TEST(MapServer, SpecksAreCountedInPixels) {
+  const TemporaryFolder folder;
+  write_whole(folder / "a.pgm", "P2\n6 2\n255\n0 0 254 254 254 0\n0 254 254 254 254 254\n");
+  write_whole(folder / "a.yaml", yaml("a.pgm", "[0, 0, 0]"));
+  const auto occupied = [&](int isolated_below, std::optional<double> voxel_size) {
+    LoadConfig config;
+    config.isolated_below = isolated_below;
+    config.voxel_size = voxel_size;
+    return count_voxels(load_map(folder / "a.yaml", config)).occupied;
+  };
+  EXPECT_EQ(occupied(1, {}), 4u);
+  EXPECT_EQ(occupied(2, {}), 3u);
+  EXPECT_EQ(occupied(3, {}), 3u);
+  EXPECT_EQ(occupied(4, {}), 0u);
+  EXPECT_EQ(occupied(1, 1.0), 2u);
+  EXPECT_EQ(occupied(2, 1.0), 0u);
+}
+
 TEST(MapServer, DamagedFilesAreRefusedByName) {
   const TemporaryFolder folder;
   const auto says = [&](const std::string& text, const std::string& image) {

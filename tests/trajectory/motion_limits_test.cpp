@@ -19,9 +19,9 @@ TEST(PlanTrajectory, StaysWithinTheLimitsOfTheFlight) {
   for (const double width : {0.05, 0.4, 2.0}) {
     SCOPED_TRACE(width);
     TrajectoryConfig config{.radius = 0.3};
-    config.flight_limits.keep_in.min.z() = 1.0;
-    config.flight_limits.keep_in.max.z() = 1.0 + width;
-    config.flight_limits.keep_out = {{Point(4, 4, 0), Point(7, 7, 4)}};
+    config.limits.keep_in.min.z() = 1.0;
+    config.limits.keep_in.max.z() = 1.0 + width;
+    config.limits.keep_out = {{Point(4, 4, 0), Point(7, 7, 4)}};
     // Along both faces of the band, and close around corners of the box.
     const std::vector<Point> path{{2, 2, 1.0},   {2, 7, 1.0 + width}, {7, 7, 1.0 + width},
                                   {7, 2, 1.0},   {14, 2, 1.0},        {16, 8, 1.0 + 0.5 * width},
@@ -49,10 +49,10 @@ TEST(PlanTrajectory, LimitsHoldForAnyLimits) {
   for (int i = 0; i < 40; ++i) {
     SCOPED_TRACE(i);
     TrajectoryConfig config{.radius = 0.3};
-    config.limits.max_speed = 2.0 * std::pow(10.0, exponent(random));
-    config.limits.max_acceleration = 2.0 * std::pow(10.0, exponent(random));
-    if (i % 2 == 0) config.limits.max_jerk = 10.0 * std::pow(10.0, exponent(random));
-    config.limits.max_yaw_rate = std::pow(10.0, exponent(random));
+    config.motion.max_speed = 2.0 * std::pow(10.0, exponent(random));
+    config.motion.max_acceleration = 2.0 * std::pow(10.0, exponent(random));
+    if (i % 2 == 0) config.motion.max_jerk = 10.0 * std::pow(10.0, exponent(random));
+    config.motion.max_yaw_rate = std::pow(10.0, exponent(random));
     config.smoothness = i % 4 < 2 ? Smoothness::kSnap : Smoothness::kJerk;
     std::vector<Point> path;
     path.reserve(7);
@@ -70,12 +70,12 @@ TEST(PlanTrajectory, ExtremeLimitsGetATrajectory) {
       for (const double jerk : {1e-9, 1.0, 1e9}) {
         SCOPED_TRACE(::testing::Message() << speed << " " << acceleration << " " << jerk);
         TrajectoryConfig config{.radius = 0.3};
-        config.limits.max_speed = speed;
-        config.limits.max_acceleration = acceleration;
-        config.limits.max_jerk = jerk;
+        config.motion.max_speed = speed;
+        config.motion.max_acceleration = acceleration;
+        config.motion.max_jerk = jerk;
         const TrajectoryResult result = plan_trajectory(esdf(), path, config);
         ASSERT_TRUE(result.ok()) << name_of(result.status);
-        EXPECT_TRUE(config.limits.hold(result.peaks));
+        EXPECT_TRUE(config.motion.hold(result.peaks));
         EXPECT_LE(result.duration, result.stop_and_go_duration * (1 + 1e-12));
         EXPECT_GE(result.clearance, config.radius * (1 - 1e-9));
       }
@@ -83,7 +83,7 @@ TEST(PlanTrajectory, ExtremeLimitsGetATrajectory) {
 
 TEST(PlanTrajectory, LongPathsOfTinyRobotsGetNoMoreKnotsThanAreOfUse) {
   TrajectoryConfig config{.radius = 1e-5};
-  config.limits.max_speed = 1e-3;
+  config.motion.max_speed = 1e-3;
   const std::vector<Point> path{{2, 2, 2}, {2, 7, 2}, {7, 7, 2}, {7, 2, 2}};
   const TrajectoryResult result = plan_trajectory(esdf(), path, config);
   ASSERT_TRUE(result.ok());
@@ -106,7 +106,7 @@ TEST(PlanTrajectory, MoreSpeedThanCanBeReachedCostsNothing) {
     TrajectoryConfig config{.radius = 0.3};
     std::vector<double> seconds;
     for (const double speed : {3.0, 10.0, 15.0, 1000.0}) {
-      config.limits.max_speed = speed;
+      config.motion.max_speed = speed;
       const TrajectoryResult result = plan_trajectory(esdf(), path, config);
       expect_flown(result, path, config);
       seconds.push_back(result.duration);

@@ -76,7 +76,7 @@ TEST(PlanTrajectory, GoesOnFromEveryStateOfItsOwn) {
   for (const double jerk : {std::numeric_limits<double>::infinity(), 20.0})
     for (const bool stops : {false, true}) {
       TrajectoryConfig config{.radius = 0.3};
-      config.limits.max_jerk = jerk;
+      config.motion.max_jerk = jerk;
       config.stop_and_go = stops;
       const std::vector<Point> path =
           stops ? std::vector<Point>{from, {9, 3, 2}, to} : std::vector<Point>{from, to};
@@ -102,7 +102,7 @@ TEST(PlanTrajectory, ArrivesFromItsLastMetres) {
   const TrajectoryConfig config{.radius = 0.3};
   for (const double aside : {0.0, 0.02}) {
     TrajectoryConfig first = config;
-    if (aside > 0.0) first.limits.max_acceleration *= 0.9;  // full braking has no room to turn
+    if (aside > 0.0) first.motion.max_acceleration *= 0.9;  // full braking has no room to turn
     const Trajectory flown =
         plan_trajectory(esdf(), std::vector<Point>{from, to}, first).trajectory;
     for (double left = 0.3; left <= 2.5; left += 0.05) {

@@ -39,7 +39,7 @@ SpaceSpline random_spline(unsigned seed, Smoothness smoothness, bool from_rest) 
 SplineCostConfig every_term(Smoothness smoothness) {
   SplineCostConfig config;
   config.smoothness = smoothness;
-  config.limits.max_jerk = 5.0;
+  config.motion.max_jerk = 5.0;
   config.radius = 0.3;
   config.margin = 0.4;
   config.smoothness_weight = 1e-3;
@@ -134,8 +134,8 @@ TEST(OptimiseSpline, PushesOutOfCollisionKeepsLimitsAndSaysWhatItCost) {
   const Trajectory trajectory = result.spline.trajectory(config.smoothness);
   for (const TrajectoryState& state : trajectory.sample(0.01))
     EXPECT_GE(ball(state.position).distance, config.radius);
-  EXPECT_LE(find_peaks(trajectory).speed, 1.02 * config.limits.max_speed);
-  EXPECT_LE(find_peaks(trajectory).acceleration, 1.05 * config.limits.max_acceleration);
+  EXPECT_LE(find_peaks(trajectory).speed, 1.02 * config.motion.max_speed);
+  EXPECT_LE(find_peaks(trajectory).acceleration, 1.05 * config.motion.max_acceleration);
   // Ends stay; the way round is hardly longer than the tangents' and the arc's.
   EXPECT_LE((trajectory.at(0.0).position - Point(-3, 0.05, 0.02)).norm(), 1e-9);
   EXPECT_LE((trajectory.at(1e9).position - Point(3, 0.05, 0.02)).norm(), 1e-6);

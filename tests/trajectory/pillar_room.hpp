@@ -36,7 +36,7 @@ inline void expect_flown(const TrajectoryResult& result, const std::vector<Point
   static const FlightJudge judge(pillar_room(), UnknownPolicy::kObstacle);
   ASSERT_TRUE(result.ok()) << name_of(result.status);
   EXPECT_EQ(judge.judge(result, path.front(), path.back(), config).complaint, "");
-  EXPECT_TRUE(config.limits.hold(result.peaks));
+  EXPECT_TRUE(config.motion.hold(result.peaks));
 }
 
 }  // namespace ridgeway::testing

@@ -51,7 +51,7 @@ TEST(PlanTrajectory, ThePlainSplinePassesTheCornersWithinTheLimits) {
   const std::vector<Point> path{{5, 10, 2}, {8.7, 8.6, 2}, {11.3, 8.6, 2}, {15, 10, 2}};
   const TrajectoryConfig config{.radius = 0.3};
   const Trajectory spline = plain_spline(path, config);
-  EXPECT_TRUE(config.limits.hold(find_peaks(spline)));
+  EXPECT_TRUE(config.motion.hold(find_peaks(spline)));
   std::vector<double> nearest(path.size(), 1e9);
   for (const TrajectoryState& state : spline.sample(1e-3))
     for (std::size_t i = 0; i < path.size(); ++i)
@@ -169,7 +169,7 @@ TEST(PlanTrajectory, PassesThePlacesThatItIsToPass) {
       SCOPED_TRACE(speed);
       TrajectoryConfig config{.radius = 0.3};
       config.smoothness = smoothness;
-      config.limits.max_speed = speed;
+      config.motion.max_speed = speed;
       const TrajectoryResult rounded = plan_trajectory(esdf(), path, config);
       EXPECT_GT(nearest_to(rounded.trajectory, path[2]), 0.1);
       for (const std::vector<Point>& via :
@@ -246,11 +246,11 @@ TEST(PlanTrajectory, RefusesBadInputByName) {
   };
   for (const double bad : {0.0, -1.0, nan, infinity}) {
     refused("radius", [&](auto& c) { c.radius = bad; });
-    refused("max_speed", [&](auto& c) { c.limits.max_speed = bad; });
-    refused("max_acceleration", [&](auto& c) { c.limits.max_acceleration = bad; });
+    refused("max_speed", [&](auto& c) { c.motion.max_speed = bad; });
+    refused("max_acceleration", [&](auto& c) { c.motion.max_acceleration = bad; });
     if (bad == infinity) continue;
-    refused("max_jerk", [&](auto& c) { c.limits.max_jerk = bad; });
-    refused("max_yaw_rate", [&](auto& c) { c.limits.max_yaw_rate = bad; });
+    refused("max_jerk", [&](auto& c) { c.motion.max_jerk = bad; });
+    refused("max_yaw_rate", [&](auto& c) { c.motion.max_yaw_rate = bad; });
   }
   refused("start_velocity", [&](auto& c) { c.start_velocity.x() = nan; });
   refused("start_velocity", [&](auto& c) { c.start_velocity.x() = 2.1; });

@@ -53,11 +53,11 @@ void fly(const OccupancyMap& map, const BuildConfig& build, std::size_t queries,
     const FlightVerdict verdict =
         judge.judge(result, path.waypoints.front(), path.waypoints.back(), config);
     ASSERT_EQ(verdict.complaint, "") << name_of(result.step);
-    ASSERT_TRUE(config.limits.hold(result.peaks));
+    ASSERT_TRUE(config.motion.hold(result.peaks));
     ASSERT_GE(result.clearance, config.radius * (1.0 - 1e-9));
     ASSERT_LE(result.duration, result.stop_and_go_duration * (1.0 + 1e-12));
     ASSERT_NEAR(result.duration, result.trajectory.duration(), 1e-9);
-    const double v = config.limits.max_speed, a = config.limits.max_acceleration;
+    const double v = config.motion.max_speed, a = config.motion.max_acceleration;
     const double length = length_of(path.waypoints);
     if (length >= v * v / a) tally.ratios.push_back(result.duration / (length / v + v / a));
     ++tally.flown;

@@ -21,12 +21,12 @@ TEST(PlanTrajectory, StopAndGoHoldsTheLimitOfYawWhereAPieceWouldTakeNoTime) {
       for (const double jerk : {0.5, 1.0, 5.0, 20.0}) {
         TrajectoryConfig config{.radius = 0.3};
         config.stop_and_go = true;
-        config.limits.max_speed = speed;
-        config.limits.max_acceleration = acceleration;
-        config.limits.max_jerk = jerk;
+        config.motion.max_speed = speed;
+        config.motion.max_acceleration = acceleration;
+        config.motion.max_jerk = jerk;
         const TrajectoryResult result = plan_trajectory(esdf(), path, config);
         ASSERT_TRUE(result.ok());
-        EXPECT_LE(result.peaks.yaw_rate, config.limits.max_yaw_rate * (1 + 1e-9));
+        EXPECT_LE(result.peaks.yaw_rate, config.motion.max_yaw_rate * (1 + 1e-9));
         EXPECT_LE(result.peaks.speed, speed * (1 + 1e-9));
         EXPECT_LE(result.peaks.jerk, jerk * (1 + 1e-9));
         for (const TrajectorySegment& segment : result.trajectory.segments)
@@ -77,7 +77,7 @@ TEST(PlanTrajectory, YawWithoutALimitBeginsWhereItIs) {
   const std::vector<Point> path = {{3, 3, 1}, {7, 5, 1}, {7, 9, 1}};
   for (const double rate : {1e3, 1e9, 1e40, HUGE_VAL}) {
     TrajectoryConfig config{.radius = 0.3};
-    config.limits.max_yaw_rate = rate;
+    config.motion.max_yaw_rate = rate;
     config.start_yaw = 2.5;
     const TrajectoryResult flown = plan_trajectory(esdf(), path, config);
     ASSERT_TRUE(flown.ok()) << rate;

@@ -254,9 +254,9 @@ Json MapAnswers::trajectory(const Question& question) {
   const PlanConfig config = config_of(question, query.radius);
   TrajectoryConfig flight;
   flight.radius = query.radius;
-  flight.limits.max_speed = number_of(question, "max_speed", kMotions, flight.limits.max_speed);
-  flight.limits.max_acceleration =
-      number_of(question, "max_acceleration", kMotions, flight.limits.max_acceleration);
+  flight.motion.max_speed = number_of(question, "max_speed", kMotions, flight.motion.max_speed);
+  flight.motion.max_acceleration =
+      number_of(question, "max_acceleration", kMotions, flight.motion.max_acceleration);
 #ifdef RIDGEWAY_STOP_AND_GO
   flight.stop_and_go = true;  // where there is no optimiser
 #endif

@@ -54,7 +54,7 @@ enum class ExplorationStrategy : std::uint8_t {
 
 /// The robot, its sensor, and when a look is worth its way.
 struct ExplorerConfig {
-  MotionLimits limits = {.max_speed = 2.0, .max_acceleration = 2.0};  ///< of the robot
+  MotionLimits motion = {.max_speed = 2.0, .max_acceleration = 2.0};  ///< of the robot
   FieldOfView view = {};  ///< of its sensor, which looks level along the yaw
   /// Voxels of the lattice that are to be explored.
   VoxelRange within = kAllVoxels;

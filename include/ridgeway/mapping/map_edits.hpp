@@ -11,8 +11,9 @@
 
 namespace ridgeway {
 
-// Edits of maps in three dimensions: one that would take the layers of a planar map (flatten) apart
-// throws InputError.
+// Edits of maps. In a planar map (flatten) heights of boxes play no part, and a column counts as
+// one voxel; resample, flatten and transform_map, which would take its layers apart, throw
+// InputError.
 
 /// The same space at a coarser voxel size, without ever losing an obstacle: a coarse voxel is
 /// occupied where it shares volume with an occupied voxel, else unknown where it shares volume

@@ -49,7 +49,7 @@ std::string_view name_of(TrajectoryStep step);  ///< The same of a step.
 /// The robot, its limits of motion, and how it starts.
 struct TrajectoryConfig {
   double radius = 0.0;       ///< of the robot, metres; 0: as the path was planned for (fly_plan)
-  MotionLimits limits = {};  ///< of the robot
+  MotionLimits motion = {};  ///< of the robot
   Smoothness smoothness = Smoothness::kSnap;  ///< what is made least along the way
   Point start_velocity = Point::Zero();       ///< m/s
   Point start_acceleration = Point::Zero();   ///< m/s^2
@@ -57,10 +57,10 @@ struct TrajectoryConfig {
   std::optional<double> start_yaw = std::nullopt;
   /// Yaw follows the direction of travel, as fast as its limit lets it; otherwise it stays.
   bool follow_yaw = true;
-  FlightLimits flight_limits = {};  ///< as in PlanConfig
-  double robot_height = 0.0;        ///< as in PlanConfig
-  bool stop_and_go = false;         ///< no smoothing: the last resort at once
-  int most_evaluations = 120;       ///< of the cost, each time that a stretch is optimised
+  FlightLimits limits = {};    ///< as in PlanConfig
+  double robot_height = 0.0;   ///< as in PlanConfig
+  bool stop_and_go = false;    ///< no smoothing: the last resort at once
+  int most_evaluations = 120;  ///< of the cost, each time that a stretch is optimised
   /// Points of the path, digit for digit, that are passed as they are; other corners are rounded,
   /// and may be missed by far where there is room.
   std::vector<Point> via = {};
