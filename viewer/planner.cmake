@@ -16,29 +16,23 @@ set(wasm_flags
     -include missing.hpp)
 
 set(wasm_objects)
-# wasm_objects_of(<name> <source>...): sources with full paths, compiled seven at a time as the library's
-# own are (RidgewayDefaults), so that no two names in the same seven are alike.
+# wasm_objects_of(<name> <source>...): sources with full paths, compiled as one. No two may give the
+# same name to different things.
 function(wasm_objects_of name)
   set(sources ${ARGN})
-  list(LENGTH sources count)
-  math(EXPR last "${count} - 1")
-  foreach(number RANGE 0 ${last} 7)
-    list(SUBLIST sources ${number} 7 batch)
-    set(together "${wasm_folder}/${name}_${number}.cpp")
-    list(TRANSFORM batch PREPEND "#include \"" OUTPUT_VARIABLE lines)
-    list(TRANSFORM lines APPEND "\"\n")
-    list(JOIN lines "" text)
-    file(CONFIGURE OUTPUT "${together}" CONTENT "${text}" @ONLY)
-    set(object "${wasm_folder}/${name}_${number}.o")
-    add_custom_command(
-      OUTPUT "${object}"
-      COMMAND ${emxx} ${wasm_flags} -MD -MF "${object}.d" -c "${together}" -o "${object}"
-      DEPENDS "${together}" ${batch}
-      DEPFILE "${object}.d"
-      COMMENT "Planner of the page: ${name} ${number}")
-    list(APPEND wasm_objects "${object}")
-  endforeach()
-  set(wasm_objects ${wasm_objects} PARENT_SCOPE)
+  set(together "${wasm_folder}/${name}.cpp")
+  list(TRANSFORM sources PREPEND "#include \"" OUTPUT_VARIABLE lines)
+  list(TRANSFORM lines APPEND "\"\n")
+  list(JOIN lines "" text)
+  file(CONFIGURE OUTPUT "${together}" CONTENT "${text}" @ONLY)
+  set(object "${wasm_folder}/${name}.o")
+  add_custom_command(
+    OUTPUT "${object}"
+    COMMAND ${emxx} ${wasm_flags} -MD -MF "${object}.d" -c "${together}" -o "${object}"
+    DEPENDS "${together}" ${sources}
+    DEPFILE "${object}.d"
+    COMMENT "Planner of the page: ${name}")
+  set(wasm_objects ${wasm_objects} "${object}" PARENT_SCOPE)
 endfunction()
 
 foreach(module voxel esdf paths skeleton roadmap planning trajectory viewer)

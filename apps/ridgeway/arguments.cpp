@@ -133,11 +133,11 @@ std::vector<double> parse_numbers(std::string_view text, const std::string& opti
   }
 }
 
-Point parse_point(std::string_view text, const std::string& option) {
+Point parse_point(std::string_view text, const std::string& option, const std::string& shown) {
   const std::vector<double> v = parse_numbers(text, option);
   if (v.size() != 3 || std::any_of(v.begin(), v.end(), is_too_far))
     throw InputError(option + " " + in_quotes(text), "is no point",
-                     "give three numbers of at most 1e9: X,Y,Z");
+                     "give three numbers of at most 1e9: " + shown);
   return {v[0], v[1], v[2]};
 }
 

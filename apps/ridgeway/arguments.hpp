@@ -55,7 +55,8 @@ std::uint64_t parse_whole(std::string_view text, const Wholes& range, const std:
 /// Numbers between commas or blanks; infinite ones are numbers, NaN is none.
 std::vector<double> parse_numbers(std::string_view text, const std::string& option);
 /// "x,y,z", finite.
-Point parse_point(std::string_view text, const std::string& option);
+Point parse_point(std::string_view text, const std::string& option,
+                  const std::string& shown = "X,Y,Z");
 /// "x0,y0,z0,x1,y1,z1", two opposite corners, metres, the lesser first.
 Box parse_box(std::string_view text, const std::string& option);
 /// "x,y,z,roll,pitch,yaw" in metres and degrees (yaw is applied last), the 16 numbers of a matrix

@@ -195,7 +195,8 @@ void print_summary(const BuildOptions& options, const Outcome& outcome) {
 int run(const BuildOptions& options, const Globals& globals) {
   const LoadConfig loading = load_config(options);
   const BuildConfig building = build_config(options);
-  if (is_roadmap_file(options.map))
+  if (std::error_code error;
+      is_roadmap_file(options.map) && std::filesystem::exists(options.map, error))
     throw InputError(options.map, "is a roadmap already",
                      "give the map that it was built from, or plan on it");
   require_writable({options.output}, {options.map});

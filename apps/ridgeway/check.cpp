@@ -2,6 +2,9 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "ridgeway/planning/check.hpp"
 
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 
@@ -13,6 +16,7 @@
 #include "json.hpp"
 #include "limit_options.hpp"
 #include "quality_option.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/ridge/ridge_file.hpp"
 
 namespace ridgeway::cli {
@@ -84,9 +88,19 @@ void print_summary(const CheckReport& report, bool complete) {
                                           : "NOT clean: the roadmap breaks its contract");
 }
 
+/// A path that somebody wants to have checked is not written over.
+void require_list_of_paths_or_nothing(const std::string& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return;
+  if (const int first = std::ifstream(file).get(); first == '[' || first == EOF) return;
+  throw InputError(file, "is there already, and is no list of checked paths",
+                   "give --paths, which is written, another name");
+}
+
 int run(const CheckOptions& options, const Globals& globals) {
   if (!options.paths.empty()) require_writable({options.paths}, {options.file});
   if (!options.paths.empty()) require_extension(options.paths, "paths", {".json"});
+  if (!options.paths.empty()) require_list_of_paths_or_nothing(options.paths);
   CheckConfig config = options.check;
   config.limits = limits_of(options.limits);
   config.quick = options.quality.quick();

@@ -187,8 +187,8 @@ Option Command::tuple(const std::string& names, std::vector<double>& values, std
 Option Command::point(const std::string& names, std::optional<Point>& value,
                       const std::string& help, const std::string& shown) {
   return add_option(names, {.type = "point", .shown = shown, .help = help},
-                    [&value](const std::string& text, const std::string& name) {
-                      value = parse_point(text, name);
+                    [&value, shown](const std::string& text, const std::string& name) {
+                      value = parse_point(text, name, shown);
                     });
 }
 

@@ -60,6 +60,7 @@ void fuse_frame(const std::filesystem::path& frame, Fused& fused, const Integrat
 /// Images that are missing or damaged are passed over, as real recordings have them; not all.
 Fused fuse_images(const FuseOptions& options, const FusionConfig& config, const Globals& globals) {
   const DepthSequence sequence = open_sequence(options.folder, sequence_config(options));
+  note_assumed_camera(globals, sequence);
   TsdfFusion fusion(config);
   Fused fused;
   fused.layout = sequence.layout;

@@ -8,6 +8,7 @@
 #include <array>
 #include <atomic>
 #include <csignal>
+#include <string_view>
 
 #include "files/temporary.hpp"
 #include "ridgeway/common/error.hpp"
@@ -39,6 +40,9 @@ void handle(int signal) {
     return;
   }
   remove_temporaries();
+  constexpr std::string_view kWord = "ridgeway: interrupted\n";
+  if (::write(STDERR_FILENO, kWord.data(), kWord.size()) < 0) {  // nobody is there to be told
+  }
   ::_exit(interrupted_exit_code());
 }
 

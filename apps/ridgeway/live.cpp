@@ -155,6 +155,7 @@ void replay_images(Run& run, const Globals& globals) {
   if (!is_last && !frames.ending().empty())
     warn(globals, "what follows the last image was not taken: " + frames.ending());
   run.replay.upward_axis = told_of_upward_axis(sequence);
+  note_assumed_camera(globals, sequence);
   if (!options.until.empty() && !is_last)
     warn(globals, "no image " + options.until + " has come, so all of them were taken");
 }

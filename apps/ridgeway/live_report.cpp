@@ -88,11 +88,11 @@ std::string csv_of(const LiveReplay& replay) {
   for (const Column& count : kCounts) text.append(",").append(count.name);
   for (const Column& stage : kStages) text.append(",").append(stage.name).append("_ms");
   text.append(",total_ms");
-  const auto add = [&](double value) { text.append(",").append(nlohmann::json(value).dump()); };
+  const auto add = [&](const Json& value) { text.append(",").append(value.dump()); };
   for (std::size_t i = 0; i < replay.updates.size(); ++i) {
     const UpdateReport& update = replay.updates[i];
     text.append("\n").append(std::to_string(i + 1));
-    for (const Column& count : kCounts) add(count.value(update));
+    for (const Column& count : kCounts) add(static_cast<std::uint64_t>(count.value(update)));
     for (const Column& stage : kStages) add(stage.value(update));
     add(total(update));
   }

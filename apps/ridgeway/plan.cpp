@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "arguments.hpp"
@@ -65,7 +66,8 @@ Answer plan_once(const Roadmap& roadmap, const Query& query, const PlanOptions& 
     return {.plan = plan(roadmap, query.start, query.goal, plan_config(options, query.radius))};
   SamplingConfig config = sampling_config(options, query.radius);
   config.seed += static_cast<std::uint64_t>(run);
-  return plan_by_sampling(roadmap.esdf, query.start, query.goal, config);
+  return plan_by_sampling(roadmap.esdf, query.start, query.goal, config,
+                          [](std::string_view, double) { return !is_interrupted(); });
 }
 
 /// Plans `repeat` times; the times are then medians, the rest is of the first run.

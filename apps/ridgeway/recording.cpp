@@ -85,6 +85,16 @@ std::string told_of_upward_axis(const DepthSequence& sequence) {
          "poses, or what `fuse` makes of them with `ridgeway build --transform`";
 }
 
+void note_assumed_camera(const Globals& globals, const DepthSequence& sequence) {
+  if (!sequence.is_camera_assumed) return;
+  const PinholeCamera& camera = sequence.camera;
+  std::ostringstream text;
+  text << camera.fx << ',' << camera.fy << ',' << camera.cx << ',' << camera.cy;
+  note(globals, "the recording names no intrinsics: " + text.str() +
+                    " are taken, as usual for its layout (--intrinsics of fuse, or "
+                    "camera-intrinsics.txt in its folder, for others)");
+}
+
 void require_recordable(const DepthSensor& sensor) {
   if (sensor.max_range <= SequenceWriter::kFarthest) return;
   const std::string most = number_text(SequenceWriter::kFarthest);

@@ -41,6 +41,9 @@ void warn_of_unreadable(const Globals& globals, std::size_t count, const std::st
 /// What a person should be told where they are not upright in the world; else nothing.
 std::string told_of_upward_axis(const DepthSequence& sequence);
 
+/// A note where nobody named the camera's intrinsics: a map with wrong ones is bent.
+void note_assumed_camera(const Globals& globals, const DepthSequence& sequence);
+
 /// Throws InputError where a camera measures farther than a recording of its images holds.
 void require_recordable(const DepthSensor& sensor);
 

@@ -72,6 +72,7 @@ void add_images(Json& json, const Images& images, const Globals& globals) {
   if (!sequence.frames.empty() && sequence.frames.front().time && sequence.frames.back().time)
     json["seconds"] = *sequence.frames.back().time - *sequence.frames.front().time;
   if (!images.camera_problem.empty()) note(globals, images.camera_problem);
+  note_assumed_camera(globals, sequence);
   if (const std::string told = told_of_upward_axis(sequence); !told.empty()) note(globals, told);
 }
 

@@ -7,6 +7,7 @@
 #include "common/number_text.hpp"
 #include "common/rounding.hpp"
 #include "console.hpp"
+#include "esdf/nearest_obstacle.hpp"
 #include "esdf/widest_place.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/free_space.hpp"
@@ -61,8 +62,11 @@ std::string AnswerFacts::or_snap(bool is_movable) const {
 std::string AnswerFacts::explain_collision(const Query& query, const Point& place,
                                            bool is_movable) const {
   const double distance = FreeSpace(roadmap_.esdf).distance(flight_place(roadmap_.esdf, place));
+  const bool is_unknown = detail::is_unknown_nearest(roadmap_.esdf, place, query.radius);
   if (distance <= 0.0) {
-    std::string inside = "it lies in an obstacle: move it to where the map is free";
+    std::string inside = std::string("it lies ") +
+                         (is_unknown ? "beside what the map does not know" : "in an obstacle") +
+                         ": move it to where the map is free";
     if (!is_movable) return inside;
     // Farther away it is hardly the place that was meant.
     const std::optional<double> snap = smallest_snap(
@@ -70,7 +74,8 @@ std::string AnswerFacts::explain_collision(const Query& query, const Point& plac
         {.radius = query.radius, .limits = asked_.limits, .robot_height = asked_.robot_height});
     return snap ? inside + ", or let --snap " + text_of(rounded_up(*snap)) + " do so" : inside;
   }
-  std::string text = "it is " + metres(distance) + " from the nearest obstacle";
+  std::string text = "it is " + metres(distance) + " from " +
+                     (is_unknown ? "what the map does not know" : "the nearest obstacle");
   if (asked_.robot_height > 0.0)
     return text + ", and " + robot_text(query) + " does not fit there: move it" +
            or_snap(is_movable) + ", or give a smaller --radius or --robot-height";
@@ -139,8 +144,10 @@ std::string AnswerFacts::explain_no_route(const Query& query) {
   if (is_upright) text += ", nor for a ball of that radius";
   if (asked_.limits.any()) text += ", whatever the limits of the flight";
   // Not by their numbers: those that `info` gives are of the smallest radius.
-  const auto volume = [](const Component& part) {
-    return part.volume < 0.001 ? "less than 0.001 m^3" : text_of(part.volume) + " m^3";
+  const EsdfMap& esdf = roadmap_.esdf;
+  const auto volume = [&esdf](const Component& part) {
+    const double size = esdf.planar ? part.volume / esdf.voxel_size : part.volume;
+    return (size < 0.001 ? "less than 0.001" : text_of(size)) + (esdf.planar ? " m^2" : " m^3");
   };
   const std::string parts = " (the start is in a part of space of " +
                             volume(blocked->start_component) + ", the goal in one of " +

@@ -2,10 +2,13 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "config.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "common/number_text.hpp"
 #include "ridgeway/common/error.hpp"
@@ -168,14 +171,45 @@ std::string literal(const Eigen::Isometry3d&) { return "None"; }
 std::string literal(const std::vector<Box>&) { return "()"; }
 std::string literal(const std::vector<Point>&) { return "()"; }
 
+namespace {
+
+/// What others call a parameter, and ours: words that are alike mean something else.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kElsewhere{
+    {{"radius", "min_clearance"},
+     {"robot_radius", "min_clearance"},
+     {"robot_radius", "radius"},
+     {"min_clearance", "radius"},
+     {"clearance", "radius"},
+     {"max_velocity", "max_speed"},
+     {"max_vel", "max_speed"},
+     {"timeout", "time_limit"},
+     {"resolution", "voxel_size"}}};
+
+py::list list_of(const std::vector<std::string>& words) {
+  py::list list;
+  for (const std::string& word : words) list.append(word);
+  return list;
+}
+
+/// The parameter that was meant, or empty.
+std::string meant_by(const std::string& keyword, const std::vector<std::string>& known) {
+  for (const auto& [theirs, ours] : kElsewhere)
+    if (keyword == theirs && std::find(known.begin(), known.end(), ours) != known.end())
+      return std::string(ours);
+  const py::list near =
+      py::module_::import("difflib").attr("get_close_matches")(keyword, list_of(known), 1);
+  return near.empty() ? "" : std::string(py::str(near[0]));
+}
+
+}  // namespace
+
 void refuse_keyword(const std::string& keyword, const std::vector<std::string>& known) {
-  py::list names;
-  for (const std::string& name : known) names.append(name);
-  const py::list near = py::module_::import("difflib").attr("get_close_matches")(keyword, names, 1);
+  const std::string meant = meant_by(keyword, known);
   throw py::type_error(
       "unexpected keyword argument '" + keyword + "'" +
-      (near.empty() ? "; there are " + std::string(py::str(py::str(", ").attr("join")(names)))
-                    : "; did you mean '" + std::string(py::str(near[0])) + "'?"));
+      (meant.empty()
+           ? "; there are " + std::string(py::str(py::str(", ").attr("join")(list_of(known))))
+           : "; did you mean '" + meant + "'?"));
 }
 
 }  // namespace ridgeway::python

@@ -229,6 +229,8 @@ Eigen::Isometry3d pose_from(py::handle value, const char* name) {
     wrong_shape(value, name, expected);
   using Rows = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
   const Rows rows = Eigen::Map<const Rows>(array.data());
+  if (!rows.allFinite())
+    throw InputError(name, "has entries that are no finite numbers", "give " + expected);
   if (!(rows.row(3) == Eigen::RowVector4d(0, 0, 0, 1)))
     throw InputError(name, "has another last row than 0, 0, 0, 1", "give " + expected);
   Eigen::Isometry3d pose;

@@ -199,14 +199,8 @@ void add_limits(py::module_& module) {
       });
 }
 
-}  // namespace
-
-void add_fields(py::module_& module) {
-  add_limits(module);
-  py::class_<EsdfFace>(module, "EsdfMap",
-                       "Exact Euclidean distances from voxel centres to the nearest obstacle's "
-                       "cube.")
-      .def("distances", &field_distances, py::arg("bounds") = py::none(),
+void add_questions(py::class_<EsdfFace>& type) {
+  type.def("distances", &field_distances, py::arg("bounds") = py::none(),
            "distances(self, bounds=None)\n--\n\n"
            "Distances at voxel centres as a Grid of float32, (nx, ny, nz), metres: 0 in obstacles, "
            "inf where none is\nnear; outside of the map 0, or NaN where unknown space is no "
@@ -238,7 +232,11 @@ void add_fields(py::module_& module) {
            "the shares of the length that are\nnearer to the unknown than the radius "
            "(unknown_share) and, where unknown space\nis taken for free, in it (unknown_inside; "
            "else "
-           "0).")
+           "0).");
+}
+
+void add_facts(py::class_<EsdfFace>& type) {
+  type.def("__repr__", &field_repr)
       .def_property_readonly(
           "voxel_size", [](const EsdfFace& face) { return face.esdf->voxel_size; }, "Metres.")
       .def_property_readonly(
@@ -246,8 +244,11 @@ void add_fields(py::module_& module) {
           "'obstacle', 'ignore' or 'free'.")
       .def_property_readonly(
           "max_distance", [](const EsdfFace& face) { return face.esdf->max_distance; },
-          "Metres; distances stop here.")
-      .def_property_readonly(
+          "Metres; distances stop here.");
+}
+
+void add_blocks(py::class_<EsdfFace>& type) {
+  type.def_property_readonly(
           "block_corners", [](const EsdfFace& face) { return block_corners(*face.esdf); },
           "Low corners of the blocks, (B, 3), metres, world.")
       .def_property_readonly(
@@ -276,9 +277,10 @@ void add_fields(py::module_& module) {
           },
           py::arg("slot"),
           "block(self, slot)\n--\n\n"
-          "One block of `block_squared`, (8, 8, 8) uint32: the map's memory, always.")
-      .def("__repr__", &field_repr);
+          "One block of `block_squared`, (8, 8, 8) uint32: the map's memory, always.");
+}
 
+void add_compute_esdf(py::module_& module) {
   const std::string doc =
       "compute_esdf(map" + esdf_fields().signature().replace(0, 2, ", *, threads=0, ") +
       ")\n--\n\nThe distance field of an OccupancyMap.\n" + esdf_fields().docs();
@@ -296,6 +298,19 @@ void add_fields(py::module_& module) {
             count);
       },
       py::arg("map"), py::kw_only(), py::arg("threads") = 0, doc.c_str());
+}
+
+}  // namespace
+
+void add_fields(py::module_& module) {
+  add_limits(module);
+  py::class_<EsdfFace> type(module, "EsdfMap",
+                            "Exact Euclidean distances from voxel centres to the nearest "
+                            "obstacle's cube.");
+  add_questions(type);
+  add_facts(type);
+  add_blocks(type);
+  add_compute_esdf(module);
 }
 
 }  // namespace ridgeway::python

@@ -71,7 +71,6 @@ std::vector<PoseCorrection> corrections_from(const py::dict& poses) {
   return corrections;
 }
 
-/// Updates come one after the other, whoever calls from Python.
 class LiveFace {
  public:
   explicit LiveFace(const LiveConfig& config) : live_(config) {}
@@ -97,12 +96,10 @@ class LiveFace {
   void begin_correcting(const py::dict& poses) {
     const std::vector<PoseCorrection> corrections = corrections_from(poses);
     const Unlocked unlocked;
-    const std::scoped_lock lock(mutex_);
     live_.begin_correcting(corrections);
   }
   bool is_correction_ready() {
     const Unlocked unlocked;
-    const std::scoped_lock lock(mutex_);
     return live_.is_correction_ready();
   }
   py::dict finish_correcting() {
@@ -118,7 +115,6 @@ class LiveFace {
   }
   MapFace map() {
     const Unlocked unlocked;
-    const std::scoped_lock lock(mutex_);
     return face_of(live_.map());
   }
 
@@ -128,7 +124,6 @@ class LiveFace {
     UpdateReport report;
     {
       const Unlocked unlocked;
-      const std::scoped_lock lock(mutex_);
       report = work();
     }
     return dict_of(report);
@@ -138,7 +133,6 @@ class LiveFace {
     return py::cast(RoadmapFace{std::move(roadmap)});
   }
 
-  std::mutex mutex_;
   LiveRoadmap live_;
 };
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "config.hpp"
+#include "esdf/nearest_obstacle.hpp"
 #include "esdf/widest_place.hpp"
 #include "lock.hpp"
 #include "ridgeway/esdf/free_space.hpp"
@@ -16,6 +17,9 @@
 
 namespace ridgeway::python {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 /// A status in words.
 std::string reason_of(PlanStatus status) {
@@ -68,15 +72,21 @@ std::string reason_of(const PlanFace& plan) {
   const EsdfMap& esdf = roadmap->esdf;
   const double radius = plan.config.radius.value_or(roadmap->min_clearance);
   const Unlocked unlocked;
-  const double distance = FreeSpace(esdf).distance(flight_place(esdf, is_start ? start : goal));
+  const Point& place = is_start ? start : goal;
+  const double distance = FreeSpace(esdf).distance(flight_place(esdf, place));
+  const bool is_unknown = detail::is_unknown_nearest(esdf, place, radius);
+  const std::string end = is_start ? "the start" : "the goal";
   if (distance > 0.0) {
     const auto widest = detail::widest_place(esdf);
     return widest && widest->clearance < radius
                ? "no place of the map has room for a radius of " + literal(radius) +
                      ": the widest has " + shown(widest->clearance)
-               : reason_of(plan.status);
+           : is_unknown ? end + " is " + shown(distance) +
+                              " m from what the map does not know, less than the radius"
+                        : reason_of(plan.status);
   }
-  std::string text = std::string(is_start ? "the start" : "the goal") + " lies in an obstacle";
+  std::string text =
+      end + " lies " + (is_unknown ? "beside what the map does not know" : "in an obstacle");
   const std::optional<double> snap =
       smallest_snap(*roadmap, start, goal, 16.0 * radius, plan.config);
   if (!snap) return text;
@@ -120,11 +130,15 @@ void add_plan_result(py::module_& module) {
           },
           "Start first, goal last, (N, 3), metres, world; (0, 3) where there is no path. "
           "Read-only.")
-      .def_readonly("length", &PlanFace::length, "Metres.")
-      .def_readonly("clearance", &PlanFace::clearance,
-                    "Smallest distance to an obstacle along the path, metres.")
-      .def_readonly("within", &PlanFace::within,
-                    "The path is at most so many times as long as the shortest.")
+      .def_property_readonly(
+          "length", [](const PlanFace& plan) { return plan.ok() ? plan.length : kInfinity; },
+          "Metres; inf where there is no path.")
+      .def_property_readonly(
+          "clearance", [](const PlanFace& plan) { return plan.ok() ? plan.clearance : kNoNumber; },
+          "Smallest distance to an obstacle along the path, metres; nan where there is no path.")
+      .def_property_readonly(
+          "within", [](const PlanFace& plan) { return plan.ok() ? plan.within : kInfinity; },
+          "The path is at most so many times as long as the shortest; inf where there is no path.")
       .def_property_readonly(
           "answered_by",
           [](const PlanFace& plan) { return std::string(name_of(plan.answered_by)); },
@@ -167,9 +181,9 @@ void add_plan_result(py::module_& module) {
             const Unlocked unlocked;
             write_mission(plan, datum, file);
           },
-          py::arg("path"), py::arg("latitude"), py::arg("longitude"), py::arg("altitude") = 0.0,
+          py::arg("path"), py::arg("latitude"), py::arg("longitude"), py::arg("altitude"),
           py::arg("x_heading") = 90.0,
-          "save_mission(self, path, latitude, longitude, altitude=0.0, x_heading=90.0)\n--\n\n"
+          "save_mission(self, path, latitude, longitude, altitude, x_heading=90.0)\n--\n\n"
           "As a .plan of QGroundControl: latitude and longitude of the world's zero, degrees (WGS "
           "84), its altitude,\nmetres above the sea, and where its x axis points, degrees "
           "clockwise "

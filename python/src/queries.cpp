@@ -145,7 +145,8 @@ py::object explain(const RoadmapFace& face, py::handle start, py::handle goal, p
   read(radius, "radius", given);
   FlightLimits flight;
   read(limits, "limits", flight);
-  std::optional<BlockedRoute> blocked = run_stage([&] {
+  std::optional<BlockedRoute> blocked = run_stage([&]() -> std::optional<BlockedRoute> {
+    if (plan(*face.roadmap, from, to, {.radius = given, .limits = flight}).ok()) return {};
     return RouteBlocks(*face.roadmap)
         .between(from, to, given.value_or(face.roadmap->min_clearance), flight);
   });

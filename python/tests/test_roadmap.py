@@ -153,6 +153,8 @@ def test_plans_are_arrays_and_reasons(roadmap, rooms):
             assert not roadmap.plan(wall, other, snap=snap - 0.002)
     wide = roadmap.plan(START, GOAL, radius=0.5)
     assert wide.status == "no_route"
+    assert wide.length == np.inf and wide.within == np.inf and np.isnan(wide.clearance)
+    assert roadmap.explain(START, GOAL) is None  # there is a route
     blocked = roadmap.explain(START, GOAL, radius=0.5)
     assert 0.35 <= blocked.radius <= 0.4 and blocked.by == "obstacle" and blocked.map_end is None
     assert blocked.place[0] == pytest.approx(3.2, abs=0.2)

@@ -160,7 +160,7 @@ EsdfMap compute_esdf(OccupancyMap map, const EsdfConfig& config) {
   } else {
     esdf.layout = config.unknown == UnknownPolicy::kFree
                       ? with_blocks_between(map)
-                      : detail::with_neighbour_blocks(map.layout);
+                      : detail::with_neighbour_blocks(map.layout, map.planar);
     require_memory_for_blocks(esdf.layout.block_count(), kEsdfBytesPerVoxel, "map");
     esdf.state = move_to_layout(map.layout, map.state, esdf.layout, VoxelState::kUnknown);
   }

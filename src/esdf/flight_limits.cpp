@@ -77,7 +77,8 @@ void FlightLimits::validate() const {
     const std::string name = "keep_out box " + std::to_string(i + 1);
     validate_box(keep_out[i], name);
     if (!((keep_out[i].max - keep_out[i].min).minCoeff() > 2.0 * kOnTheFace))
-      throw InputError(name, "has no volume", "give it a length along every axis");
+      throw InputError(name, "has no volume",
+                       "give it a length along every axis; in a plane any two heights do");
   }
 }
 
@@ -131,6 +132,14 @@ FlightLimits limits_in_local(const EsdfMap& esdf, const FlightLimits& limits_wor
 
 FlightLimits limits_in_world(const EsdfMap& esdf) {
   return moved_limits(esdf.limits, [&](const Point& p) { return to_world(esdf, p); });
+}
+
+bool limit_flights(const EsdfMap& esdf, FlightLimits limits) {
+  if (esdf.planar) {
+    limits.keep_in.min.z() = FlightLimits{}.keep_in.min.z();
+    limits.keep_in.max.z() = FlightLimits{}.keep_in.max.z();
+  }
+  return limits.any();
 }
 
 void require_room(const EsdfMap& esdf, const FlightLimits& limits) {

@@ -33,8 +33,7 @@ bool can_ask(const EsdfMap& esdf, const Point& a, const Point& b, double radius)
 /// world's coordinates, where waypoints of paths were rounded.
 bool touches_free(const EsdfMap& esdf, VoxelFinder& finder, const Vector& p) {
   if (esdf.is_open(finder.find(voxel_holding(p)))) return true;
-  constexpr double kSlack = 1e-9, kMetres = 1e-8;
-  const double slack = std::max(kSlack, kMetres / esdf.voxel_size);
+  const double slack = detail::rounding(esdf);
   const VoxelIndex low = voxel_holding(p - Vector::Constant(slack));
   const VoxelIndex high = voxel_holding(p + Vector::Constant(slack));
   for (int z = low.z; z <= high.z; ++z)

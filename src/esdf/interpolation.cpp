@@ -38,22 +38,26 @@ double depth(const EsdfMap& esdf, const VoxelIndex& voxel, double deepest) {
 }
 
 /// Distance, metres, of a voxel beside the map, in whose block nothing is known and which is no
-/// obstacle: measured, as no field has it. At most `far`; that where nothing is known beside it.
+/// obstacle: measured, as no field has it. At most `far`; that where nothing is known beside it, or
+/// no obstacle is anywhere.
 double distance_beside(const EsdfMap& esdf, const VoxelIndex& voxel, double far) {
   const double s = esdf.voxel_size;
   double most = far / s;
+  bool is_beside = false, has_site = most < kFarthestSite;
   for (int d = 0; d < 27; ++d) {
     const VoxelIndex o = offset_of(d);
     const VoxelId id = esdf.layout.find(voxel + o);
+    is_beside |= id != kNoVoxel;
     if (id == kNoVoxel || esdf.squared[id] == kNoSite) continue;
+    has_site = true;
     const double off = Point(o.x, o.y, o.z).norm();
     most = std::min(most, esdf.distance(id) / s + off);
   }
-  if (most >= far / s) return far;
+  if (!is_beside || !has_site) return far;
   constexpr double kSlack = 1e-6;  // the scan looks for what is nearer
   const Point centre = centre_of(voxel, 1.0);
   const double squared = detail::ObstacleScan(esdf, centre, centre).run(most * most + kSlack);
-  return s * std::sqrt(squared);
+  return std::min(far, s * std::sqrt(squared));
 }
 
 void require_depth(double deepest) {
@@ -73,12 +77,16 @@ double distance_of(const EsdfMap& esdf, const VoxelIndex& voxel, double deepest)
 
 double signed_distance(const EsdfMap& esdf, const VoxelIndex& voxel, double deepest) {
   require_depth(deepest);
+  if (!kAllVoxels.contains(voxel))
+    throw InputError("voxel", "is none that a map may have", "give one within 1e9 of its zero");
   return distance_of(esdf, voxel, deepest);
 }
 
 DistanceAndGradient interpolate_distance(const EsdfMap& esdf, const Point& point, double deepest) {
   require_depth(deepest);
   const double s = esdf.voxel_size;
+  if (!has_voxel(point, s))
+    throw InputError("point", "is no place that a map may have", "give finite metres");
   const Point shifted = point / s - Point::Constant(0.5);
   const VoxelIndex base = voxel_at(shifted, 1.0);
   const Point t = shifted - Point(base.x, base.y, base.z);

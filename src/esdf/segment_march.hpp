@@ -34,6 +34,12 @@ inline double squared_far(const EsdfMap& esdf) {
   return far * far;
 }
 
+/// How far coordinates may be rounded, those of the world too: voxels.
+inline double rounding(const EsdfMap& esdf) {
+  constexpr double kOwn = 1e-9, kMetres = 1e-8;
+  return std::max(kOwn, kMetres / esdf.voxel_size);
+}
+
 /// Lower bound of D^2 at a point from the ball that is free around the centre of its voxel.
 inline double ball_bound(const EsdfMap& esdf, VoxelFinder& finder, const Vector& p, double far) {
   const VoxelIndex voxel = voxel_holding(p);
@@ -262,9 +268,9 @@ class SegmentMarch {
   bool is_low(const Vector& x, double limit) {
     const VoxelIndex voxel = voxel_holding(x);
     const VoxelId id = finder_.find(voxel);
-    if (id == kNoVoxel) return esdf_.is_obstacle(id);
+    if (id == kNoVoxel) return limit > 0.0 && esdf_.is_obstacle(id);
     const double squared = 0.25 * esdf_.squared[id];
-    if (squared >= limit) return false;
+    if (squared >= limit || esdf_.squared[id] == kNoSite) return false;
     const double off = (x - Vector(voxel.x + 0.5, voxel.y + 0.5, voxel.z + 0.5)).norm();
     const double farthest = std::sqrt(squared) + off;
     return farthest * farthest < limit;
@@ -280,9 +286,14 @@ class SegmentMarch {
   /// Squared distance from x to the site of its voxel: never too small. Infinite where the voxel's
   /// centre is farther than that from it.
   double at_site(const Vector& x, double farthest = kInfinity) {
-    const VoxelIndex voxel = voxel_holding(x);
-    const VoxelId id = finder_.find(voxel);
-    if (id == kNoVoxel) return esdf_.is_obstacle(id) ? 0.0 : kInfinity;
+    VoxelIndex voxel = voxel_holding(x);
+    VoxelId id = finder_.find(voxel);
+    if (id == kNoVoxel && esdf_.is_obstacle(id)) return 0.0;
+    if (id == kNoVoxel) {  // an upper face of the map's blocks is of the voxels below, too
+      voxel = voxel_holding(x - Vector::Constant(rounding(esdf_)));
+      id = finder_.find(voxel);
+      if (id == kNoVoxel) return kInfinity;
+    }
     if (esdf_.squared[id] == kNoSite || 0.25 * esdf_.squared[id] > farthest) return kInfinity;
     const SiteOffset o = esdf_.site[id];
     return squared_distance(x, cube_of(voxel + VoxelIndex{o.x, o.y, o.z}));

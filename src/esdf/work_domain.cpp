@@ -180,14 +180,15 @@ void run_along_x(const Reach& ends, const ObstacleRows& rows, BlockSet& domain) 
 
 }  // namespace
 
-BlockLayout with_neighbour_blocks(const BlockLayout& layout) {
+BlockLayout with_neighbour_blocks(const BlockLayout& layout, bool planar) {
   std::vector<BlockIndex> around;
   for (std::uint32_t slot = 0; slot < layout.block_count(); ++slot)
-    for (int d = 0; d < 27; ++d)
-      if (layout.neighbour_block(slot, d) == BlockLayout::kNoBlock) {
-        const VoxelIndex o = offset_of(d);
+    for (int d = 0; d < 27; ++d) {
+      const VoxelIndex o = offset_of(d);
+      if (planar && o.z != 0) continue;
+      if (layout.neighbour_block(slot, d) == BlockLayout::kNoBlock)
         around.push_back(layout.block(slot) + BlockIndex{o.x, o.y, o.z});
-      }
+    }
   if (layout.is_in_order()) {  // and so it stays
     around.insert(around.end(), layout.blocks().begin(), layout.blocks().end());
     return BlockLayout(std::move(around));

@@ -6,8 +6,8 @@
 
 namespace ridgeway::detail {
 
-/// The layout's blocks and all blocks 26-adjacent to them.
-BlockLayout with_neighbour_blocks(const BlockLayout& layout);
+/// The layout's blocks and all blocks 26-adjacent to them; of a planar map those in its plane.
+BlockLayout with_neighbour_blocks(const BlockLayout& layout, bool planar);
 
 /// Blocks that the sweeps have to pass through so that the distances of all of `target`'s voxels
 /// are exact when only occupied voxels are obstacles. `occupied[slot]`: whether a target block

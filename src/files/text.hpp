@@ -17,6 +17,13 @@ inline bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
+/// The same text with a to z for A to Z, whatever the locale.
+inline std::string in_small_letters(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
 /// Cuts the next word off the front of a line; empty at its end.
 inline std::string_view take_word(std::string_view& line) {
   std::size_t first = 0;

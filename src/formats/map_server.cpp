@@ -98,11 +98,11 @@ MapServerFile read_keys(const Keys& keys) {
 }  // namespace
 
 bool is_map_server(std::string_view text) {
-  constexpr std::string_view kKey = "image";  // no world has one
-  constexpr std::size_t kMost = 16384;        // such files are short
+  constexpr std::size_t kMost = 16384;  // such files are short
   if (text.size() <= kMost) try {
       const YAML::Node map = YAML::Load(std::string(text));
-      return map.IsMap() && map[std::string(kKey)];
+      // Keys that no world has; one without an image is told so.
+      return map.IsMap() && (map["image"] || (map["resolution"] && map["origin"]));
     } catch (const YAML::Exception&) {  // it may be one with a mistake
     }
   return text.substr(0, kMost).find("\nimage:") != text.npos || text.starts_with("image:");

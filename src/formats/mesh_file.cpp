@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdlib>
 #include <limits>
 #include <optional>
@@ -20,6 +19,7 @@
 #include "files/text.hpp"
 #include "mapping/memory_limit.hpp"
 #include "mesh_packing.hpp"
+#include "mesh_wholeness.hpp"
 #include "ply_cloud.hpp"
 #include "ridgeway/common/error.hpp"
 #include "run_program.hpp"
@@ -33,9 +33,7 @@ constexpr std::array<const char*, 6> kFormats = {"ply", "obj", "stl", "dae", "gl
 
 /// What a file's name ends in, in small letters without the dot.
 std::string extension_of(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::string extension = in_small_letters(file.extension().string());
   if (!extension.empty()) extension.erase(0, 1);
   return extension;
 }
@@ -49,12 +47,10 @@ std::string format_of(const fs::path& file) {
   return extension;
 }
 
-/// 80 bytes of anything, a number of triangles, and 50 bytes for each.
 bool is_binary_stl(std::string_view bytes) {
-  constexpr std::size_t kHeader = 84, kTriangle = 50;
-  if (bytes.size() < kHeader) return false;
-  const auto count = number_at<std::uint32_t>(std::as_bytes(std::span(bytes)), 80);
-  return bytes.size() == kHeader + kTriangle * std::size_t{count};
+  if (bytes.size() < kStlHeader) return false;
+  const auto count = number_at<std::uint32_t>(std::as_bytes(std::span(bytes)), kStlHeader - 4);
+  return bytes.size() == kStlHeader + kStlTriangle * std::size_t{count};
 }
 
 /// The value of an attribute in the first element of a name, or its text; nothing where it is not
@@ -119,6 +115,7 @@ struct ReaderLimits {
 MeshReply read_triangles(const fs::path& file, std::string_view bytes, const std::string& format,
                          const Progress& progress) {
   if (format == "ply") read_ply(bytes, file.string());  // says best what is wrong
+  require_read_whole(bytes, format, file.string());
   const ReaderLimits limits(bytes.size());
   const ProgramOutput output =
       run_program(find_reader(),
@@ -148,15 +145,18 @@ double rounding_of(const std::vector<Point>& vertices, const std::string& format
 
 }  // namespace
 
+bool is_text_stl(std::string_view bytes) {
+  const std::string head = in_small_letters(std::string(bytes.substr(0, 4096)));
+  return head.starts_with("solid") && head.find("facet") != std::string::npos;
+}
+
 std::string mesh_format(std::string_view bytes, const fs::path& file) {
   const std::string_view head = bytes.substr(0, 4096);
   const std::string extension = extension_of(file);
   if (bytes.starts_with("glTF")) return "glb";
   if (head.find("<COLLADA") != std::string_view::npos) return "dae";
   if (is_ply(bytes)) return has_ply_faces(bytes, file.string()) ? "ply" : "";
-  const bool is_text_stl =
-      head.starts_with("solid") && head.find("facet") != std::string_view::npos;
-  if (is_text_stl || is_binary_stl(bytes)) return "stl";
+  if (is_text_stl(bytes) || is_binary_stl(bytes)) return "stl";
   const bool is_named = extension == "obj" || extension == "gltf" || extension == "stl" ||
                         extension == "dae" || extension == "glb";
   return is_named ? extension : "";

@@ -20,6 +20,11 @@ namespace ridgeway {
 /// faces.
 std::string mesh_format(std::string_view bytes, const std::filesystem::path& file);
 
+/// STL in words, in capitals or not. Else it is binary: a header that ends in the number of
+/// triangles, and so many bytes for each.
+bool is_text_stl(std::string_view bytes);
+inline constexpr std::size_t kStlHeader = 84, kStlTriangle = 50;
+
 /// What a mesh file says of its frame; .dae files name both, .glb files are in metres with y up.
 struct MeshFrame {
   std::optional<double> unit;  ///< metres

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 #include <csignal>
 #include <cstdint>
@@ -89,14 +90,45 @@ bool collect(const aiScene& scene, MeshReply& all) {
   return true;
 }
 
+/// No other file is there, whatever this one may name.
+class NoFiles : public Assimp::IOSystem {
+ public:
+  bool Exists(const char*) const override { return false; }
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char*, const char*) override { return nullptr; }
+  void Close(Assimp::IOStream*) override {}
+};
+
+/// The same as Assimp takes it: it passes over indented lines of .obj files, and knows keywords of
+/// .stl files in small letters alone.
+std::string as_understood(const std::string& format, std::string bytes) {
+  const bool is_text = bytes.find('\0') == std::string::npos;
+  if (format == "stl" && is_text) return in_small_letters(std::move(bytes));
+  if (format != "obj") return bytes;
+  bool begins = true;
+  std::erase_if(bytes, [&begins](char c) {
+    const bool is_indent = begins && (c == ' ' || c == '\t');
+    begins = c == '\n' || is_indent;
+    return is_indent;
+  });
+  return bytes;
+}
+
+/// What Assimp calls bytes that it reads from memory is no name for people.
+std::string without_its_name(std::string problem) {
+  for (const std::string_view name : {" for $$$___magic___$$$.", "$$$___magic___$$$."})
+    if (const std::size_t at = problem.find(name); at != std::string::npos) problem.resize(at);
+  return problem;
+}
+
 MeshReply read_mesh(const std::string& format, const std::string& bytes) {
   Assimp::Importer importer;
   keep_format(format, importer);
-  // From memory, so that no other file is opened that this one may name.
+  importer.SetIOHandler(new NoFiles);  // it is the importer's
   const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(),
                                                      aiProcess_Triangulate, format.c_str());
   if (scene == nullptr || scene->mRootNode == nullptr) {
-    const std::string problem = importer.GetErrorString();
+    const std::string problem = without_its_name(importer.GetErrorString());
     if (problem.find("bad_alloc") != std::string::npos) return {kTooLarge, {}, {}};
     return {problem.empty() ? "it is damaged" : problem, {}, {}};
   }
@@ -110,7 +142,7 @@ MeshReply read_mesh(const std::string& format, const std::string& bytes) {
 
 std::vector<std::byte> reply_to(const std::string& format, const std::string& file) {
   try {
-    return pack(read_mesh(format, read_file(file)));
+    return pack(read_mesh(format, as_understood(format, read_file(file))));
   } catch (const std::bad_alloc&) {
     return pack({kTooLarge, {}, {}});
   } catch (const std::exception& error) {

@@ -248,8 +248,10 @@ PointCloud read_compressed(ByteReader& reader, const PcdHeader& header) {
 }  // namespace
 
 bool is_pcd(std::string_view bytes) {
-  return bytes.starts_with("# .PCD") || bytes.starts_with("VERSION .") ||
-         bytes.starts_with("VERSION 0.") || bytes.starts_with("FIELDS ");
+  while (bytes.starts_with("#"))
+    bytes.remove_prefix(std::min(bytes.find('\n'), bytes.size() - 1) + 1);
+  return bytes.starts_with("VERSION .") || bytes.starts_with("VERSION 0.") ||
+         bytes.starts_with("FIELDS ");
 }
 
 PointCloud read_pcd(std::string_view bytes, const std::string& name) {

@@ -253,6 +253,20 @@ bool has_ply_faces(std::string_view bytes, const std::string& name) {
   });
 }
 
+void require_one_list_of_faces(std::string_view bytes, const std::string& name) {
+  ByteReader reader(bytes, name);
+  const PlyHeader header = read_ply_header(reader);
+  int lists = 0;
+  for (const Element& element : header.elements) {
+    if (!has_faces(element) || element.count == 0) continue;
+    if (element.name != "face")
+      throw InputError(name, "has faces in the element '" + std::string(element.name) + "'",
+                       "write them as polygons, in the element face");
+    if (++lists > 1)
+      throw InputError(name, "has more than one element face", "write all faces in one");
+  }
+}
+
 PointCloud read_ply(std::string_view bytes, const std::string& name) {
   ByteReader reader(bytes, name);
   const PlyHeader header = read_ply_header(reader);

@@ -15,6 +15,10 @@ bool is_ply(std::string_view bytes);
 /// Whether its header says that it has faces. Throws InputError for a header that is damaged.
 bool has_ply_faces(std::string_view bytes, const std::string& name);
 
+/// Throws InputError unless all faces are in one element `face`: Assimp 5.2 reads one alone, and of
+/// a strip of triangles the last.
+void require_one_list_of_faces(std::string_view bytes, const std::string& name);
+
 /// The vertices of a .ply file, ascii or binary in either byte order: properties x, y and z of the
 /// element `vertex`, among any other properties and elements, lists too. Faces are counted, not
 /// read. Throws InputError naming file and byte.

@@ -116,6 +116,7 @@ OccupancyMap map_from_points(const PointCloud& cloud, const CloudMapConfig& conf
   builder.fill(known, VoxelState::kFree);
   const double reach = kMaxVoxelIndex * config.voxel_size;
   const CloudVoxels voxels(config.T_map_cloud, config.voxel_size);
+  const VoxelIndex lowest = voxels_overlapping(config.bounds, config.voxel_size).min;
   std::size_t inside = 0, outside = 0;
   for (const Point& point_cloud : cloud.points) {
     const Point point = config.T_map_cloud * point_cloud;
@@ -126,7 +127,12 @@ OccupancyMap map_from_points(const PointCloud& cloud, const CloudMapConfig& conf
     const bool is_outside = is_beside(config.bounds, point);
     (is_outside ? outside : inside) += 1;
     if (is_outside && config.margin == 0) continue;
-    builder.set(voxels.find(point_cloud, point), VoxelState::kOccupied);
+    VoxelIndex voxel = voxels.find(point_cloud, point);
+    // Where bounds lie between two voxels, rounding finds what lies on them in either.
+    if (!is_outside)
+      voxel = {std::max(voxel.x, lowest.x), std::max(voxel.y, lowest.y),
+               std::max(voxel.z, lowest.z)};
+    builder.set(voxel, VoxelState::kOccupied);
   }
   if (cloud.points.empty())
     throw InputError(name, "has no points", "record or write the cloud again");

@@ -58,16 +58,19 @@ LiveRoadmap& LiveRoadmap::operator=(LiveRoadmap&&) noexcept = default;
 
 UpdateReport LiveRoadmap::integrate(const DepthImage& image, const PinholeCamera& camera,
                                     const Eigen::Isometry3d& T_world_camera) {
+  const std::lock_guard updating(state_->updating);
   return state_->integrate(image, camera, T_world_camera);
 }
 
 UpdateReport LiveRoadmap::integrate(std::span<const Point> points,
                                     const Eigen::Isometry3d& T_world_sensor) {
+  const std::lock_guard updating(state_->updating);
   return state_->integrate(points, T_world_sensor);
 }
 
 UpdateReport LiveRoadmap::set_voxels(std::span<const VoxelChange> changes) {
   State& s = *state_;
+  const std::lock_guard updating(s.updating);
   validate_changes(changes,
                    s.now ? s.now->field.esdf.origin : s.config.origin.value_or(VoxelIndex{}));
   UpdateReport report;
@@ -78,25 +81,35 @@ UpdateReport LiveRoadmap::set_voxels(std::span<const VoxelChange> changes) {
 }
 
 UpdateReport LiveRoadmap::catch_up() {
+  State& s = *state_;
+  const std::lock_guard updating(s.updating);
   UpdateReport report;
-  state_->update(state_->window.take_all(), std::nullopt, report);
-  state_->window.keep();
+  s.update(s.window.take_all(), std::nullopt, report);
+  s.window.keep();
   report.waiting_voxels = 0;
   return report;
 }
 
 UpdateReport LiveRoadmap::correct_poses(std::span<const PoseCorrection> corrections) {
-  begin_correcting(corrections);
-  return finish_correcting();
+  const std::lock_guard updating(state_->updating);
+  state_->begin_correcting(corrections);
+  return state_->finish_correcting();
 }
 
 void LiveRoadmap::begin_correcting(std::span<const PoseCorrection> corrections) {
+  const std::lock_guard updating(state_->updating);
   state_->begin_correcting(corrections);
 }
 
-bool LiveRoadmap::is_correction_ready() { return state_->is_correction_ready(); }
+bool LiveRoadmap::is_correction_ready() {
+  const std::lock_guard updating(state_->updating);
+  return state_->is_correction_ready();
+}
 
-UpdateReport LiveRoadmap::finish_correcting() { return state_->finish_correcting(); }
+UpdateReport LiveRoadmap::finish_correcting() {
+  const std::lock_guard updating(state_->updating);
+  return state_->finish_correcting();
+}
 
 std::shared_ptr<const Roadmap> LiveRoadmap::snapshot() const {
   const std::lock_guard lock(state_->mutex);
@@ -107,6 +120,7 @@ std::shared_ptr<const Roadmap> LiveRoadmap::settled() { return state_->settled()
 
 OccupancyMap LiveRoadmap::map() const {
   const State& s = *state_;
+  const std::lock_guard updating(s.updating);
   if (s.now) return map_of(s.now->field);
   OccupancyMap map;
   map.voxel_size = s.config.fusion.voxel_size;

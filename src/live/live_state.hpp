@@ -50,6 +50,7 @@ struct LiveRoadmap::State {
   explicit State(const LiveConfig& given);
 
   const LiveConfig config;
+  mutable std::mutex updating;  // of all that follows but the snapshot: one update after the other
   TsdfFusion fusion;
   detail::LiveWindow window;
   std::unique_ptr<detail::ScanLog> log;  // none unless poses may be corrected
@@ -58,10 +59,10 @@ struct LiveRoadmap::State {
   std::optional<Live> now;               // none before the first update
   bool is_stale = false;                 // the map is right, distances are not
   std::uint64_t version = 0;
-  mutable std::mutex mutex;  // of what follows
-  std::shared_ptr<const Roadmap> snapshot;
   std::vector<PoseCorrection> under_way;           // that were begun and not finished
   std::unique_ptr<detail::Correction> correction;  // none: no pose is another for them
+  mutable std::mutex mutex;                        // of the snapshot
+  std::shared_ptr<const Roadmap> snapshot;
 
   // live_scans.cpp
   UpdateReport integrate(const DepthImage& image, const PinholeCamera& camera,

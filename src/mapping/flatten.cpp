@@ -80,7 +80,7 @@ OccupancyMap flatten(const OccupancyMap& map, double low, double high) {
   if (!any)
     throw InputError(
         "map", "is nowhere known from " + number_text(low) + " to " + number_text(high) + " m",
-        "give other heights to planar");
+        "give other heights");
   flat = normalised(std::move(flat));
   flat.planar = true;
   return flat;

@@ -29,7 +29,6 @@ class View {
         side_(kBlockSide * config.voxel_size),
         reach_(0.5 * std::sqrt(3.0) * side_),
         behind_(config.depth_behind),
-        carve_(config.carve),
         across_((image.width + kTile - 1) / kTile),
         down_((image.height + kTile - 1) / kTile),
         tiles_(static_cast<std::size_t>(across_ * down_)) {
@@ -38,9 +37,8 @@ class View {
         auto depth = static_cast<double>(image.at(u, v));
         if (beyond.at(u, v) != 0.0f) depth = config.max_range / camera.ray(u, v).norm();
         if (depth == 0.0) continue;
-        Depths& tile = tiles_[static_cast<std::size_t>(v / kTile * across_ + u / kTile)];
-        tile.nearest = std::min(tile.nearest, depth);
-        tile.farthest = std::max(tile.farthest, depth);
+        double& farthest = tiles_[static_cast<std::size_t>(v / kTile * across_ + u / kTile)];
+        farthest = std::max(farthest, depth);
         farthest_ = std::max(farthest_, depth);
       }
     const double end = farthest_ + behind_;
@@ -77,18 +75,14 @@ class View {
     }
     for (int v = std::max(v0, 0); v <= std::min(v1, down_ - 1); ++v)
       for (int u = std::max(u0, 0); u <= std::min(u1, across_ - 1); ++u) {
-        const Depths& tile = tiles_[static_cast<std::size_t>(v * across_ + u)];
-        if (z0 <= tile.farthest + behind_ && (carve_ || z1 >= tile.nearest - behind_)) return true;
+        const double farthest = tiles_[static_cast<std::size_t>(v * across_ + u)];
+        if (farthest > 0.0 && z0 <= farthest + behind_) return true;
       }
     return false;
   }
 
  private:
   static constexpr int kTile = 16;  // pixels along one side
-  struct Depths {
-    double nearest = HUGE_VAL, farthest = -HUGE_VAL;
-  };
-
   BlockIndex block_at(const Point& p) const {
     const VoxelIndex v = voxel_at(p, side_);
     return {v.x, v.y, v.z};
@@ -104,9 +98,8 @@ class View {
   const PinholeCamera& camera_;
   const Eigen::Isometry3d T_camera_map_;
   const double side_, reach_, behind_;
-  const bool carve_;
   const int across_, down_;
-  std::vector<Depths> tiles_;
+  std::vector<double> tiles_;  // the farthest depth of each; 0 where there is none
   double farthest_ = 0.0;
   Point low_, high_;
 };

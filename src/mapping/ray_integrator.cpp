@@ -157,13 +157,16 @@ Passages find_passages(const std::vector<Ray>& rays, const Point& sensor,
   return passages;
 }
 
-/// Where a ray enters and leaves a block, metres from the sensor; no length if it misses it.
+/// Where a ray enters and leaves a block, metres from the sensor, or a little farther: a ray in the
+/// plane between two blocks may be found in either. No length if it misses it.
 std::pair<double, double> clip(const Ray& ray, const Point& sensor, const BlockIndex& block,
                                double side, std::pair<double, double> stretch) {
+  constexpr double kRounding = 1e-6;  // of a block
   const Point low = Point(block.x, block.y, block.z) * side;
   for (int axis = 0; axis < 3; ++axis) {
     const double a = ray.along[axis];
-    const double to_low = low[axis] - sensor[axis], to_high = to_low + side;
+    const double to_low = low[axis] - sensor[axis] - kRounding * side;
+    const double to_high = to_low + (1.0 + 2.0 * kRounding) * side;
     if (a == 0.0) {
       if (to_low > 0.0 || to_high < 0.0) return {0.0, 0.0};
       continue;
@@ -200,6 +203,19 @@ void update(const Ray& ray, const Point& sensor, const BlockIndex& index,
        });
 }
 
+/// Many rays of a scan pass a voxel, and are one look at it: what is forgotten counts looks.
+void update_at_once(const std::vector<Ray>& rays, const std::vector<std::uint32_t>& passing,
+                    const Point& sensor, const BlockIndex& index, const FusionConfig& config,
+                    TsdfBlock& block) {
+  FusionConfig of_scan = config;
+  of_scan.forget_after = 0;
+  TsdfBlock scan;
+  for (const std::uint32_t ray : passing) update(rays[ray], sensor, index, of_scan, scan);
+  for (int voxel = 0; voxel < kBlockVoxels; ++voxel)
+    if (const auto v = static_cast<std::size_t>(voxel); scan.weight[v] > 0.0f)
+      block.add(voxel, scan.distance[v], scan.weight[v], config);
+}
+
 }  // namespace
 
 void integrate_rays(const std::vector<SurfacePoint>& points, const Point& sensor,
@@ -213,6 +229,9 @@ void integrate_rays(const std::vector<SurfacePoint>& points, const Point& sensor
   for (const BlockIndex& index : passages.blocks) targets.push_back(&blocks.find_or_add(index));
   if (config.can_undo) blocks.keep_touched();
   parallel_for_each_index(passages.blocks.size(), [&](std::size_t i) {
+    if (config.forget_after > 0)
+      return update_at_once(rays, passages.rays[i], sensor, passages.blocks[i], config,
+                            *targets[i]);
     for (const std::uint32_t ray : passages.rays[i])
       update(rays[ray], sensor, passages.blocks[i], config, *targets[i]);
   });

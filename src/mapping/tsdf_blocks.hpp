@@ -50,6 +50,7 @@ struct TsdfBlock {
 
   void add(int voxel, float value, float gain, const FusionConfig& config) {
     if (gain <= 0.0f) return;
+    value = std::max(value, -static_cast<float>(config.truncation));  // depth_behind may be more
     const auto most = static_cast<float>(config.max_weight);
     float& w = weight[static_cast<std::size_t>(voxel)];
     float& d = distance[static_cast<std::size_t>(voxel)];

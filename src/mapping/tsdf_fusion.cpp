@@ -100,7 +100,8 @@ void FusionConfig::validate() const {
   require(depth_behind == 0.0 || (depth_behind >= voxel_size && depth_behind <= max_range),
           "depth_behind", depth_behind,
           "give a voxel's length or more, to max_range, or 0 for two voxels");
-  require(max_weight > 0.0, "max_weight", max_weight, "give a number above 0");
+  require(static_cast<float>(max_weight) > 0.0f, "max_weight", max_weight,
+          "give a number above 0, 1e-37 or more");
   require(forget_after >= 0 && forget_after <= 255, "forget_after", forget_after,
           "give 1 to 255 measurements, or 0 for never");
   if (origin) require_within_reach({*origin, *origin}, "origin");

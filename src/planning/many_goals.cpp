@@ -6,6 +6,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "common/number_text.hpp"
 #include "common/rounding.hpp"
 #include "endpoint.hpp"
 #include "paths/shorten.hpp"
@@ -52,7 +53,11 @@ std::vector<double> distances_to_goals(const Roadmap& roadmap, const Point& star
     detail::validate_query(roadmap.esdf, start, goals.back(), r);
   }
   std::vector<double> distances(goals.size(), std::numeric_limits<double>::infinity());
-  if (!detail::is_as_wide(r, roadmap.min_clearance)) return distances;
+  if (!detail::is_as_wide(r, roadmap.min_clearance))
+    throw InputError("radius",
+                     "is " + number_text(r) + ", below the " + number_text(roadmap.min_clearance) +
+                         " that the roadmap was built for",
+                     "give that or more, or build with a smaller min_clearance");
   const Entry from = find_entry(roadmap, start, r);
   if (from.voxel == kNoVoxel) return distances;
   std::vector<double> along;  // the graph, to each vertex

@@ -63,8 +63,9 @@ void validate_robot_height(double height) {
 
 void require_height_counts(const EsdfMap& esdf, double height) {
   if (esdf.planar && height > 0.0)
-    throw InputError("robot_height", "does not count in a plane",
-                     "leave it out, and give planar the heights that the robot fills");
+    throw InputError(
+        "robot_height", "does not count in a plane",
+        "leave it out: the heights that it fills are those that the map was flattened from");
 }
 
 QueryEnds find_ends(const FreeSpace& space, const Point& start, const Point& goal, double radius) {

@@ -50,8 +50,8 @@ Eigen::Vector4d read_intrinsics(const fs::path& file) {
   return {v[0], v[4], v[2], v[5]};
 }
 
-PinholeCamera camera_of(const DepthImage& image, const fs::path& folder,
-                        const DepthSequence& sequence, const SequenceConfig& config) {
+PinholeCamera camera_of(const DepthImage& image, const fs::path& folder, DepthSequence& sequence,
+                        const SequenceConfig& config) {
   const auto camera = [&](double fx, double fy, double cx, double cy) {
     return PinholeCamera{image.width, image.height, fx, fy, cx, cy};
   };
@@ -75,6 +75,7 @@ PinholeCamera camera_of(const DepthImage& image, const fs::path& folder,
                      "has no " + std::string(kIntrinsicsFile) + ", and its images are " +
                          std::to_string(image.width) + " x " + std::to_string(image.height),
                      "give the intrinsics: the layout's are for 640 x 480");
+  sequence.is_camera_assumed = true;
   return sequence.layout != "7-scenes" ? camera(525.0, 525.0, 319.5, 239.5)
                                        : camera(585.0, 585.0, 320.0, 240.0);
 }

@@ -10,7 +10,7 @@
 namespace ridgeway::detail {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr std::uint32_t kNoCorner = 0xffffffffu;
 
 }  // namespace
 
@@ -27,13 +27,14 @@ void CornerMerging::add(const SampledPath& path) {
   const auto place_of = [&](VoxelId id) {
     return centre_of(esdf_.layout.index_of(id), esdf_.voxel_size);
   };
-  std::uint32_t last = kNone;
+  std::uint32_t last = kNoCorner;
   for (std::size_t i = 0; i < chain.size(); ++i) {
     const Point place = place_of(chain[i]);
     const Point next = i + 1 < chain.size() ? place_of(chain[i + 1]) : place;
-    std::uint32_t own = stand_in(place, path.part, last == kNone ? nullptr : &places_[last], next);
-    if (own == kNone) own = insert(chain[i], place, path.part);
-    if (last != kNone && own != last) steps_.emplace_back(std::minmax(last, own));
+    std::uint32_t own =
+        stand_in(place, path.part, last == kNoCorner ? nullptr : &places_[last], next);
+    if (own == kNoCorner) own = insert(chain[i], place, path.part);
+    if (last != kNoCorner && own != last) steps_.emplace_back(std::minmax(last, own));
     last = own;
   }
 }
@@ -97,7 +98,7 @@ std::uint32_t CornerMerging::insert(VoxelId id, const Point& place, std::uint32_
 /// turn at it instead.
 std::uint32_t CornerMerging::stand_in(const Point& corner, std::uint32_t part, const Point* before,
                                       const Point& next) const {
-  std::pair<double, std::uint32_t> nearest{distance_, kNone};
+  std::pair<double, std::uint32_t> nearest{distance_, kNoCorner};
   const auto [x, y, z] = bucket_of(corner);
   for (int i = 0; i < 27; ++i) {
     const auto found = buckets_.find({x + i % 3 - 1, y + i / 3 % 3 - 1, z + i / 9 - 1});
@@ -106,11 +107,11 @@ std::uint32_t CornerMerging::stand_in(const Point& corner, std::uint32_t part, c
       if (parts_[other] == part)
         nearest = std::min(nearest, {(places_[other] - corner).norm(), other});
   }
-  if (nearest.second == kNone) return kNone;
+  if (nearest.second == kNoCorner) return kNoCorner;
   const Point& place = places_[nearest.second];
   const bool suits = (before == nullptr || space_.is_free(*before, place, radius_)) &&
                      space_.is_free(place, next, radius_);
-  return suits ? nearest.second : kNone;
+  return suits ? nearest.second : kNoCorner;
 }
 
 }  // namespace ridgeway::detail

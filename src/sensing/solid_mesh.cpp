@@ -186,6 +186,8 @@ bool SolidMesh::encloses(const Point& p) const {
 
 double SolidMesh::cast_ray(const Point& origin, const Vector& direction) const {
   const TriangleTree::Hit hit = tree_.first_hit(origin, direction);
+  // All around a cave is rock, without an end.
+  if (is_cave_ && !std::isfinite(hit.range) && distance(origin).distance < 0.0) return 0.0;
   // The back of a closed surface is seen from inside alone; edges between the two are doubtful.
   const bool from_inside = is_closed() && std::isfinite(hit.range) &&
                            face_normals_[hit.triangle].dot(direction) > 0.0 &&

@@ -140,7 +140,8 @@ template <int lanes>
       ww += w * w;
       apart += (v[axis] - w) * (v[axis] - w);
     }
-    const auto are_near = apart < static_cast<float>(least_squared);
+    // Sites are whole voxels apart: what is rounded up is as much without a doubt.
+    const auto are_near = apart < static_cast<float>(std::ceil(least_squared));
     const Floats squared = dot * dot;
     const auto diverge_little = (dot > 0.0f) & (squared >= off_limit * ww);
     const auto diverge_much = (squared < on_limit * ww) | ((dot < 0.0f) & (on_limit > 0.0f));
@@ -247,6 +248,9 @@ VoxelMask::Block traversable_in_block(const EsdfMap& esdf, double radius, std::u
   VoxelMask::Block block =
       block_where([&](int v) { return is_open(state[v], unknown) & (squared[v] >= least); });
   if (within_limits && esdf.limits.any()) keep_within_limits(esdf, slot, block);
+  if (!within_limits && esdf.planar)  // which has no other layers, whatever its limits
+    for (std::size_t layer = 0; layer < block.size(); ++layer)
+      if (layer != static_cast<std::size_t>(kPlanarLayer)) block[layer] = 0;
   return block;
 }
 

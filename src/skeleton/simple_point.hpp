@@ -35,7 +35,7 @@ constexpr bool is_simple(Cube27 cube) {
   return (faces & ~flood6(faces & (~faces + 1), background)) == 0;
 }
 
-/// Whether the centre is the end of a curve (paper: Thinning): one 26-neighbour; or at most one
+/// Whether the centre is the end of a curve (paper: Thinning): one 26-neighbour; or just one
 /// 6-neighbour while all neighbours lie in one octant that contains it (the corner template in all
 /// its orientations), for curves that run in 6-steps.
 constexpr bool is_curve_end(Cube27 cube) {

@@ -52,7 +52,7 @@ Trajectory head_of(const Trajectory& trajectory, double until) {
 }
 
 /// Seconds: what is left of a duration that is no longer comes of rounding.
-constexpr double kLeastPiece = 1e-9;
+constexpr double kShortestMotion = 1e-9;
 
 void turn_to(Trajectory& trajectory, double from_yaw, double to_yaw, double max_rate) {
   const double turn = turn_between(from_yaw, to_yaw);
@@ -69,7 +69,7 @@ void turn_to(Trajectory& trajectory, double from_yaw, double to_yaw, double max_
   };
   for (const TrajectorySegment& segment : trajectory.segments) {
     const double left = turning - begin;
-    if (left <= kLeastPiece) {
+    if (left <= kShortestMotion) {
       add(segment, false);
     } else if (segment.duration <= left) {
       add(segment, true);
@@ -80,7 +80,7 @@ void turn_to(Trajectory& trajectory, double from_yaw, double to_yaw, double max_
       add(tail_of(segment, left), false);
     }
   }
-  if (begin < turning - kLeastPiece) {
+  if (begin < turning - kShortestMotion) {
     TrajectorySegment stand;
     if (!trajectory.segments.empty()) {
       const TrajectorySegment& last = trajectory.segments.back();

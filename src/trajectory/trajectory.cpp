@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/require.hpp"
+#include "ridgeway/common/error.hpp"
 
 namespace ridgeway {
 namespace {
@@ -35,6 +36,8 @@ double Trajectory::duration() const {
 }
 
 TrajectoryState Trajectory::at(double time) const {
+  if (segments.empty())
+    throw InputError("trajectory", "has no segments", "ask one of a result that is ok()");
   double begin = 0.0;
   for (std::size_t i = 0; i + 1 < segments.size(); ++i) {
     if (time < begin + segments[i].duration)

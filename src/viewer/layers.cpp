@@ -32,7 +32,19 @@ float clearance_of_voxel(const EsdfMap& esdf, VoxelId id) {
 /// Cells of `stride` voxels that cover a horizontal layer, from the voxel (x, y) on.
 struct LayerGrid {
   int x = 0, y = 0, stride = 1, columns = 0, rows = 0;
+  int width = 0, depth = 0;  // voxels
+
+  /// The voxel in the middle of a cell: the last one may have less than a stride.
+  VoxelIndex middle_of(int column, int row, int layer) const {
+    const auto middle = [this](int cell, int end) {
+      const int first = cell * stride;
+      return first + std::min(stride, end - first) / 2;
+    };
+    return {x + middle(column, width), y + middle(row, depth), layer};
+  }
 };
+
+constexpr double kBeside = 1e-3;  // of a voxel: heights between two layers come with rounding
 
 /// How many voxels a height (world, metres) is above the map's zero.
 double voxels_up(const EsdfMap& esdf, double height) {
@@ -55,9 +67,13 @@ LayerGrid grid_of_layer(const EsdfMap& esdf, int layer, int most_cells) {
                      depth = (std::int64_t{high.y} - low.y + 1) * kBlockSide;
   const std::int64_t stride =
       std::max<std::int64_t>(1, (std::max(width, depth) + most_cells - 1) / most_cells);
-  return {low.x * kBlockSide, low.y * kBlockSide, static_cast<int>(stride),
+  return {low.x * kBlockSide,
+          low.y * kBlockSide,
+          static_cast<int>(stride),
           static_cast<int>((width + stride - 1) / stride),
-          static_cast<int>((depth + stride - 1) / stride)};
+          static_cast<int>((depth + stride - 1) / stride),
+          static_cast<int>(width),
+          static_cast<int>(depth)};
 }
 
 /// The grid's corner at a height in voxels, the side of its cells, and how many there are.
@@ -90,15 +106,14 @@ std::string surface_layer(const EsdfMap& esdf, std::size_t most_quads) {
 std::string slice_layer(const EsdfMap& esdf, double height, int most_samples) {
   constexpr std::uint16_t kNotKnown = 65535;
   constexpr double kFarthest = 65534.0;  // millimetres
-  const int layer = floor_to_int(voxels_up(esdf, height));
+  const int layer = floor_to_int(voxels_up(esdf, height) + kBeside);
   const LayerGrid grid = grid_of_layer(esdf, layer, most_samples);
   std::string bytes;
   append_grid(bytes, esdf, grid, layer + 0.5);
   VoxelFinder finder(esdf.layout);
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column) {
-      const VoxelId id = finder.find({grid.x + column * grid.stride + grid.stride / 2,
-                                      grid.y + row * grid.stride + grid.stride / 2, layer});
+      const VoxelId id = finder.find(grid.middle_of(column, row, layer));
       if (id == kNoVoxel || esdf.state[id] == VoxelState::kUnknown)
         append(bytes, kNotKnown);
       else
@@ -109,7 +124,7 @@ std::string slice_layer(const EsdfMap& esdf, double height, int most_samples) {
 }
 
 std::string section_layer(const EsdfMap& esdf, double height, int most_cells) {
-  constexpr double kBeside = 1e-3;  // of a voxel: a height between two layers is of both
+  // A height between two layers is of both.
   const double up = voxels_up(esdf, height);
   const int below = floor_to_int(up - kBeside), above = floor_to_int(up + kBeside);
   const LayerGrid grid = grid_of_layer(esdf, below, most_cells);

@@ -40,6 +40,8 @@ TEST_F(CliOutputs, NamesThatFitNoOutputAreRefused) {
   for (const std::string& option : room_options()) build.push_back(option);
   expect_refused(build, {"map.bt", ".ridge"});
   expect_refused({"check", map, "--paths", path("map.bt")}, {"map.bt", ".json"});
+  write_whole(path("own.json"), "{\"waypoints\": []}\n");
+  expect_refused({"check", map, "--paths", path("own.json")}, {"own.json", "there already"});
   expect_refused({"export", map, "--json-graph", path("map.bt")}, {"map.bt", ".json"});
   expect_refused({"export", map, "-o", path("map.bt")}, {"map.bt", ".json"});
   expect_refused(

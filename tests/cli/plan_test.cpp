@@ -100,7 +100,7 @@ TEST_F(CliPlan, SaysWhyThereIsNoPathAndWhatToDo) {
   const std::vector<Case> cases = {
       {"-20,0,1", "2,1,1", "0.3", "start_outside_map", "-3,-2,0 and 3,2,2"},
       {"-2,1,1", "2,0,9", "0.3", "goal_outside_map", "the goal 2,0,9"},
-      {"-2,1.9,1", "2,1,1", "0.3", "start_in_collision", "0.1 m from the nearest obstacle"},
+      {"-2,1.9,1", "2,1,1", "0.3", "start_in_collision", "0.1 m from what the map does not know"},
       {"-2,1.9,1", "2,1,1", "0.3", "start_in_collision", "give --escape"},
       {"-2,1,1", "2,1.65,1", "0.4", "goal_in_collision", "--radius of at most 0.35 m"},
       {"-2,1,1", "2,1,1", "0.7", "no_route", "give that --radius"},

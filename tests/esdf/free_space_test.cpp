@@ -283,6 +283,20 @@ TEST(FreeSpace, ASegmentIsKnownFreeWhereItMeetsNoOtherVoxel) {
   EXPECT_GT(std::min(counts[0], counts[1]), 300);
 }
 
+/// Where unknown space is free, places on an upper face of the last blocks are of the map, too.
+TEST(FreeSpace, ClearanceOnTheUpperFacesOfTheMapIsThatBesideThem) {
+  const OccupancyMap map = testing::make_map(1.0, {0, 0, 0}, {23, 23, 23}, [](const VoxelIndex& v) {
+    return v.x == 20 && v.y == 12 ? VoxelState::kOccupied : VoxelState::kFree;
+  });
+  const EsdfMap esdf = compute_esdf(map, {.unknown = UnknownPolicy::kFree});
+  const FreeSpace space(esdf);
+  const Point a(24, 2, 10), b(24, 22, 10);
+  EXPECT_TRUE(space.is_free(a, b, 2.9));
+  EXPECT_FALSE(space.is_free(a, b, 3.1));
+  EXPECT_NEAR(space.clearance(a, b), 3.0, 1e-9);
+  EXPECT_NEAR(space.distance({24, 12.5, 10}), 3.0, 1e-9);
+}
+
 TEST(FreeSpace, NothingIsFreeWhereNoVoxelIsNorForNoRadius) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();

@@ -2,6 +2,9 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/distance_field.hpp"
 #include "ridgeway/esdf/esdf.hpp"
@@ -113,6 +116,32 @@ TEST(SignedDistance, IsMeasuredBesideTheMap) {
     }
   }
   EXPECT_GT(checked, 1000);
+}
+
+/// Where distances end, what is measured beside the map is no farther than it is.
+TEST(SignedDistance, BesideTheMapIsNoLongerThanItIsWhereDistancesEnd) {
+  OccupancyMap map;
+  map.voxel_size = 1.0;
+  map.layout = BlockLayout({{0, 0, 0}, {4, 0, 0}});
+  map.state = VoxelField<VoxelState>(map.layout, VoxelState::kFree);
+  map.state[map.layout.find({32, 3, 3})] = VoxelState::kOccupied;
+  for (const double max_distance : {14.0, 16.0, 17.0, 18.0}) {
+    const EsdfMap esdf =
+        compute_esdf(map, {.unknown = UnknownPolicy::kIgnore, .max_distance = max_distance});
+    EXPECT_NEAR(signed_distance(esdf, {16, 3, 3}), std::min(15.5, max_distance), 1e-9)
+        << max_distance;
+  }
+}
+
+TEST(Interpolation, PlacesThatAreNoneAreRefused) {
+  OccupancyMap map;
+  map.voxel_size = 1.0;
+  map.layout = BlockLayout({{0, 0, 0}});
+  map.state = VoxelField<VoxelState>(map.layout, VoxelState::kFree);
+  const EsdfMap esdf = compute_esdf(map);
+  for (const double x : {std::nan(""), 3e9, std::numeric_limits<double>::infinity()})
+    EXPECT_THROW(interpolate_distance(esdf, {x, 1.0, 1.0}), InputError) << x;
+  EXPECT_THROW(signed_distance(esdf, {std::numeric_limits<int>::max(), 0, 0}), InputError);
 }
 
 TEST(DistanceAt, IsInfiniteWhereThereIsNoObstacle) {

@@ -168,6 +168,12 @@ TEST(MapServer, SpecksAreCountedInPixels) {
   EXPECT_EQ(occupied(2, 1.0), 0u);
 }
 
+TEST(MapServer, OneWithoutAnImageIsToldSo) {
+  const TemporaryFolder folder;
+  write_whole(folder / "a.yaml", "resolution: 0.5\norigin: [0, 0, 0]\n");
+  EXPECT_NE(refusal([&] { load_map(folder / "a.yaml"); }).find("image"), std::string::npos);
+}
+
 TEST(MapServer, DamagedFilesAreRefusedByName) {
   const TemporaryFolder folder;
   const auto says = [&](const std::string& text, const std::string& image) {

@@ -16,6 +16,7 @@
 #include "formats/xyz.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/load_map.hpp"
+#include "ridgeway/mapping/map_edits.hpp"
 #include "support/lattice.hpp"
 #include "support/map_file_writers.hpp"
 #include "support/temporary_folder.hpp"
@@ -98,6 +99,8 @@ TEST(Pcd, IntegerCoordinatesAndOldHeadersAreRead) {
   const PointCloud cloud = read_pcd(file, "old.pcd");
   ASSERT_EQ(cloud.points.size(), 1u);
   EXPECT_EQ(cloud.points[0], Point(200, -300, -70000));
+  EXPECT_TRUE(is_pcd("# made by hand\n#.PCD v.7\n" + file));
+  EXPECT_FALSE(is_pcd("# made by hand"));
 }
 
 TEST(Pcd, HeadersThatLieAreRefused) {
@@ -292,6 +295,20 @@ TEST(MapFromPoints, PointsOnTheBoundsAndInVoxelsThatTheyCutThroughAreObstacles) 
         return note.starts_with("1 of 801 points lie outside");
       }));
     }
+  }
+}
+
+/// 0.3 / 0.1 is less than 3, and 0.6 / 0.2 too.
+TEST(MapFromPoints, PointsOnALowFaceAreObstaclesHoweverItIsRounded) {
+  for (const double floor : {0.3, 0.4, 0.6, 0.7, 1.2, -0.3}) {
+    PointCloud cloud;
+    for (double x = 0.05; x < 3.0; x += 0.1)
+      for (double y = 0.05; y < 3.0; y += 0.1) cloud.add(x, y, floor);
+    const OccupancyMap map = map_from_points(
+        cloud, {.voxel_size = 0.1, .bounds = {Point(0, 0, floor), Point(3, 3, floor + 2.0)}}, "a");
+    EXPECT_EQ(count_voxels(crop(map, {Point(0, 0, floor), Point(3, 3, floor + 2.0)})).occupied,
+              900u)
+        << floor;
   }
 }
 

@@ -155,7 +155,7 @@ TEST(Voxblox, APlanarRoadmapHasOneLayerOfVoxels) {
 
 TEST(Voxblox, ARoadmapIsWrittenAndItsFieldGivesTheSameMap) {
   const TemporaryFolder folder;
-  const OccupancyMap map = testing::random_map(5);
+  const OccupancyMap map = testing::clumped_map(5);
   BuildConfig config;
   config.min_clearance = 2.0 * map.voxel_size;
   const Roadmap roadmap = build_roadmap(map, config).roadmap;
@@ -241,7 +241,7 @@ TEST(Voxblox, FaultsOfAGraphAreCounted) {
 /// In single precision blocks of small voxels far from zero would be one.
 TEST(Voxblox, BlocksFarFromZeroStayApart) {
   const TemporaryFolder folder;
-  OccupancyMap map = testing::random_map(3, 0.02);
+  OccupancyMap map = testing::clumped_map(3, 0.02);
   map.origin = {22'500'000, 270'000'000, 0};
   const Roadmap roadmap = build_roadmap(map, {.min_clearance = 0.02}).roadmap;
   write_voxblox(roadmap, folder / "far.vxblx");

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <limits>
 #include <random>
+#include <thread>
 
 #include "house_flight.hpp"
 #include "ridgeway/common/error.hpp"
@@ -180,6 +181,25 @@ TEST(LiveRoadmap, DoesNotDependOnOrderAndGroupingOfChanges) {
       live.set_voxels(std::span(shuffled).subspan(i, std::min(group, shuffled.size() - i)));
     EXPECT_TRUE(bytes_of(live.settled().get()) == expected) << group;
   }
+}
+
+TEST(LiveRoadmap, TakesUpdatesOfSeveralThreadsOneAfterTheOther) {
+  const BuildConfig build = small_build(UnknownPolicy::kObstacle, 1.0);
+  std::mt19937 random(4);
+  LiveRoadmap at_once({.build = build});
+  at_once.set_voxels(testing::random_changes(random, {-12, -9, -11}, {14, 12, 9}));
+  ASSERT_NE(at_once.snapshot(), nullptr);
+  const std::vector<VoxelChange> all = testing::changes_to(at_once.map());
+  constexpr std::size_t kThreads = 3, kGroup = 211;
+  LiveRoadmap live({.build = build, .origin = at_once.map().origin});
+  const auto update = [&](std::size_t mine) {
+    for (std::size_t i = mine * kGroup; i < all.size(); i += kThreads * kGroup)
+      live.set_voxels(std::span(all).subspan(i, std::min(kGroup, all.size() - i)));
+  };
+  std::vector<std::thread> threads;
+  for (std::size_t mine = 0; mine < kThreads; ++mine) threads.emplace_back(update, mine);
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_TRUE(bytes_of(live.settled().get()) == bytes_of(at_once.settled().get()));
 }
 
 TEST(LiveRoadmap, OfEveryScanOfAFlightHasTheBytesOfABatchBuild) {

@@ -24,7 +24,7 @@ TEST(Crop, KeepsWhatIsWhollyInsideAndObstaclesThatTheBoxCutsThrough) {
   for (const double beyond : {0.0, 1e-4}) {
     std::size_t cut_through = 0;
     for (unsigned seed = 0; seed < 20; ++seed) {
-      const OccupancyMap map = testing::random_map(seed);
+      const OccupancyMap map = testing::clumped_map(seed);
       const OccupancyMap cut = crop(map, box, beyond);
       testing::for_each_known(map, [&](const VoxelIndex& v, VoxelState state) {
         const bool is_obstacle = state == VoxelState::kOccupied;
@@ -38,19 +38,19 @@ TEST(Crop, KeepsWhatIsWhollyInsideAndObstaclesThatTheBoxCutsThrough) {
 }
 
 TEST(Crop, InfiniteBoundsChangeNothing) {
-  const OccupancyMap map = testing::random_map(2);
+  const OccupancyMap map = testing::clumped_map(2);
   EXPECT_TRUE(testing::same_voxels(
       map, crop(map, {Point::Constant(-kInfinity), Point::Constant(kInfinity)})));
 }
 
 TEST(Crop, RefusesBoxesInsideOut) {
-  const OccupancyMap map = testing::random_map(2);
+  const OccupancyMap map = testing::clumped_map(2);
   EXPECT_THROW(crop(map, {{0, 0, 0}, {1, -1, 1}}), InputError);
   EXPECT_THROW(crop(map, {{0, 0, std::nan("")}, {1, 1, 1}}), InputError);
 }
 
 TEST(NoFly, ClosesWhatSharesVolumeWithTheBox) {
-  const OccupancyMap map = testing::random_map(4);
+  const OccupancyMap map = testing::clumped_map(4);
   const Box box = {{-1.0, -0.55, -0.3}, {0.7, 1.2, 0.95}};
   const OccupancyMap closed = add_no_fly(map, std::vector<Box>{box});
   testing::for_each_in({{-25, -25, -25}, {25, 25, 25}}, [&](const VoxelIndex& v) {
@@ -98,7 +98,7 @@ TEST(NoFly, LeavesNoWayAroundABoxWhereUnknownSpaceIsFree) {
 TEST(NoFly, RefusesBoxesInsideOutByNumber) {
   const std::vector<Box> boxes = {{{0, 0, 0}, {1, 1, 1}}, {{0, 2, 0}, {1, 1, 1}}};
   try {
-    add_no_fly(testing::random_map(2), boxes);
+    add_no_fly(testing::clumped_map(2), boxes);
     FAIL() << "was not refused";
   } catch (const InputError& error) {
     EXPECT_EQ(error.where(), "no-fly box 2");

@@ -47,7 +47,7 @@ TEST(LatticeTransform, IsNotFoundForATurnHoweverSmall) {
 }
 
 TEST(TransformMap, AgreesWithTheLatticeWhereThatIsExact) {
-  const OccupancyMap map = testing::random_map(5);
+  const OccupancyMap map = testing::clumped_map(5);
   const auto T = motion(0, 0, std::numbers::pi / 2, {0.3, -0.7, 1.1});
   const auto lattice = find_lattice_transform(T, 0.1);
   ASSERT_TRUE(lattice);
@@ -62,7 +62,7 @@ TEST(TransformMap, NeverLosesAnObstacleNorInventsFreeSpace) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> angle(-3.2, 3.2), part(1e-6, 1.0 - 1e-6);
   for (unsigned seed = 0; seed < 12; ++seed) {
-    const OccupancyMap map = testing::random_map(seed);
+    const OccupancyMap map = testing::clumped_map(seed);
     const auto T = motion(angle(random), angle(random), angle(random),
                           {angle(random), angle(random), angle(random)});
     const OccupancyMap moved = transform_map(map, T, seed % 3 == 0 ? 0.1 : 0.1 + 0.03 * seed);
@@ -90,7 +90,7 @@ TEST(TransformMap, NeverLosesAnObstacleNorInventsFreeSpace) {
 }
 
 TEST(TransformMap, GrowsObstaclesByNoMoreThanADiagonal) {
-  const OccupancyMap map = testing::random_map(8);
+  const OccupancyMap map = testing::clumped_map(8);
   const auto T = motion(0.3, 0.2, 0.7, {0.01, 0.02, 0.03});
   const OccupancyMap moved = transform_map(map, T, 0.1);
   testing::for_each_known(moved, [&](const VoxelIndex& v, VoxelState state) {
@@ -106,7 +106,7 @@ TEST(TransformMap, GrowsObstaclesByNoMoreThanADiagonal) {
 }
 
 TEST(TransformMap, RefusesWhatIsNoMotion) {
-  const OccupancyMap map = testing::random_map(1);
+  const OccupancyMap map = testing::clumped_map(1);
   Eigen::Isometry3d scaled = Eigen::Isometry3d::Identity(), mirrored = scaled, nowhere = scaled;
   scaled.linear() *= 2.0;
   mirrored.linear()(0, 0) = -1.0;

@@ -75,7 +75,7 @@ TEST(OccupancyMap, KnownBoundsAreTight) {
   EXPECT_FALSE(
       known_bounds(OccupancyMap{.voxel_size = 0.1, .origin = {}, .layout = {}, .state = {}}));
   for (unsigned seed = 0; seed < 5; ++seed) {
-    const OccupancyMap map = testing::random_map(seed);
+    const OccupancyMap map = testing::clumped_map(seed);
     Point low = Point::Constant(1e9), high = Point::Constant(-1e9);
     testing::for_each_known(map, [&](const VoxelIndex& v, VoxelState) {
       low = low.cwiseMin(Point(v.x, v.y, v.z) * 0.1);
@@ -90,7 +90,7 @@ TEST(OccupancyMap, KnownBoundsAreTight) {
 
 TEST(Normalised, KeepsAllVoxelsOnTheBlocksThatHoldAKnownOne) {
   for (unsigned seed = 0; seed < 20; ++seed) {
-    OccupancyMap map = testing::random_map(seed);
+    OccupancyMap map = testing::clumped_map(seed);
     for (int local = 0; local < kBlockVoxels; ++local)
       map.state.block(4)[local] = VoxelState::kUnknown;
     const OccupancyMap same = normalised(map);
@@ -107,7 +107,7 @@ TEST(Normalised, KeepsAllVoxelsOnTheBlocksThatHoldAKnownOne) {
 TEST(Normalised, MapsThatDifferByWholeVoxelsBecomeTheSame) {
   std::mt19937 random(5);
   for (unsigned seed = 0; seed < 20; ++seed) {
-    const OccupancyMap map = testing::random_map(seed);
+    const OccupancyMap map = testing::clumped_map(seed);
     const auto part = [&] { return static_cast<int>(random() % 4001) - 2000; };
     const VoxelIndex shift = {part(), part(), part()};
     OccupancyMap elsewhere;  // the same voxels, counted from another one
@@ -141,7 +141,7 @@ TEST(Normalised, RefusesWhatLiesBeyondTheLimitOfTheLattice) {
       EXPECT_EQ(error.where(), "far.bt");
     }
     EXPECT_EQ(std::move(builder).finish().origin, (VoxelIndex{far, 0, far}));
-    OccupancyMap map = testing::random_map(1);
+    OccupancyMap map = testing::clumped_map(1);
     map.origin = {0, far, 0};
     if (far > 0)
       EXPECT_THROW(normalised(map), InputError);

@@ -11,7 +11,7 @@
 namespace ridgeway::testing {
 
 /// Voxels around the origin in all three states, clumped so that coarse voxels of one state exist.
-inline OccupancyMap random_map(unsigned seed, double voxel_size = 0.1, int half_side = 20) {
+inline OccupancyMap clumped_map(unsigned seed, double voxel_size = 0.1, int half_side = 20) {
   std::mt19937 random(seed);
   const auto below = [&random](int n) {
     return static_cast<int>(random() % static_cast<unsigned>(n));

@@ -43,7 +43,7 @@ TEST(Resample, EqualsTheDefinitionAtAnyRatio) {
   for (const Ratio ratio :
        {Ratio{2, 1}, {3, 1}, {8, 1}, {5, 4}, {3, 2}, {9, 4}, {10, 3}, {101, 100}}) {
     for (unsigned seed = 0; seed < 4; ++seed) {
-      const OccupancyMap fine = testing::random_map(seed, 0.05);
+      const OccupancyMap fine = testing::clumped_map(seed, 0.05);
       const double size = 0.05 * ratio.p / ratio.q;
       const OccupancyMap coarse = resample(fine, size);
       EXPECT_NEAR(coarse.voxel_size, size, 1e-12);
@@ -60,7 +60,7 @@ TEST(Resample, EqualsTheDefinitionAtAnyRatio) {
 TEST(Resample, NeverLosesAnObstacle) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     const double ratio = 1.0 + 0.173 * seed;
-    const OccupancyMap fine = testing::random_map(seed, 0.1);
+    const OccupancyMap fine = testing::clumped_map(seed, 0.1);
     const OccupancyMap coarse = resample(fine, 0.1 * ratio);
     testing::for_each_known(fine, [&](const VoxelIndex& v, VoxelState state) {
       if (state != VoxelState::kOccupied) return;
@@ -86,18 +86,18 @@ TEST(Resample, WholeRatiosAreNotSpoiledByRounding) {
 }
 
 TEST(Resample, TheOwnSizeChangesNothing) {
-  const OccupancyMap map = testing::random_map(1);
+  const OccupancyMap map = testing::clumped_map(1);
   EXPECT_TRUE(testing::same_voxels(map, resample(map, 0.1)));
   EXPECT_TRUE(testing::same_voxels(map, resample(map, 0.1 * (1 + 1e-9))));
 }
 
 TEST(Resample, HugeVoxelsAreQuick) {
-  OccupancyMap map = testing::random_map(1);
+  OccupancyMap map = testing::clumped_map(1);
   EXPECT_GT(count_voxels(resample(map, 1e5)).occupied, 0u);
 }
 
 TEST(Resample, RefusesFinerAndNonsense) {
-  const OccupancyMap map = testing::random_map(1);
+  const OccupancyMap map = testing::clumped_map(1);
   for (const double size : {0.0999, 0.0, -1.0, 5e7, 1e300, std::nan(""), HUGE_VAL})
     EXPECT_THROW(resample(map, size), InputError) << size;
 }

@@ -136,6 +136,9 @@ TEST(ManyGoals, RefuseBadInput) {
   EXPECT_THROW(distances_to_goals(*roadmap, Point(1, 1, 1), goals), InputError);
   EXPECT_THROW(plan_to_many(*roadmap, Point(1, 1, 1), goals, {.radius = -1.0}), InputError);
   EXPECT_THROW(plan_to_nearest(*roadmap, Point(1, 1, 1), {}), InputError);
+  const std::vector<Point> place{Point(1, 1, 1)};
+  EXPECT_THROW(distances_to_goals(*roadmap, Point(1, 1, 1), place, 0.5 * roadmap->min_clearance),
+               InputError);
 }
 
 }  // namespace

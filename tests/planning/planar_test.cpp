@@ -12,9 +12,12 @@
 #include "ridgeway/planning/blocked_route.hpp"
 #include "ridgeway/planning/check.hpp"
 #include "ridgeway/planning/plan.hpp"
+#include "ridgeway/ridge/ridge_file.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
 #include "support/pillars.hpp"
 #include "support/random_maps.hpp"
+#include "support/refusal.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace ridgeway {
 namespace {
@@ -231,6 +234,45 @@ TEST(Planar, NoRouteIsExplainedInThePlane) {
   ASSERT_TRUE(blocked);
   EXPECT_NEAR(blocked->radius, 0.2, 0.051);
   EXPECT_EQ(blocked->by, Blocker::kObstacle);
+  // All of it is in the layer.
+  const double layer = (kPlanarLayer + 0.5) * 0.1;
+  EXPECT_NEAR(to_local(low.esdf, *blocked->place).z(), layer, 1e-9);
+  EXPECT_LT(blocked->start_component.volume, 2.0 * 2.0 * 0.1);
+}
+
+/// The layer of a planar map is no limit that anyone set.
+TEST(Planar, NoLimitIsBlamedWhereThereIsNone) {
+  const OccupancyMap map = testing::make_map(0.1, {0, 0, 0}, {40, 20, 0}, [](const VoxelIndex& v) {
+    const bool hull = v.x == 0 || v.y == 0 || v.x == 40 || v.y == 20;
+    return hull ? VoxelState::kOccupied : VoxelState::kFree;
+  });
+  const Roadmap roadmap = build_roadmap(flatten(map, 0.0, 0.1), {.min_clearance = 0.3}).roadmap;
+  EXPECT_FALSE(limit_flights(roadmap.esdf, roadmap.esdf.limits));
+  const auto blocked = RouteBlocks(roadmap).between({0.5, 1, 0}, {3.5, 1, 0}, 0.3);
+  ASSERT_TRUE(blocked);
+  EXPECT_NE(blocked->by, Blocker::kLimits);
+  const std::string told =
+      refusal([&] { build_roadmap(flatten(map, 0.0, 0.1), {.min_clearance = 2.5}); });
+  EXPECT_EQ(told.find("limits"), std::string::npos) << told;
+}
+
+/// Blocks are allocated in the plane alone, whatever unknown space is taken for.
+TEST(Planar, EveryPolicyIsSavedAndRead) {
+  const OccupancyMap map = testing::make_map(0.1, {0, 0, 0}, {40, 20, 0}, [](const VoxelIndex& v) {
+    return v.x == 20 && v.y < 8 ? VoxelState::kOccupied : VoxelState::kFree;
+  });
+  const TemporaryFolder folder;
+  for (const UnknownPolicy unknown :
+       {UnknownPolicy::kObstacle, UnknownPolicy::kIgnore, UnknownPolicy::kFree}) {
+    SCOPED_TRACE(name_of(unknown));
+    const Roadmap roadmap =
+        build_roadmap(flatten(map, 0.0, 0.1), {.min_clearance = 0.3, .unknown = unknown}).roadmap;
+    for (const BlockIndex& block : roadmap.esdf.layout.blocks()) EXPECT_EQ(block.z, 0);
+    save_roadmap(roadmap, folder / "a.ridge");
+    const Roadmap again = load_roadmap(folder / "a.ridge");
+    EXPECT_EQ(again.esdf.squared.values().size(), roadmap.esdf.squared.values().size());
+    EXPECT_TRUE(plan(again, {1.0, 0.5, 0.0}, {3.0, 0.5, 0.0}).ok());
+  }
 }
 
 }  // namespace

@@ -165,6 +165,7 @@ TEST(SolidMesh, TurnedInsideOutItIsACave) {
   EXPECT_LT(cave.distance({3.0, 0.0, 0.0}).distance, -0.9);
   EXPECT_GT(cave.cast_ray(Point::Zero(), Vector::UnitX()), 1.5);
   EXPECT_EQ(cave.cast_ray({3.0, 0.1, 0.0}, -Vector::UnitX()), 0.0);
+  EXPECT_EQ(cave.cast_ray({3.0, 0.1, 0.0}, Vector::UnitX()), 0.0);  // all rock
 }
 
 TEST(SolidMesh, NotClosedItIsAThinSheet) {

@@ -81,6 +81,11 @@ TEST(Trajectory, SamplesAreThoseOfSingleTimesAndEndExactly) {
   EXPECT_TRUE(Trajectory{}.sample(0.1).empty());
 }
 
+TEST(Trajectory, WithoutSegmentsHasNoStates) {
+  EXPECT_THROW(Trajectory{}.at(0.0), InputError);
+  EXPECT_TRUE(Trajectory{}.sample(0.1).empty());
+}
+
 TEST(Trajectory, RefusesStepsThatNeverReachTheEnd) {
   std::mt19937 random(3);
   Trajectory trajectory;

@@ -125,6 +125,23 @@ test("plans with any numbers that planners take, also those between the steps of
   for (const [id, value] of [["radius", "0.3"], ["snap", "0.5"], ["prefer", "0"]]) await planned(page, () => set(id, value));
 });
 
+test("a field that is left by pressing Enter is planned with once", kLimit, async () => {
+  const asked = () => page.asked.filter((address) => address.includes("/api/plan")).length;
+  await page.fill("#to", "2, -0.9, 1");
+  const before = asked();
+  await planned(page, () => page.locator("#to").press("Enter"));
+  assert.equal(asked(), before + 1);
+  await planned(page, () => set("to", "2, -1, 1"));
+});
+
+test("where start and goal are one place there is no flight, nor that of before", kLimit, async () => {
+  await planned(page, () => set("to", "-2, 1, 1"));
+  await page.waitForFunction(() => document.getElementById("no-flight").textContent !== "");
+  assert.match(await text_of(page, "#no-flight"), /start and goal are one place/);
+  assert.ok(await page.locator("#flight-time").isHidden());
+  await planned(page, () => set("to", "2, -1, 1"));
+});
+
 test("the flight is that of the speed in the form, in whatever order answers come", kLimit, async () => {
   const flown = () => page.evaluate(() => window.ridgeway.app.flight.flown);
   const slow = await hold(page, "**/api/trajectory*max_speed=0.5");

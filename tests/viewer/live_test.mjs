@@ -111,8 +111,19 @@ test("two pages see the same, also one that comes later, and one that leaves dis
   assert.deepEqual(await counts(late), await counts(page));
   assert.deepEqual(late.complaints, []);
   await late.close();
-  write_scan();
+});
+
+test("the reason why there is no route stays when the map has changed", async () => {
+  await page.fill("#radius", "0.9");
+  await planned(page, () => page.locator("#go").click());
+  const told = () => text_of(page, "#result");
+  const reason = await told();
+  assert.match(reason, /nearest obstacle|does not know/);
+  await planned(page, write_scan);
   await shown_scan(6);
+  assert.match(await told(), /nearest obstacle|does not know/);
+  await page.fill("#radius", "0.3");
+  await planned(page, () => page.locator("#go").click());
 });
 
 test("who is slow holds up nobody, and gets the newest", async () => {

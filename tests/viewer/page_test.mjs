@@ -103,6 +103,23 @@ test("a wall that is cut is one colour, not a way to look below the floor", asyn
   await page.locator("#orbit").click();
 });
 
+test("where a wall is cut clicks do not go through it", async () => {
+  await page.locator("#top").click();
+  await set("cut", "0.8");
+  await page.evaluate(() => window.ridgeway.app.heights.sectioned);
+  const before = await page.inputValue("#to");
+  await page.locator("[data-tool=goal]").click();
+  await click_at(page, [0.05, 1.25, 0.8]);
+  assert.match(await text_of(page, "#hint"), /^This is inside an obstacle that is cut/);
+  assert.equal(await page.inputValue("#to"), before);
+  await page.locator("#orbit").click();
+  await page.locator("[data-tool=measure]").click();
+  for (const place of [[0.05, 1.25, 0.8], [0.05, -1.25, 0.8]]) await click_at(page, place);
+  assert.match(await text_of(page, "#hint"), /^2\.\d+ m: 2\.\d+ m across, (-?0\.0\d*|0) m up/);
+  await page.keyboard.press("Escape");
+  await set("cut", "2.2");
+});
+
 test("clicks on start and goal plan what the command line plans", async () => {
   await page.locator("#top").click();
   await page.locator("[data-tool=start]").click();
@@ -304,6 +321,12 @@ test("measures what is clicked", async () => {
   await click_at(page, [-0.5, -1.5, 0]);
   const hint = await text_of(page, "#hint");
   assert.ok(Math.abs(Number(/^([\d.]+) m/.exec(hint)[1]) - 2) < 0.05, hint);
+  // Where the start is marked, too.
+  const [x, y, z] = (await page.inputValue("#from")).split(",").map(Number);
+  await click_at(page, [x, y, z]);
+  await click_at(page, [x + 0.5, y, 0]);
+  assert.notEqual(await text_of(page, "#hint"), hint);
+  assert.match(await text_of(page, "#hint"), /^[\d.]+ m: /);
   await page.keyboard.press("Escape");
 });
 

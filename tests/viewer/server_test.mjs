@@ -158,6 +158,16 @@ test("answers its own page alone", async () => {
   }
 });
 
+test("opens for a person who follows a link elsewhere, and for no other page's script", async () => {
+  const from_elsewhere = (path, mode, destination) =>
+    send(`GET ${path} HTTP/1.1\r\nHost: 127.0.0.1:${served.port}\r\nSec-Fetch-Site: cross-site\r\nSec-Fetch-Mode: ${mode}\r\nSec-Fetch-Dest: ${destination}\r\n\r\n`);
+  assert.equal(status(await from_elsewhere("/", "navigate", "document")), 200);
+  for (const [path, mode, destination] of [
+    ["/", "navigate", "iframe"], ["/", "no-cors", "script"], ["/", "cors", "empty"], ["/api/info", "navigate", "document"], ["/api/surface", "no-cors", "image"],
+  ])
+    assert.equal(status(await from_elsewhere(path, mode, destination)), 403, `${path} ${mode} ${destination}`);
+});
+
 test("is bound to this machine alone", () => {
   const hex = served.port.toString(16).toUpperCase().padStart(4, "0");
   const listening = ["tcp", "tcp6"].flatMap((file) => readFileSync(`/proc/net/${file}`, "utf8").split("\n"))

@@ -76,7 +76,7 @@ export class App implements Page {
     element("name").textContent = info.name;
     const { x, y, z } = this.stage.size;
     element("facts").textContent =
-      `${metres(x, 1)} x ${metres(y, 1)} x ${metres(z, 1)} m, voxels of ${metres(info.voxel_size)} m, ` +
+      `${[x, y, z].map((side) => metres(side, side < 1 ? 3 : 1)).join(" x ")} m, voxels of ${metres(info.voxel_size)} m, ` +
       `for robots of ${metres_at_least(info.min_clearance)} m radius and more; ${counted(info.vertices, "vertex", "vertices")}, ${counted(info.edges, "edge", "edges")}`;
   }
 }

@@ -108,6 +108,11 @@ export class SliceDrawing {
     this.mesh.visible = false;
   }
 
+  /** Nothing is known of the height that is asked for. */
+  clear(): void {
+    this.mesh.scale.set(0, 0, 0);
+  }
+
   show(slice: Slice, base: THREE.Vector3, scale: ClearanceScale): void {
     const { columns, rows, millimetres, step } = slice;
     const pixels = new Uint8Array(4 * Math.max(1, columns * rows));

@@ -25,7 +25,10 @@ export class FlightPanel {
   private asked = 0; // flights so far: only the last is taken
 
   constructor(private readonly page: Page) {
-    input("time").addEventListener("input", () => this.set_time(input("time").valueAsNumber));
+    input("time").addEventListener("input", () => {
+      this.stop();
+      this.set_time(input("time").valueAsNumber);
+    });
     element("play").addEventListener("click", () => (this.playing ? this.stop() : this.play()));
     element("speed").addEventListener("change", () => this.query && this.fly(this.query, this.waypoints));
   }
@@ -42,18 +45,26 @@ export class FlightPanel {
     this.flown = this.ask({ ...along, max_speed: speed.value });
   }
 
+  /** Whether it is, or will be, the flight along this route that answers a query. */
+  is_along(query: Record<string, string>, waypoints: Vector[]): boolean {
+    return !!this.query && JSON.stringify([this.query, this.waypoints]) === JSON.stringify([query, waypoints]);
+  }
+
   private async ask(parameters: Record<string, string>): Promise<void> {
     const asked = ++this.asked;
     let flight: Flight | undefined;
     let failure = "";
     try {
       const answer = await ask_json<Flight>(this.page.source, "/api/trajectory", parameters);
-      if (answer.status === "ok") flight = answer;
+      if (answer.status === "ok" && answer.samples.length > 1) flight = answer;
+      else if (answer.status === "ok") failure = "No trajectory: start and goal are one place";
       else failure = `No trajectory: ${answer.reason ?? answer.status.replaceAll("_", " ")}`;
     } catch (error) {
       failure = error_text(error);
     }
-    if (asked === this.asked) this.set(flight, failure);
+    if (asked !== this.asked) return;
+    if (flight && JSON.stringify(flight) === JSON.stringify(this.flight)) return; // it goes on
+    this.set(flight, failure);
   }
 
   clear(): void {
@@ -88,7 +99,9 @@ export class FlightPanel {
     const state = this.page.routes.set_time(time);
     if (!state || !this.flight) return;
     input("time").value = String(time);
-    element("clock").textContent = `${time.toFixed(1)} of ${this.flight.duration.toFixed(1)} s`;
+    const text = `${time.toFixed(1)} of ${this.flight.duration.toFixed(1)} s`;
+    element("clock").textContent = text;
+    input("time").setAttribute("aria-valuetext", text);
     element("state").textContent = `${Math.hypot(...state.velocity).toFixed(2)} m/s at ${place_text(state.position)}; ${clearance_text(this.flight.clearance, "clearance at least ")}`;
   }
 

@@ -14,7 +14,7 @@ export function distance_to_see_all(camera: THREE.PerspectiveCamera, aspect: num
   const slope = Math.tan(THREE.MathUtils.degToRad(camera.fov / 2)) / kRoom;
   const right = new THREE.Vector3().crossVectors(camera.up, back).normalize();
   const up = new THREE.Vector3().crossVectors(back, right);
-  let distance = 1;
+  let distance = 0;
   for (const corner of corners_of(box)) {
     const from = corner.sub(place);
     const beside = Math.max(Math.abs(from.dot(right)) / (slope * aspect), Math.abs(from.dot(up)) / slope);

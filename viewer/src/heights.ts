@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
+import * as THREE from "three";
 import { element, input } from "./dom";
 import { SliceDrawing } from "./drawings";
 import { read_section, read_slice } from "./layers";
 import { metres } from "./numbers";
 import type { Page } from "./page";
 import { SectionDrawing } from "./section";
+import type { Hit } from "./surface";
 
 /** The sliders: where obstacles are cut off, and where distances are shown. */
 export class HeightPanel {
@@ -36,6 +38,17 @@ export class HeightPanel {
     this.tell();
     page.surface.mesh.add(this.section.mesh);
     this.cut_anew();
+  }
+
+  /** What a ray meets first: a face, or an obstacle where it is cut. */
+  hit(ray: THREE.Ray): Hit | undefined {
+    const { surface } = this.page;
+    const hit = surface.hit(ray);
+    const distance = (surface.cut - ray.origin.z) / ray.direction.z;
+    if (!(ray.direction.z < 0 && distance > 0) || (hit && hit.distance <= distance)) return hit;
+    const place = ray.at(distance, new THREE.Vector3());
+    if (!this.section.covers(place.x, place.y)) return hit;
+    return { distance, place, normal: new THREE.Vector3(0, 0, 1), is_cut: true };
   }
 
   /** Metres from the map's lowest corner. */
@@ -92,6 +105,7 @@ export class HeightPanel {
         const bytes = await page.source.ask("/api/slice", { z: String(page.base.z + input("slice").valueAsNumber) });
         this.slice.show(read_slice(bytes), page.base, page.scale);
       } catch (error) {
+        this.slice.clear();
         page.hint((error as Error).message);
       }
       page.stage.changed();
@@ -102,11 +116,17 @@ export class HeightPanel {
   private set_range(): void {
     const { surface, info } = this.page;
     const step = info.voxel_size;
-    for (const id of ["cut", "slice"]) Object.assign(input(id), { min: String(surface.low), max: String(surface.high + step), step: String(step) });
+    const set = (id: string, max: number) => Object.assign(input(id), { min: String(surface.low), max: String(max), step: String(step) });
+    set("cut", surface.high + step);
+    set("slice", surface.high - step); // its upper layer's lower end
     input("cut").value = String(surface.cut);
   }
 
   private tell(): void {
-    for (const id of ["cut", "slice"]) element(`${id}-text`).textContent = `${metres(this.page.base.z + input(id).valueAsNumber, 2)} m`;
+    for (const id of ["cut", "slice"]) {
+      const text = `${metres(this.page.base.z + input(id).valueAsNumber, 2)} m`;
+      element(`${id}-text`).textContent = text;
+      input(id).setAttribute("aria-valuetext", text);
+    }
   }
 }

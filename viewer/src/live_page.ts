@@ -36,6 +36,9 @@ interface LiveEvent {
 /** Milliseconds after which a server that has not answered, or has no room for this page, is asked again. */
 const kAgain = 5000;
 
+/** Milliseconds from a scan until the reason and the trajectory of the route are asked for. */
+const kSettle = 1000;
+
 /** A map that grows, and the drone that maps it. */
 export class LivePage {
   app?: App;
@@ -50,6 +53,7 @@ export class LivePage {
   private last?: LiveEvent;
   private beginning?: Promise<void>;
   private refresh_asked = false;
+  private settling = 0; // until all is planned again
   /** For measurements: bytes of each event, as they came. */
   readonly bytes: number[] = [];
 
@@ -173,7 +177,19 @@ export class LivePage {
     this.stage.look_again();
     this.stage.changed();
     void app.layers.renew();
-    void app.query.plan(!is_last);
+    this.plan_again(is_last);
+  }
+
+  /** At once the route alone; with reason and trajectory once a second at most. */
+  private plan_again(is_last: boolean): void {
+    const { query } = this.app!;
+    if (is_last) window.clearTimeout(this.settling);
+    void query.plan(!is_last);
+    if (is_last || this.settling) return;
+    this.settling = window.setTimeout(() => {
+      this.settling = 0;
+      if (!query.is_dragging) void query.plan();
+    }, kSettle);
   }
 
   private show_drone({ position, yaw, ahead }: LiveEvent): void {

@@ -46,7 +46,7 @@ export function volume_text(value: number): string {
 
 export function seconds(value: number): string {
   if (value === 0) return "less than 0.1 ms"; // a page's clock is coarse
-  if (value < 1e-3) return `${(1e6 * value).toPrecision(3)} µs`;
-  if (value < 1) return `${(1e3 * value).toPrecision(3)} ms`;
+  if (value < 1e-3) return `${Number((1e6 * value).toPrecision(3))} µs`;
+  if (value < 1) return `${Number((1e3 * value).toPrecision(3))} ms`;
   return `${value.toPrecision(3)} s`;
 }

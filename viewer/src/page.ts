@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 import type * as THREE from "three";
 import type { ClearanceScale } from "./drawings";
+import type { HeightPanel } from "./heights";
 import type { Info } from "./layers";
 import type { RouteDrawing } from "./routes";
 import type { MapSource } from "./source";
@@ -18,6 +19,7 @@ export interface Page {
   readonly surface: SurfaceMesh;
   readonly routes: RouteDrawing;
   readonly scale: ClearanceScale;
+  readonly heights: HeightPanel;
   hint(text: string): void;
   update_legend(): void;
 }

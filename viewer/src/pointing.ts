@@ -34,12 +34,12 @@ export class Pointing {
       // A second finger moves the view: neither is a click then.
       this.down = event.isPrimary ? { pointer: event.pointerId, x: event.offsetX, y: event.offsetY } : undefined;
       if (!this.down) return;
-      const which = event.button === 0 ? routes.marker_at(event.offsetX, event.offsetY) : undefined;
+      const which = event.button === 0 && this.tool !== "measure" ? routes.marker_at(event.offsetX, event.offsetY) : undefined;
       if (which) this.begin_drag(which, event);
     }, { capture: true });
     canvas.addEventListener("pointermove", (event) => {
       if (this.dragged?.pointer === event.pointerId) this.drag(event);
-      else if (!this.dragged && event.buttons === 0) canvas.style.cursor = routes.marker_at(event.offsetX, event.offsetY) ? "grab" : this.tool === "look" ? "" : "crosshair";
+      else if (!this.dragged && event.buttons === 0) canvas.style.cursor = this.tool !== "measure" && routes.marker_at(event.offsetX, event.offsetY) ? "grab" : this.tool === "look" ? "" : "crosshair";
     });
     canvas.addEventListener("pointerup", (event) => {
       if (this.dragged?.pointer === event.pointerId) return this.end_drag();
@@ -69,6 +69,7 @@ export class Pointing {
     const hit = this.hit_at(x, y);
     if (!hit) return page.hint("There is no obstacle to click on here: click on the floor or a wall");
     if (this.tool === "measure") return this.measure(hit.place);
+    if (hit.is_cut) return page.hint("This is inside an obstacle that is cut: click on the floor, or cut higher");
     const room = this.query.radius + page.info.voxel_size;
     const asked = input("lift").valueAsNumber;
     if (Number.isNaN(asked)) return page.hint("Click height is no number");
@@ -85,9 +86,9 @@ export class Pointing {
 
   /** What is clicked on: an obstacle, or on a planar map, which has no floor, the layer that robots are in. */
   private hit_at(x: number, y: number): Hit | undefined {
-    const { stage, surface, info, base } = this.page;
+    const { stage, info, base } = this.page;
     const ray = stage.ray_at(x, y);
-    const hit = surface.hit(ray);
+    const hit = this.page.heights.hit(ray);
     if (!info.planar || !info.bounds) return hit;
     const normal = new THREE.Vector3(0, 0, 1);
     const place = ray.intersectPlane(new THREE.Plane(normal, base.z - info.bounds.min[2] - info.voxel_size / 2), new THREE.Vector3());

@@ -11,6 +11,8 @@ import type { Page } from "./page";
 import { ask_json } from "./source";
 
 type End = "start" | "goal";
+/** Seconds after which a plan is given up (view/map_answers.cpp). */
+const kLongestPlan = 10;
 const kEnds: readonly End[] = ["start", "goal"];
 const kFields = { start: "from", goal: "to" } as const;
 const kTitles = { start: "Start", goal: "Goal" } as const;
@@ -32,6 +34,8 @@ export class QueryPanel {
   /** For measurements: of the last plan, milliseconds from the question to the answer. */
   answer_time = 0;
   private asking = false; // a plan is under way
+  private asked = ""; // what it asks, where all is wanted
+  private reasoned = ""; // question and status of the answer whose reason stands there
   private wanted: "nothing" | "route" | "all" = "nothing"; // of the next
   private blocked_place?: Vector;
   private unwritten?: End; // moved, and not yet in the form
@@ -52,7 +56,7 @@ export class QueryPanel {
       event.preventDefault();
       const missing = kEnds.find((end) => !this[end]);
       if (missing) this.refuse(this.fault() || `${kTitles[missing]} is missing: click on the map, or type ${kNoPlace}`);
-      else void this.plan();
+      else if (this.asked !== JSON.stringify(this.query())) void this.plan(); // a field that was left has asked already
     });
     this.fit_form();
     element("show-place").addEventListener("click", () => this.blocked_place && fly_to(this.blocked_place));
@@ -138,10 +142,13 @@ export class QueryPanel {
       while (this.wanted !== "nothing") {
         const is_route_enough = this.wanted === "route";
         this.wanted = "nothing";
-        await this.plan_once(this.query(), is_route_enough);
+        const query = this.query();
+        this.asked = is_route_enough ? "" : JSON.stringify(query);
+        await this.plan_once(query, is_route_enough);
       }
     } finally {
       this.asking = false;
+      this.asked = "";
     }
     document.body.dataset.planned = String(Number(document.body.dataset.planned ?? 0) + 1);
   }
@@ -158,13 +165,13 @@ export class QueryPanel {
   /** A flight is asked for, and not waited for: meanwhile others can be planned. */
   private async plan_once(query: Query, is_quick: boolean): Promise<void> {
     const started = performance.now();
-    const waiting = is_quick ? 0 : window.setTimeout(() => this.start && this.goal && !this.fault() && this.refuse("Planning ...", "waiting"), kPatience);
+    const waiting = window.setTimeout(() => this.start && this.goal && !this.fault() && this.refuse("Planning ...", "waiting"), kPatience);
     try {
       const answer = await ask_json<PlanAnswer>(this.page.source, "/api/plan", is_quick ? { ...query, explain: "0" } : query);
       window.clearTimeout(waiting);
       this.answer_time = performance.now() - started;
       if (!this.start || !this.goal || this.fault()) return; // taken away since, or asked otherwise
-      this.show(answer, query);
+      this.show(answer, query, is_quick);
       if (!is_quick) element("result").scrollIntoView({ block: "nearest" }); // below the form on narrow screens
       const first = this.shown[0];
       if (first && !is_quick && this.wanted === "nothing") this.flight.fly(query, first.waypoints);
@@ -186,6 +193,7 @@ export class QueryPanel {
   /** There is no answer to what the form asks now, and what answered an earlier question must not stay for one. */
   private refuse(text: string, kind = "bad"): void {
     this.shown = [];
+    this.reasoned = "";
     this.block(undefined);
     this.page.routes.show_routes([]);
     this.flight.clear();
@@ -201,15 +209,19 @@ export class QueryPanel {
     this.page.routes.set_blocked(this.blocked_place, blocked?.radius ?? 0);
   }
 
-  private show(answer: PlanAnswer, query: Query): void {
+  /** A quick answer leaves the reason and the flight that are there, where it is the same as the one before. */
+  private show(answer: PlanAnswer, query: Query, is_quick: boolean): void {
     const routes = answer.routes ?? (answer.status === "ok" ? [answer as Route] : []);
+    const question = JSON.stringify([query, answer.status]);
+    if (is_quick && routes.length === 0 && this.reasoned === question) return;
+    this.reasoned = is_quick ? "" : question;
     this.shown = routes;
     this.page.routes.show_routes(routes);
-    this.flight.clear();
+    if (!routes[0] || !this.flight.is_along(query, routes[0].waypoints)) this.flight.clear();
     this.page.stage.answered(); // the picture first: it is drawn while the words are set
     this.block(answer.blocked);
     element("show-place").hidden = !this.blocked_place;
-    element("command").textContent = this.command(query);
+    element("command").textContent = this.command(query, answer.status);
     if (routes.length === 0) this.show_line(reason_text(answer), "bad");
     else element("result").replaceChildren(...route_rows(routes, answer));
     this.page.update_legend();
@@ -225,12 +237,14 @@ export class QueryPanel {
   }
 
   /** The same question on the command line. */
-  private command(parameters: Query): string {
-    const words = ["ridgeway plan", shell_word(this.page.info.name), `--from=${parameters.from}`, `--to=${parameters.to}`, `--radius ${parameters.radius}`];
+  private command(parameters: Query, status: string): string {
+    const { name } = this.page.info;
+    const words = ["ridgeway plan", shell_word(name.startsWith("-") ? `./${name}` : name), `--from=${parameters.from}`, `--to=${parameters.to}`, `--radius ${parameters.radius}`];
     if (parameters.planner !== "graph") words.push(`--planner ${parameters.planner}`);
     if (Number(parameters.prefer_clearance) > 0) words.push(`--prefer-clearance ${parameters.prefer_clearance}`);
     if (Number(parameters.snap) > 0) words.push(`--snap ${parameters.snap}`);
     if (parameters.alternatives) words.push(`--alternatives ${parameters.alternatives}`);
+    if (status === "timeout") words.push(`--time-limit ${kLongestPlan}`);
     return words.join(" ");
   }
 }

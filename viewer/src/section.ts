@@ -27,6 +27,8 @@ void main() {
 export class SectionDrawing {
   readonly mesh: THREE.Mesh<THREE.PlaneGeometry, THREE.ShaderMaterial>;
 
+  private shown?: Section;
+
   constructor() {
     const material = new THREE.ShaderMaterial({
       glslVersion: THREE.GLSL3,
@@ -52,10 +54,22 @@ export class SectionDrawing {
     const texture = new THREE.DataTexture(cells, columns, rows, THREE.RedFormat);
     texture.unpackAlignment = 1;
     texture.needsUpdate = true;
+    this.shown = { columns, rows, step, bits, origin };
     const { uniforms } = this.mesh.material;
     uniforms.cells!.value?.dispose();
     uniforms.cells!.value = texture;
     this.mesh.position.set(...origin).sub(base);
     this.mesh.scale.set(step * columns, step * rows, 1);
+  }
+
+  /** Whether an obstacle is cut at a place of the picture. */
+  covers(x: number, y: number): boolean {
+    const { shown, mesh } = this;
+    if (!shown || !mesh.visible) return false;
+    const column = Math.floor((x - mesh.position.x) / shown.step);
+    const row = Math.floor((y - mesh.position.y) / shown.step);
+    if (column < 0 || row < 0 || column >= shown.columns || row >= shown.rows) return false;
+    const i = row * shown.columns + column;
+    return ((shown.bits[i >> 3]! >> (i & 7)) & 1) === 1;
   }
 }

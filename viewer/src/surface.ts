@@ -58,6 +58,8 @@ export interface Hit {
   distance: number;
   place: THREE.Vector3;
   normal: THREE.Vector3;
+  /** Inside an obstacle, where it is cut. */
+  is_cut?: boolean;
 }
 
 /** A surface as it is drawn. */

@@ -57,6 +57,13 @@ class BoundedServer : public httplib::Server {
   const std::function<bool()>& is_over_;
 };
 
+/// A link elsewhere that a person follows: nothing of the map is in the page itself, and no other
+/// page holds it (frame-ancestors, Cross-Origin-Opener-Policy).
+bool opens_page(const httplib::Request& request) {
+  return request.path == "/" && request.get_header_value("Sec-Fetch-Mode") == "navigate" &&
+         request.get_header_value("Sec-Fetch-Dest") == "document";
+}
+
 /// Not from another page, nor from a page elsewhere whose name leads here.
 bool is_from_here(const httplib::Request& request, int port) {
   const std::string at = ":" + std::to_string(port);
@@ -71,7 +78,8 @@ bool is_from_here(const httplib::Request& request, int port) {
   for (const char* header : {"Sec-Fetch-Site", "Origin"})
     if (request.get_header_value_count(header) > 1) return false;
   const std::string site = request.get_header_value("Sec-Fetch-Site");
-  if (!site.empty() && site != "same-origin" && site != "none") return false;
+  if (!site.empty() && site != "same-origin" && site != "none" && !opens_page(request))
+    return false;
   if (!request.has_header("Origin")) return true;
   const std::string origin = request.get_header_value("Origin"), scheme = "http://";
   return origin.starts_with(scheme) && is_here(origin.substr(scheme.size()));
@@ -84,6 +92,7 @@ void set_headers(httplib::Response& response) {
                       "form-action 'none'; frame-ancestors 'none'");
   response.set_header("X-Content-Type-Options", "nosniff");
   response.set_header("Cross-Origin-Resource-Policy", "same-origin");
+  response.set_header("Cross-Origin-Opener-Policy", "same-origin");
   response.set_header("Referrer-Policy", "no-referrer");
   response.set_header("Cache-Control", "no-store");
   response.set_header("Accept-Ranges", "none");

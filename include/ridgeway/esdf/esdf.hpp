@@ -155,6 +155,8 @@ struct EsdfMap;
 FlightLimits limits_in_local(const EsdfMap& esdf, const FlightLimits& limits_world);
 /// Those of the map, in the world.
 FlightLimits limits_in_world(const EsdfMap& esdf);
+/// Whether limits (local) of a map say more than which layer a planar one has.
+bool limit_flights(const EsdfMap& esdf, FlightLimits limits);
 /// Throws InputError where `keep_in` (local) is so flat that it holds the centre of no voxel.
 void require_room(const EsdfMap& esdf, const FlightLimits& limits);
 
@@ -238,8 +240,8 @@ struct EsdfConfig {
 /// keeps the map's origin.
 ///
 /// Under UnknownPolicy::kIgnore the result also allocates the blocks around the map's blocks, so
-/// that every known voxel has its 26 neighbours; under kFree all blocks of the box around those in
-/// which something is known. Throws InputError where memory would not do.
+/// that every known voxel has its 26 neighbours, in a plane 8; under kFree all blocks of the box
+/// around those in which something is known. Throws InputError where memory would not do.
 ///
 /// The map is taken by value, as its states become the field's: who moves it in spares a byte a
 /// voxel, who hands in a copy keeps the map.

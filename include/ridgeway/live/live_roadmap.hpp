@@ -69,9 +69,10 @@ struct UpdateReport {
 /// grouping of the changes and any number of threads, voxels that become free or unknown again
 /// included.
 ///
-/// One thread updates; any number may call snapshot() meanwhile and plan on what they get. An
-/// update that throws leaves map and snapshot as they were: InputError for bad input, naming the
-/// frame, counted from 1, or the change, counted from 0.
+/// Threads may share one: updates come one after the other, and any number of threads may call
+/// snapshot() meanwhile and plan on what they get. An update that throws leaves map and snapshot as
+/// they were: InputError for bad input, naming the frame, counted from 1, or the change, counted
+/// from 0.
 class LiveRoadmap {
  public:
   /// Throws InputError naming the bad field, or a log folder that cannot be used.
@@ -117,14 +118,14 @@ class LiveRoadmap {
   UpdateReport catch_up();
 
   /// The roadmap after the last update, which stays as it is; none while no voxel is
-  /// traversable: then no path is safe. Thread-safe.
+  /// traversable: then no path is safe. Never waits for an update.
   std::shared_ptr<const Roadmap> snapshot() const;
 
   /// The same with cell graph and tangent graph, which are of the whole map and take as long as
   /// many updates: snapshots come without them (Roadmap::is_settled), and queries on those are as
   /// right, but slower, their paths at times longer. Makes them, unless that was done, in the
   /// thread that asks, while others go on; from then on, until the next update, snapshot() has them
-  /// too. Thread-safe.
+  /// too.
   std::shared_ptr<const Roadmap> settled();
 
   /// The map after the last update: the blocks in which something is known, without what waits

@@ -22,12 +22,12 @@ namespace ridgeway {
 /// Throws InputError where `voxel_size` is finer than the map's own.
 OccupancyMap resample(OccupancyMap map, double voxel_size);
 
-/// What lies inside a box (the flight volume): voxels that are not wholly inside, with a slack of
+/// What lies inside bounds (the flight volume): voxels that are not wholly inside, with a slack of
 /// 1e-6 voxels, become unknown, but for occupied ones that share volume with it, or with what is up
 /// to `beyond` metres above its upper faces: where unknown space is no obstacle, these still are.
 /// Infinite coordinates mean no limit.
 /// The map is normalised. Throws InputError for a box that validate_box refuses.
-OccupancyMap crop(OccupancyMap map, const Box& box, double beyond = 0.0);
+OccupancyMap crop(OccupancyMap map, const Box& bounds, double beyond = 0.0);
 
 /// Makes every voxel that shares volume with one of the boxes occupied, unknown ones too. Boxes
 /// reach no farther than one block (8 voxels) beyond the known bounds. A box without extent along

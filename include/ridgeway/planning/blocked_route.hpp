@@ -45,8 +45,9 @@ class RouteBlocks {
   explicit RouteBlocks(const Roadmap& roadmap);  ///< Finds the basins of all free space.
   explicit RouteBlocks(const Roadmap&&) = delete;
 
-  /// Between points of the world, for a sphere of a radius in metres. Nothing where start or goal
-  /// have no place at the radius: then plan() says which and why. `limits`: as in PlanConfig.
+  /// Between points of the world that plan() found no route between, for a sphere of a radius in
+  /// metres. Nothing where start or goal have no place at the radius: then plan() says which and
+  /// why. `limits`: as in PlanConfig.
   /// Throws InputError where they are bad, or the radius is not above 0 or beyond the map's
   /// distances.
   std::optional<BlockedRoute> between(const Point& start, const Point& goal, double radius,

@@ -14,7 +14,8 @@ namespace ridgeway {
 /// Lengths, metres, of the shortest routes along the sparse graph from one start to many goals (all
 /// in the world frame), not pulled tight: those of plan() with `shorten` off, all from one search.
 /// Infinite where the graph has no route for the radius (finer structures may), and where start or
-/// goal are no places to be. Thread-safe on one roadmap. Throws InputError as plan() does.
+/// goal are no places to be. Thread-safe on one roadmap. Throws InputError as plan() does, and for
+/// a radius below the smallest of the roadmap.
 std::vector<double> distances_to_goals(const Roadmap& roadmap, const Point& start,
                                        std::span<const Point> goals,
                                        std::optional<double> radius = std::nullopt);

@@ -170,10 +170,10 @@ struct PlanResult {
 /// of the path, but for escapes, has been verified by the free-space predicate
 /// (esdf/free_space.hpp), in the map's local frame; the waypoints given back are those moved into
 /// the world, which rounds them there (in UTM by a nanometre). The answer is exact on the voxel
-/// lattice: a path is found exactly when A* through the ESDF would find one. Thread-safe on one
-/// roadmap. Throws InputError where the configuration or a point is no number, or the radius is
-/// larger than the map knows distances for, and Cancelled where it is part of what was cancelled
-/// (with_progress).
+/// lattice: a path is found exactly when A* through the ESDF would find one, or the straight line
+/// is free. Thread-safe on one roadmap. Throws InputError where the configuration or a point is no
+/// number, or the radius is larger than the map knows distances for, and Cancelled where it is part
+/// of what was cancelled (with_progress).
 PlanResult plan(const Roadmap& roadmap, const Point& start, const Point& goal,
                 const PlanConfig& config = {});
 

@@ -27,6 +27,7 @@ struct DepthFrame {
 struct DepthSequence {
   std::string layout;               ///< "tum", "7-scenes" or "open3d"
   PinholeCamera camera;             ///< of all images
+  bool is_camera_assumed = false;   ///< nobody named its intrinsics: they are the layout's
   double units_per_metre = 5000.0;  ///< of the images
   std::vector<DepthFrame> frames;   ///< in the order of time
   std::size_t without_pose = 0;     ///< images that no pose belongs to, passed over

@@ -38,8 +38,9 @@ VoxelMask significant_peaks(const EsdfMap& esdf, const Basins& basins);
 /// needed by the legal moves.
 ///
 /// Redirects `basins.next` on the way: afterwards each voxel's way leads to the diagram, widest
-/// first (a diagram voxel's own entry still climbs on). `min_clearance`: the smallest radius,
-/// metres; that of the basins.
+/// first (a diagram voxel's own entry still climbs on). `kernel`: as compute_kernel gives it, with
+/// a voxel at least in every part of space. `min_clearance`: the smallest radius, metres; that of
+/// the basins.
 VoxelMask join_diagram(const EsdfMap& esdf, const VoxelMask& edges, const VoxelMask& kernel,
                        double min_clearance, Basins& basins);
 

@@ -51,7 +51,8 @@ struct Trajectory {
   std::vector<TrajectorySegment> segments;  ///< in the order of time
 
   double duration() const;  ///< seconds
-  /// Times before the start and after the end are those of the ends. Needs a segment.
+  /// Times before the start and after the end are those of the ends. Throws InputError without
+  /// segments: a result that is not ok() has none.
   TrajectoryState at(double time) const;
   /// States every `step` seconds, and at the end; empty without segments. Linear in their number.
   /// Throws InputError where the step is not finite and above 0, or gives more than ten million.
