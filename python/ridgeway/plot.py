@@ -7,22 +7,44 @@
     ridgeway.plot.floor_plan(roadmap, path, height=1.2).figure.savefig("plan.png")
 """
 
+from typing import Any, Iterator, Optional
+
 import numpy as np
 
-from ridgeway import FREE, OCCUPIED
+from ridgeway import FREE, OCCUPIED, Alternatives, Grid, InputError, PlanResult, Roadmap
 
 
-def _heights_of(roadmap, states):
+def _ways_of(path: Any) -> Iterator[np.ndarray]:
+    """The waypoints of a path, or of several."""
+    if isinstance(path, Alternatives) or isinstance(path, (list, tuple)) and any(
+        isinstance(one, PlanResult) for one in path
+    ):
+        for one in path:
+            yield from _ways_of(one)
+        return
+    points = np.asarray(getattr(path, "waypoints", path), dtype=float)
+    if points.size % 3 or points.ndim not in (1, 2):
+        raise InputError(f"paths: expected PlanResult or points (N, 3), got {type(path).__name__}")
+    yield points.reshape(-1, 3)
+
+
+def _heights_of(roadmap: Roadmap, states: Grid) -> np.ndarray:
     """Of where a robot may be, metres: of the graph's vertices, without any of all free voxels."""
     if len(roadmap.graph.vertices):
         return roadmap.graph.vertices[:, 2]
     return states.origin[2] + states.voxel_size * (np.nonzero(states.values == FREE)[2] + 0.5)
 
 
-def floor_plan(roadmap, *paths, height=None, graph=True, axes=None):
+def floor_plan(
+    roadmap: Roadmap,
+    *paths: Any,
+    height: Optional[float] = None,
+    graph: bool = True,
+    axes: Any = None,
+) -> Any:
     """Draws a roadmap from above, and paths on it, from a disc to a square; returns matplotlib's Axes.
 
-    `paths`: PlanResult, or arrays (N, 3), metres, world. `height`: of the layer whose walls are
+    `paths`: PlanResult, Alternatives, or arrays (N, 3), metres, world. `height`: of the layer whose walls are
     shown, metres; None: the median of the paths', or without any of the graph's vertices'; planar
     maps have one layer. `graph`: draw the sparse graph too. `axes`: to draw on; None: those of a
     new figure.
@@ -31,7 +53,7 @@ def floor_plan(roadmap, *paths, height=None, graph=True, axes=None):
 
     states = roadmap.esdf.states()
     size, low = states.voxel_size, np.array(states.origin)
-    ways = [np.reshape(getattr(path, "waypoints", path), (-1, 3)) for path in paths]
+    ways = [way for path in paths for way in _ways_of(path)]
     title = roadmap.source or "roadmap"
     if states.values.ndim == 2:
         shown = states.values
@@ -41,7 +63,10 @@ def floor_plan(roadmap, *paths, height=None, graph=True, axes=None):
             height = np.median(heights if len(heights) else _heights_of(roadmap, states))
         layer = int(np.floor((height - low[2]) / size))
         if not 0 <= layer < states.values.shape[2]:
-            raise ValueError(f"height: expected metres within the map, got {height}")
+            top = low[2] + size * states.values.shape[2]
+            raise InputError(
+                f"height: is {height} (give metres within the map, {low[2]:.2f} to {top:.2f})"
+            )
         shown = states.values[:, :, layer]
         title += f" at {low[2] + size * (layer + 0.5):.2f} m"
     # Unknown pale, free white, obstacles dark.

@@ -209,8 +209,8 @@ void add_queries(py::class_<RoadmapFace>& type) {
            py::arg("limits") = py::none(),
            "explain(self, start, goal, radius=None, limits=None)\n--\n\n"
            "Why there is no route at a radius (metres), as BlockedRoute: at which there would be "
-           "one, and where it\nis too narrow. None where start or goal themselves are no place to "
-           "be. Takes longer than a plan.");
+           "one, and where it\nis too narrow. None where there is a route, or start or goal are no "
+           "place to be. Takes longer than a plan.");
 }
 
 }  // namespace ridgeway::python

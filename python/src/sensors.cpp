@@ -4,6 +4,8 @@
 // Cameras, recordings and simulated worlds.
 #include "sensors.hpp"
 
+#include <cmath>
+
 #include "config.hpp"
 #include "long_call.hpp"
 #include "maps.hpp"
@@ -128,6 +130,23 @@ void add_world(py::module_& module) {
       py::arg("path"), "load_world(path)\n--\n\nThe World of a .yaml file.");
 }
 
+/// No depth camera sees so far; what is farther than a map's range is left out without a word.
+void warn_of_millimetres(const DepthImage& image, const char* name) {
+  constexpr float kFarthest = 100.0f;
+  std::ptrdiff_t far = 0, all = 0;
+  for (const float depth : image.depth)
+    if (depth > 0.0f && std::isfinite(depth)) {
+      ++all;
+      far += depth > kFarthest;
+    }
+  if (2 * far <= all) return;
+  py::module_::import("warnings")
+      .attr("warn")(std::string(name) +
+                        ": most depths are above 100 m; they are metres, millimetres have to be "
+                        "divided by 1000",
+                    py::handle(PyExc_UserWarning), 1);
+}
+
 }  // namespace
 
 DepthImage image_from(py::handle value, const char* name) {
@@ -147,6 +166,7 @@ DepthImage image_from(py::handle value, const char* name) {
   image.depth.reserve(static_cast<std::size_t>(checked.size()));
   for (py::ssize_t i = 0; i < checked.size(); ++i)
     image.depth.push_back(static_cast<float>(checked.data()[i]));
+  warn_of_millimetres(image, name);
   return image;
 }
 

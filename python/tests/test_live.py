@@ -95,6 +95,8 @@ def test_fusion_is_that_of_the_live_map(house, tmp_path):
         fusion.integrate_depth(image, house.camera, pose)
         live.integrate_depth(image, house.camera, pose)
     assert len(fusion) == count
+    with pytest.warns(UserWarning, match="millimetres"):
+        ridgeway.TsdfFusion().integrate_depth(1000.0 * image, house.camera, pose)
     tsdf = fusion.map()
     seen = tsdf.block_weights > 0
     assert np.abs(tsdf.block_distances[seen]).max() <= tsdf.truncation * (1 + 1e-6)

@@ -89,8 +89,13 @@ def test_floor_plans_are_drawn(roadmap, tmp_path):
     # Unless told, at a height where the robot flies, not in the floor.
     assert ridgeway.plot.floor_plan(roadmap, [[1, 1, 0.9], [2, 1, 1.1]]).get_title().endswith("at 1.05 m")
     assert 0.3 < float(ridgeway.plot.floor_plan(roadmap).get_title().split()[-2]) < 2.1
-    with pytest.raises(ValueError, match="height"):
+    with pytest.raises(ridgeway.InputError, match="height: is 99 .* to 2.40"):
         ridgeway.plot.floor_plan(roadmap, height=99)
+    with pytest.raises(ridgeway.InputError, match="paths: expected PlanResult or points"):
+        ridgeway.plot.floor_plan(roadmap, roadmap.plan(START, GOAL), 1.2)
+    several = roadmap.alternatives(START, GOAL, 2)
+    assert len(ridgeway.plot.floor_plan(roadmap, several).lines) == 3 * len(several)
+    assert len(ridgeway.plot.floor_plan(roadmap, list(several)).lines) == 3 * len(several)
 
     plane = np.full((40, 30), ridgeway.FREE, np.uint8)
     plane[[0, -1]] = plane[:, [0, -1]] = ridgeway.OCCUPIED

@@ -134,7 +134,7 @@ FlightLimits limits_in_world(const EsdfMap& esdf) {
   return moved_limits(esdf.limits, [&](const Point& p) { return to_world(esdf, p); });
 }
 
-bool limit_flights(const EsdfMap& esdf, FlightLimits limits) {
+bool has_flight_limits(const EsdfMap& esdf, FlightLimits limits) {
   if (esdf.planar) {
     limits.keep_in.min.z() = FlightLimits{}.keep_in.min.z();
     limits.keep_in.max.z() = FlightLimits{}.keep_in.max.z();

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "files/little_endian.hpp"
+#include "mapping/memory_limit.hpp"
 #include "mesh_file.hpp"
 #include "ply_cloud.hpp"
 #include "ridgeway/common/error.hpp"
@@ -36,7 +37,7 @@ const json& member(const json& object, const char* name) {
 }
 
 void refuse_extension(const std::string& extension, const std::string& name) {
-  throw InputError(name, "needs the extension '" + extension + "'" + " of glTF",
+  throw InputError(name, "needs the extension '" + extension + "' of glTF",
                    "write it without compression, quantisation and instances");
 }
 
@@ -64,6 +65,10 @@ void require_one_file(const json& gltf, const std::string& name) {
 
 /// What is no JSON is left to the reader, which says best what is wrong.
 void require_whole_gltf(std::string_view text, const std::string& name) {
+  constexpr double kBytes = 100.0;  // of a value, the memory around it too
+  const auto values = std::count_if(text.begin(), text.end(),
+                                    [](char c) { return c == '[' || c == '{' || c == ','; });
+  require_memory(kBytes * static_cast<double>(values), name, "give a smaller file");
   const json gltf = json::parse(text, nullptr, false);
   require_known_extensions(gltf, name);
   require_one_file(gltf, name);

@@ -56,7 +56,7 @@ std::optional<BlockedRoute> RouteBlocks::between(const Point& start, const Point
   blocked.goal_number = report.asked[1];
   blocked.start_component = report.components[blocked.start_number];
   blocked.goal_component = report.components[blocked.goal_number];
-  if (limit_flights(esdf_, limits) && blocked.start_number == blocked.goal_number) {
+  if (has_flight_limits(esdf_, limits) && blocked.start_number == blocked.goal_number) {
     blocked.by = Blocker::kLimits;
     return blocked;
   }

@@ -281,7 +281,7 @@ namespace {
             "," + metres(widest->place.z()) + ", has room for " + metres(widest->clearance);
   throw InputError("min_clearance " + number_text(radius), what,
                    std::string("give a smaller min_clearance") +
-                       (limit_flights(esdf, esdf.limits)           ? ", or wider limits"
+                       (has_flight_limits(esdf, esdf.limits)       ? ", or wider limits"
                         : esdf.unknown == UnknownPolicy::kObstacle ? ", or ignore the unknown"
                                                                    : ""));
 }

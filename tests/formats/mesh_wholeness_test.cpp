@@ -46,8 +46,9 @@ TEST(MeshWholeness, WhatWouldBeReadInPartIsRefused) {
            {"a.obj", kFloor + std::string("f 1 2 3\n  surf 0 1 0 1 1 2 3 4\n"), "curved surfaces"},
            {"a.stl", stl(2, 194), "2 triangles, which are 184 bytes, and has 194"},
            {"a.stl", stl(1, 184), "1 triangles, which are 134 bytes, and has 184"}}) {
-    write_whole(folder / name, bytes);
-    const std::string told = refusal([&] { load_mesh(folder / name); });
+    const std::filesystem::path file = folder / name;
+    write_whole(file, bytes);
+    const std::string told = refusal([&] { load_mesh(file); });
     EXPECT_NE(told.find(what), std::string::npos) << name << ": " << told;
   }
 }

@@ -247,7 +247,7 @@ TEST(Planar, NoLimitIsBlamedWhereThereIsNone) {
     return hull ? VoxelState::kOccupied : VoxelState::kFree;
   });
   const Roadmap roadmap = build_roadmap(flatten(map, 0.0, 0.1), {.min_clearance = 0.3}).roadmap;
-  EXPECT_FALSE(limit_flights(roadmap.esdf, roadmap.esdf.limits));
+  EXPECT_FALSE(has_flight_limits(roadmap.esdf, roadmap.esdf.limits));
   const auto blocked = RouteBlocks(roadmap).between({0.5, 1, 0}, {3.5, 1, 0}, 0.3);
   ASSERT_TRUE(blocked);
   EXPECT_NE(blocked->by, Blocker::kLimits);

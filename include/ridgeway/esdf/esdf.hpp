@@ -156,7 +156,7 @@ FlightLimits limits_in_local(const EsdfMap& esdf, const FlightLimits& limits_wor
 /// Those of the map, in the world.
 FlightLimits limits_in_world(const EsdfMap& esdf);
 /// Whether limits (local) of a map say more than which layer a planar one has.
-bool limit_flights(const EsdfMap& esdf, FlightLimits limits);
+bool has_flight_limits(const EsdfMap& esdf, FlightLimits limits);
 /// Throws InputError where `keep_in` (local) is so flat that it holds the centre of no voxel.
 void require_room(const EsdfMap& esdf, const FlightLimits& limits);
 
