@@ -2,12 +2,12 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "roadmap_facts.hpp"
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "common/number_text.hpp"
 #include "common/rounding.hpp"
 #include "console.hpp"
-#include "esdf/nearest_obstacle.hpp"
 #include "esdf/widest_place.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/esdf/free_space.hpp"
@@ -59,10 +59,16 @@ std::string AnswerFacts::or_snap(bool is_movable) const {
   return asked_.snap > 0.0 ? ", or give a larger --snap" : ", or let --snap do so";
 }
 
+bool AnswerFacts::is_unknown_nearest(const Point& place, double radius) {
+  if (roadmap_.esdf.unknown != UnknownPolicy::kObstacle) return false;
+  const PathSurroundings found = surroundings(std::array{place, place}, radius);
+  return found.unknown < found.known;
+}
+
 std::string AnswerFacts::explain_collision(const Query& query, const Point& place,
-                                           bool is_movable) const {
+                                           bool is_movable) {
   const double distance = FreeSpace(roadmap_.esdf).distance(flight_place(roadmap_.esdf, place));
-  const bool is_unknown = detail::is_unknown_nearest(roadmap_.esdf, place, query.radius);
+  const bool is_unknown = is_unknown_nearest(place, query.radius);
   if (distance <= 0.0) {
     std::string inside = std::string("it lies ") +
                          (is_unknown ? "beside what the map does not know" : "in an obstacle") +
@@ -97,7 +103,7 @@ std::string AnswerFacts::explain_collision(const Query& query, const Point& plac
 }
 
 std::string AnswerFacts::explain_endpoint(const Query& query, PlanStatus status,
-                                          OnTheWay on_the_way) const {
+                                          OnTheWay on_the_way) {
   const bool is_start =
       status <= PlanStatus::kStartInCollision || status == PlanStatus::kStartOutsideLimits;
   const bool is_movable = !(is_start ? on_the_way.start : on_the_way.goal);

@@ -53,8 +53,10 @@ class AnswerFacts {
 
  private:
   std::string explain_no_route(const Query& query);
-  std::string explain_endpoint(const Query& query, PlanStatus status, OnTheWay on_the_way) const;
-  std::string explain_collision(const Query& query, const Point& place, bool is_movable) const;
+  std::string explain_endpoint(const Query& query, PlanStatus status, OnTheWay on_the_way);
+  std::string explain_collision(const Query& query, const Point& place, bool is_movable);
+  /// Whether the obstacle that is nearest to a place, within a radius, is unknown space.
+  bool is_unknown_nearest(const Point& place, double radius);
   std::string robot_text(const Query& query) const;
   std::string or_snap(bool is_movable) const;
 

@@ -4,13 +4,15 @@
 // The answers to queries.
 #include "plans.hpp"
 
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "config.hpp"
-#include "esdf/nearest_obstacle.hpp"
 #include "esdf/widest_place.hpp"
 #include "lock.hpp"
 #include "ridgeway/esdf/free_space.hpp"
+#include "ridgeway/esdf/surroundings.hpp"
 #include "ridgeway/formats/path_io.hpp"
 #include "ridgeway/planning/alternatives.hpp"
 #include "ridgeway/planning/blocked_route.hpp"
@@ -62,6 +64,13 @@ std::string too_small(const PlanFace& plan, const Roadmap& roadmap) {
   return "the radius, " + literal(radius) + ", is smaller than the roadmap was built for" + least;
 }
 
+/// Whether the obstacle that is nearest to a place, within a radius, is unknown space.
+bool is_unknown_nearest(const EsdfMap& esdf, const Point& place, double radius) {
+  if (esdf.unknown != UnknownPolicy::kObstacle) return false;
+  const PathSurroundings found = Surroundings(esdf).along(std::array{place, place}, radius);
+  return found.unknown < found.known;
+}
+
 /// Where an end is too near to an obstacle, by how much and what would help.
 std::string reason_of(const PlanFace& plan) {
   if (!plan.question) return reason_of(plan.status);
@@ -74,7 +83,7 @@ std::string reason_of(const PlanFace& plan) {
   const Unlocked unlocked;
   const Point& place = is_start ? start : goal;
   const double distance = FreeSpace(esdf).distance(flight_place(esdf, place));
-  const bool is_unknown = detail::is_unknown_nearest(esdf, place, radius);
+  const bool is_unknown = is_unknown_nearest(esdf, place, radius);
   const std::string end = is_start ? "the start" : "the goal";
   if (distance > 0.0) {
     const auto widest = detail::widest_place(esdf);
