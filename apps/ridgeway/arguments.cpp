@@ -11,6 +11,7 @@
 
 #include "common/number_text.hpp"
 #include "files/atomic_file.hpp"
+#include "files/text.hpp"
 #include "ridgeway/mapping/map_edits.hpp"
 #include "ridgeway/mapping/occupancy_map.hpp"
 
@@ -211,7 +212,7 @@ void require_extension(const std::filesystem::path& file, const std::string& wha
                        std::initializer_list<const char*> extensions) {
   std::string names;
   for (const char* extension : extensions) {
-    if (file.extension() == extension) return;
+    if (extension_of(file) == extension) return;
     names.append(names.empty() ? "" : " or ").append(extension);
   }
   throw InputError(file.string(), "is no name for " + what, "let it end in " + names);

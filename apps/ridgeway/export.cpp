@@ -12,6 +12,7 @@
 #include "console.hpp"
 #include "files/atomic_file.hpp"
 #include "files/read_file.hpp"
+#include "files/text.hpp"
 #include "interruption.hpp"
 #include "json.hpp"
 #include "ridgeway/common/error.hpp"
@@ -33,19 +34,19 @@ struct ExportOptions {
   std::vector<Option> of_pictures, of_roadmaps;
 };
 
-bool is_page(const std::filesystem::path& file) { return file.extension() == ".html"; }
+bool is_page(const std::filesystem::path& file) { return extension_of(file) == ".html"; }
 
 bool is_picture(const std::filesystem::path& file) {
-  return file.extension() == ".png" || file.extension() == ".svg";
+  return extension_of(file) == ".png" || extension_of(file) == ".svg";
 }
 
 /// voxblox layers, of a roadmap or of a fused map.
 bool is_voxblox_name(const std::filesystem::path& file) {
-  return file.extension() == ".vxblx" || file.extension() == ".voxblox";
+  return extension_of(file) == ".vxblx" || extension_of(file) == ".voxblox";
 }
 
 void require_format(const std::filesystem::path& file, const std::string& what) {
-  const auto extension = file.extension();
+  const std::string extension = extension_of(file);
   const bool known = is_voxblox_name(file) ||
                      (what == "diagram" ? extension == ".ply"
                                         : extension == ".json" || extension == ".graphml" ||
@@ -61,7 +62,7 @@ void require_format(const std::filesystem::path& file, const std::string& what) 
 /// What a .ply file is to hold says nothing where none is written.
 void require_ply(const ExportOptions& options, const std::vector<std::filesystem::path>& files) {
   if (options.what == "diagram" && std::none_of(files.begin(), files.end(), [](const auto& file) {
-        return file.extension() == ".ply";
+        return extension_of(file) == ".ply";
       }))
     throw InputError("--what diagram", "is of .ply files, and none is written",
                      "give -o FILE.ply too, or leave it out");
@@ -162,7 +163,7 @@ int run_mesh(const ExportOptions& options, const Globals& globals) {
                      "export the two one after the other");
   refuse_roadmap_options(options);
   const std::filesystem::path file(options.mesh);
-  if (file.extension() != ".ply")
+  if (extension_of(file) != ".ply")
     throw InputError(options.mesh, "names no format of meshes", "use .ply");
   require_writable({file}, {options.file});
   const SurfaceMesh mesh = surface_of(load_tsdf(options.file));

@@ -4,13 +4,14 @@
 
 #include <string>
 
+#include "files/text.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/path_io.hpp"
 
 namespace ridgeway::cli {
 namespace {
 
-bool is_mission(const std::filesystem::path& file) { return file.extension() == ".plan"; }
+bool is_mission(const std::filesystem::path& file) { return extension_of(file) == ".plan"; }
 
 Datum datum_of(const PlanOptions& options) {
   const Point& place = *options.datum;

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "common/number_text.hpp"
+#include "files/text.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/recordings/depth_sequence.hpp"
 #include "ridgeway/recordings/scan_sequence.hpp"
@@ -107,7 +108,7 @@ void require_outside(const std::filesystem::path& output, const std::filesystem:
   std::error_code error;
   const auto whole = std::filesystem::weakly_canonical(folder, error);
   const auto file = std::filesystem::weakly_canonical(output, error);
-  if (std::filesystem::exists(file, error) && file.extension() != ".ridge" &&
+  if (std::filesystem::exists(file, error) && extension_of(file) != ".ridge" &&
       std::mismatch(whole.begin(), whole.end(), file.begin(), file.end()).first == whole.end())
     throw InputError(output.string(), "is part of the recording", "give another file to write to");
 }

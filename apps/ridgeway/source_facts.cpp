@@ -10,6 +10,7 @@
 
 #include "console.hpp"
 #include "files/read_file.hpp"
+#include "files/text.hpp"
 #include "formats/benchmark_map.hpp"
 #include "formats/map_server.hpp"
 #include "formats/mesh_file.hpp"
@@ -107,7 +108,7 @@ const char* voxel_format(const std::filesystem::path& file, std::string_view byt
   if (is_octomap(bytes)) return octomap_format(bytes, name);
   if (is_voxblox(bytes)) return "voxblox";
   if (is_map_server(bytes)) return "ros_map";
-  return file.extension() == ".yaml" || file.extension() == ".yml" ? "world" : "3dmap";
+  return extension_of(file) == ".yaml" || extension_of(file) == ".yml" ? "world" : "3dmap";
 }
 
 /// Whether load_map takes the file for a cloud: it then asks for bounds or a voxel size. Throws
@@ -129,7 +130,7 @@ std::optional<OccupancyMap> try_voxels(const std::filesystem::path& file, const 
 bool is_roadmap_file(const std::filesystem::path& file) {
   constexpr std::string_view kMagic = "RIDGEWAY";
   if (is_tsdf_file(file)) return false;
-  if (file.extension() == ".ridge") return true;
+  if (extension_of(file) == ".ridge") return true;
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
     return false;  // opening a pipe would wait for ever

@@ -12,6 +12,7 @@
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "files/text.hpp"
 #include "flight_picture.hpp"
 #include "interruption.hpp"
 #include "json.hpp"
@@ -187,7 +188,7 @@ int run(const TrajectoryOptions& options, const Globals& globals) {
   std::vector<std::filesystem::path> written, read{options.file};
   if (!options.path.empty()) read.emplace_back(options.path);
   if (!options.output.empty()) {
-    if (std::filesystem::path(options.output).extension() == ".plan")
+    if (extension_of(options.output) == ".plan")
       throw InputError(options.output, "is a mission, whose legs are straight",
                        "write the path as one with `ridgeway plan`");
     require_trajectory_format(options.output);
@@ -216,7 +217,7 @@ int run(const TrajectoryOptions& options, const Globals& globals) {
 
   stop_if_interrupted();
   constexpr double kMostSamples = 1e6;
-  const auto extension = std::filesystem::path(options.output).extension();
+  const std::string extension = extension_of(options.output);
   const bool is_sampled = globals.json || extension == ".csv" || extension == ".json";
   if (is_sampled && !(flown.duration / options.step <= kMostSamples))
     throw InputError("--step " + text_of(options.step, 6),

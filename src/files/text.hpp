@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <locale>
 #include <optional>
@@ -22,6 +23,11 @@ inline std::string in_small_letters(std::string text) {
   for (char& c : text)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return text;
+}
+
+/// What a file's name ends in, from its last dot on, in small letters: `MAP.PLY` is a .ply.
+inline std::string extension_of(const std::filesystem::path& file) {
+  return in_small_letters(file.extension().string());
 }
 
 /// Cuts the next word off the front of a line; empty at its end.
@@ -54,7 +60,8 @@ inline bool take_number(std::string_view& text, double& value) {
   if (begin != end && *begin == '+') ++begin;
   const auto [stop, error] = std::from_chars(begin, end, value);
   if (error == std::errc::invalid_argument) return false;
-  if (error == std::errc::result_out_of_range) value = beyond_all({begin, stop});
+  if (error == std::errc::result_out_of_range)
+    value = beyond_all(std::string_view(begin, static_cast<std::size_t>(stop - begin)));
   text.remove_prefix(static_cast<std::size_t>(stop - text.data()));
   return true;
 }

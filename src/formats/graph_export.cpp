@@ -8,6 +8,7 @@
 #include "common/number_text.hpp"
 #include "files/atomic_file.hpp"
 #include "files/little_endian.hpp"
+#include "files/text.hpp"
 #include "pictures/colour_map.hpp"
 #include "ridgeway/common/error.hpp"
 
@@ -160,7 +161,7 @@ void write_diagram_ply(const Roadmap& roadmap, const std::filesystem::path& path
 }
 
 void write_graph(const Roadmap& roadmap, const std::filesystem::path& path) {
-  const std::string extension = path.extension().string();
+  const std::string extension = extension_of(path);
   if (extension == ".json") return write_graph_json(roadmap, path);
   if (extension == ".graphml") return write_graph_graphml(roadmap, path);
   if (extension == ".ply") return write_graph_ply(roadmap, path);

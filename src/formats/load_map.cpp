@@ -14,6 +14,7 @@
 #include "benchmark_map.hpp"
 #include "common/number_text.hpp"
 #include "files/read_file.hpp"
+#include "files/text.hpp"
 #include "load_steps.hpp"
 #include "map_server.hpp"
 #include "mapping/memory_limit.hpp"
@@ -205,12 +206,11 @@ bool looks_like_xyz(std::string_view bytes) {
 }
 
 bool is_yaml_name(const std::filesystem::path& file) {
-  return file.extension() == ".yaml" || file.extension() == ".yml";
+  return extension_of(file) == ".yaml" || extension_of(file) == ".yml";
 }
 
 bool is_named_as_text(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = extension_of(file);
   return extension == ".xyz" || extension == ".txt" || extension == ".csv" || extension == ".asc";
 }
 

@@ -31,16 +31,16 @@ namespace fs = std::filesystem;
 
 constexpr std::array<const char*, 6> kFormats = {"ply", "obj", "stl", "dae", "glb", "gltf"};
 
-/// What a file's name ends in, in small letters without the dot.
-std::string extension_of(const fs::path& file) {
-  std::string extension = in_small_letters(file.extension().string());
+/// extension_of() without its dot.
+std::string ending_of(const fs::path& file) {
+  std::string extension = extension_of(file);
   if (!extension.empty()) extension.erase(0, 1);
   return extension;
 }
 
 /// The format that a file's name says.
 std::string format_of(const fs::path& file) {
-  std::string extension = extension_of(file);
+  std::string extension = ending_of(file);
   if (std::find(kFormats.begin(), kFormats.end(), extension) == kFormats.end())
     throw InputError(file.string(), "names no format of meshes that can be read",
                      "use .ply, .obj, .stl, .dae or .glb");
@@ -152,7 +152,7 @@ bool is_text_stl(std::string_view bytes) {
 
 std::string mesh_format(std::string_view bytes, const fs::path& file) {
   const std::string_view head = bytes.substr(0, 4096);
-  const std::string extension = extension_of(file);
+  const std::string extension = ending_of(file);
   if (bytes.starts_with("glTF")) return "glb";
   if (head.find("<COLLADA") != std::string_view::npos) return "dae";
   if (is_ply(bytes)) return has_ply_faces(bytes, file.string()) ? "ply" : "";

@@ -8,6 +8,7 @@
 #include "common/number_text.hpp"
 #include "common/require.hpp"
 #include "files/atomic_file.hpp"
+#include "files/text.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/path_io.hpp"
 
@@ -132,7 +133,8 @@ std::string mission_json(const PlanResult& path, const Datum& datum) {
 }
 
 void write_mission(const PlanResult& path, const Datum& datum, const std::filesystem::path& file) {
-  if (file.extension() != ".plan") throw InputError(file.string(), "names no mission", "use .plan");
+  if (extension_of(file) != ".plan")
+    throw InputError(file.string(), "names no mission", "use .plan");
   datum.validate();
   if (path.waypoints.empty())
     throw InputError("path", "has no waypoints: " + std::string(name_of(path.status)),

@@ -14,6 +14,7 @@
 #include "common/number_text.hpp"
 #include "files/atomic_file.hpp"
 #include "files/read_file.hpp"
+#include "files/text.hpp"
 #include "ridgeway/common/error.hpp"
 
 namespace ridgeway {
@@ -151,14 +152,14 @@ std::string plan_json(const PlanResult& result) {
 }
 
 void require_path_format(const std::filesystem::path& path) {
-  const std::string extension = path.extension().string();
+  const std::string extension = extension_of(path);
   if (extension != ".csv" && extension != ".json")
     throw InputError(path.string(), "names no format of paths", "use .csv or .json");
 }
 
 void write_plan(const PlanResult& result, const std::filesystem::path& path) {
   require_path_format(path);
-  const bool is_json = path.extension() == ".json";
+  const bool is_json = extension_of(path) == ".json";
   if (!is_json && !result.ok())
     throw InputError(
         path.string(),
@@ -169,7 +170,7 @@ void write_plan(const PlanResult& result, const std::filesystem::path& path) {
 
 std::vector<Point> read_path(const std::filesystem::path& path) {
   require_path_format(path);
-  return path.extension() == ".json" ? read_json(path) : read_csv(path);
+  return extension_of(path) == ".json" ? read_json(path) : read_csv(path);
 }
 
 }  // namespace ridgeway

@@ -6,6 +6,7 @@
 
 #include "common/number_text.hpp"
 #include "files/atomic_file.hpp"
+#include "files/text.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/path_io.hpp"
 
@@ -27,7 +28,7 @@ int used_coefficients(const Trajectory& trajectory) {
 }  // namespace
 
 void require_trajectory_format(const std::filesystem::path& path) {
-  const std::string extension = path.extension().string();
+  const std::string extension = extension_of(path);
   if (extension != ".csv" && extension != ".json" && extension != ".yaml")
     throw InputError(path.string(), "names no format of trajectories", "use .csv, .json or .yaml");
 }
@@ -97,7 +98,7 @@ std::string trajectory_yaml(const Trajectory& trajectory) {
 void write_trajectory(const PlanResult& path, const TrajectoryResult& result,
                       const std::filesystem::path& file, double step) {
   require_trajectory_format(file);
-  const std::string extension = file.extension().string();
+  const std::string extension = extension_of(file);
   if (extension == ".json")
     write_text_file(file, trajectory_json(path, result, step) + "\n");
   else if (extension == ".csv")

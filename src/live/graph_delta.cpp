@@ -132,11 +132,13 @@ bool is_free(const FreeSpace& space, std::span<const Point> path_world, double r
 
 GraphDelta delta_between(const Roadmap& before, const Roadmap& now) {
   const EsdfMap &a = before.esdf, &b = now.esdf;
-  if (a.voxel_size != b.voxel_size || a.origin != b.origin || a.unknown != b.unknown)
-    throw InputError("roadmaps", "are of maps with another voxel size, origin or policy",
+  if (a.voxel_size != b.voxel_size || a.origin != b.origin || a.unknown != b.unknown ||
+      a.planar != b.planar)
+    throw InputError("roadmaps", "are of maps with another voxel size, origin, policy or shape",
                      "compare snapshots of one live roadmap");
   GraphDelta delta;
   delta.voxel_size = b.voxel_size;
+  delta.planar = b.planar;
   compare(vertices_of(before), vertices_of(now), delta.came_vertices, delta.gone_vertices,
           delta.changed_vertices);
   compare(edges_of(before), edges_of(now), delta.came_edges, delta.gone_edges, delta.changed_edges);
@@ -148,10 +150,15 @@ bool may_be_invalid(std::span<const Point> path, double radius, const GraphDelta
   require_path(path, radius, delta.voxel_size);
   // A cube lies within half its diagonal around its centre; a voxel more for rounding in the world.
   const double reach = radius + (1.0 + 0.5 * std::sqrt(3.0)) * delta.voxel_size;
+  const auto in_map = [&](Point p) {
+    if (delta.planar) p.z() = 0.0;  // the one layer stands for all heights
+    return p;
+  };
   return std::any_of(delta.closed.begin(), delta.closed.end(), [&](const VoxelIndex& voxel) {
-    const Point centre = centre_of(voxel, delta.voxel_size);
+    const Point centre = in_map(centre_of(voxel, delta.voxel_size));
     for (std::size_t i = 0; i < path.size(); ++i)
-      if (squared_distance(centre, path[i], path[std::min(i + 1, path.size() - 1)]) < reach * reach)
+      if (squared_distance(centre, in_map(path[i]),
+                           in_map(path[std::min(i + 1, path.size() - 1)])) < reach * reach)
         return true;
     return false;
   });

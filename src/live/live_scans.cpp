@@ -46,8 +46,9 @@ UpdateReport LiveRoadmap::State::integrate_frame(const Eigen::Isometry3d& T_worl
       frames_of_blocks.add(T_world_sensor, reached);
     }
     const Point& sensor = T_world_sensor.translation();
-    const std::vector<VoxelChange> changes = window.take_near(fusion.find_changes(), sensor);
-    require_near_origin(changes, sensor);
+    const std::vector<VoxelChange> found = fusion.find_changes();
+    require_near_origin(found, sensor);  // those that wait are taken some day
+    const std::vector<VoxelChange> changes = window.take_near(found, sensor);
     report.fusion_seconds = lap.seconds();
     update(changes, voxel_at(sensor, config.fusion.voxel_size), report);
   } catch (const InputError& error) {
@@ -136,8 +137,9 @@ UpdateReport LiveRoadmap::State::finish_correcting() {
   for (const Eigen::Isometry3d& pose : scans.frames.poses) places.emplace_back(pose.translation());
   try {
     fusion.take_over(scans.part, places);
-    const std::vector<VoxelChange> changes = window.take_near(fusion.find_changes(), places.back());
-    require_near_origin(changes, places.back());
+    const std::vector<VoxelChange> found = fusion.find_changes();
+    require_near_origin(found, places.back());
+    const std::vector<VoxelChange> changes = window.take_near(found, places.back());
     report.fusion_seconds = lap.seconds();
     update(changes, std::nullopt, report);
   } catch (...) {

@@ -104,9 +104,12 @@ void LiveRoadmap::State::bring_up_to_date(std::span<const VoxelChange> changes,
     }
     next = built_on(other ? *other : *now, lap, report);
   }
-  const std::lock_guard lock(mutex);
-  snapshot = std::move(next);
-  ++version;
+  {
+    const std::lock_guard lock(mutex);
+    snapshot.swap(next);
+    ++version;
+  }
+  next.reset();  // where nobody holds it that takes long, and planners need not wait for it
   if (other) now = std::move(other);
   now->memory->segments.forget_unasked();
   constexpr std::size_t kUsual = 50'000;  // changes of an update

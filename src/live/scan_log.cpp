@@ -83,7 +83,7 @@ void ScanLog::add(std::span<const Point> points) {
 }
 
 void ScanLog::write(std::size_t scan, const std::string& bytes) {
-  bytes_.reserve(scan + 1);
+  if (bytes_.size() == bytes_.capacity()) bytes_.reserve(2 * scan + 1);
   std::ofstream file(file_of(scan), std::ios::binary | std::ios::trunc);
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.close();

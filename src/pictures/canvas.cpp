@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "files/atomic_file.hpp"
+#include "files/text.hpp"
 #include "ridgeway/common/error.hpp"
 
 namespace ridgeway {
@@ -60,13 +61,13 @@ void check(cairo_status_t status) {
 }  // namespace
 
 void check_picture_extension(const std::filesystem::path& out) {
-  if (out.extension() == ".png" || out.extension() == ".svg") return;
+  if (extension_of(out) == ".png" || extension_of(out) == ".svg") return;
   throw InputError(out.string(), "names no format that a picture can be written in",
                    "use .png or .svg");
 }
 
 Canvas::Canvas(std::filesystem::path out, int width, int height)
-    : out_(std::move(out)), svg_(out_.extension() == ".svg") {
+    : out_(std::move(out)), svg_(extension_of(out_) == ".svg") {
   check_picture_extension(out_);
   surface_.reset(svg_ ? cairo_svg_surface_create_for_stream(append_bytes, &bytes_, width, height)
                       : cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));

@@ -32,6 +32,8 @@ struct Query {
 
 struct Outcome {
   PlanResult roadmap, raw, esdf;
+  double radius = 0.0;
+  bool is_complete = false;  ///< all three
 };
 
 /// Places anywhere in traversable voxels that fit the radius; queries whose radius no voxel fits,
@@ -105,14 +107,13 @@ bool disagrees(const PlanResult& answer, const PlanResult& esdf, bool is_limited
   return answer.status != esdf.status;
 }
 
-void summarise(const Roadmap& roadmap, const CheckConfig& config, const std::vector<Query>& queries,
-               std::vector<Outcome>& outcomes, CheckReport& report) {
+void summarise(const Roadmap& roadmap, const CheckConfig& config, std::vector<Outcome>& outcomes,
+               CheckReport& report) {
   const FlightLimits limits = detail::limits_of(roadmap.esdf, config.limits);
   const FreeSpace space(roadmap.esdf, limits, roadmap.min_clearance, config.robot_height);
   std::vector<double> ratios, microseconds, raw, esdf;
   report.queries = outcomes.size();
-  for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    Outcome& o = outcomes[i];
+  for (Outcome& o : outcomes) {
     report.graph_ok += o.roadmap.ok();
     report.esdf_ok += o.esdf.ok();
     report.disagreements +=
@@ -123,12 +124,11 @@ void summarise(const Roadmap& roadmap, const CheckConfig& config, const std::vec
     raw.push_back(o.raw.seconds.total * 1e6);
     esdf.push_back(o.esdf.seconds.total * 1e3);
     for (const PlanResult* path : {&o.roadmap, &o.raw, &o.esdf})
-      report.paths_below_clearance +=
-          path->ok() && !holds_clearance(space, *path, queries[i].radius);
+      report.paths_below_clearance += path->ok() && !holds_clearance(space, *path, o.radius);
     if (o.esdf.ok() && o.roadmap.length > 0.0)
       ratios.push_back(o.roadmap.length / std::min(o.roadmap.length, o.esdf.length));
     for (Point& p : o.roadmap.waypoints) p = to_world(roadmap.esdf, p);
-    report.paths.push_back({queries[i].radius, std::move(o.roadmap.waypoints)});
+    report.paths.push_back({o.radius, std::move(o.roadmap.waypoints)});
   }
   report.length_ratio = spread_of(std::move(ratios));
   report.microseconds = spread_of(std::move(microseconds));
@@ -162,7 +162,8 @@ PlanConfig answers_of(const CheckConfig& config) {
           .robot_height = config.robot_height};
 }
 
-/// Answers the queries batch by batch into outcomes.
+/// Answers the queries batch by batch into outcomes. Where it is cancelled these are of the queries
+/// that all three were asked.
 void ask_all(const Roadmap& roadmap, const CheckConfig& config, const std::vector<Query>& queries,
              const Progress& progress, std::vector<Outcome>& outcomes) {
   const PlanConfig own = answers_of(config);
@@ -183,10 +184,23 @@ void ask_all(const Roadmap& roadmap, const CheckConfig& config, const std::vecto
       batch[k].roadmap = ask(queries[first + k], own);
       batch[k].raw = ask(queries[first + k], raw);
     });
-    // Apart, so that its sweep through the map does not slow down the queries that are timed.
-    parallel_for_each_index(batch.size(),
-                            [&](std::size_t k) { batch[k].esdf = ask(queries[first + k], esdf); });
-    std::move(batch.begin(), batch.end(), std::back_inserter(outcomes));
+    const auto keep_complete = [&] {
+      std::copy_if(std::move_iterator(batch.begin()), std::move_iterator(batch.end()),
+                   std::back_inserter(outcomes), [](const Outcome& o) { return o.is_complete; });
+    };
+    try {
+      // Apart, so that its sweep through the map does not slow down the queries that are timed.
+      parallel_for_each_index(batch.size(), [&](std::size_t k) {
+        const Query& query = queries[first + k];
+        batch[k].esdf = ask(query, esdf);
+        batch[k].radius = query.radius;
+        batch[k].is_complete = true;
+      });
+    } catch (const Cancelled&) {
+      keep_complete();
+      throw;
+    }
+    keep_complete();
   }
 }
 
@@ -219,19 +233,17 @@ void check_roadmap(const Roadmap& roadmap, const CheckConfig& config, const Prog
   require_memory(static_cast<double>(config.queries) * kBytesPerQuery, "queries",
                  "ask for fewer at a time");
   require_room_for_balls(roadmap, config);
-  std::vector<Query> queries;
   std::vector<Outcome> outcomes;
   try {
     with_progress(progress, "check", [&](const Progress& go_on) {
       check_edges(roadmap, go_on, report);
-      queries = draw_queries(roadmap, config);
-      ask_all(roadmap, config, queries, go_on, outcomes);
+      ask_all(roadmap, config, draw_queries(roadmap, config), go_on, outcomes);
     });
   } catch (const Cancelled&) {
-    summarise(roadmap, config, queries, outcomes, report);
+    summarise(roadmap, config, outcomes, report);
     throw;
   }
-  summarise(roadmap, config, queries, outcomes, report);
+  summarise(roadmap, config, outcomes, report);
 }
 
 }  // namespace ridgeway

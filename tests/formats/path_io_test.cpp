@@ -27,7 +27,7 @@ PlanResult sample_plan() {
 TEST(PathIo, WaypointsComeBackFromBothFormats) {
   const TemporaryFolder folder;
   const PlanResult plan = sample_plan();
-  for (const char* name : {"path.csv", "path.json"}) {
+  for (const char* name : {"path.csv", "path.json", "PATH.CSV", "Path.Json"}) {
     write_plan(plan, folder / name);
     const std::vector<Point> points = read_path(folder / name);
     ASSERT_EQ(points.size(), plan.waypoints.size()) << name;

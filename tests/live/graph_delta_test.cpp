@@ -12,8 +12,11 @@
 
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/live/live_roadmap.hpp"
+#include "ridgeway/mapping/map_edits.hpp"
 #include "ridgeway/planning/plan.hpp"
+#include "ridgeway/roadmap/build_roadmap.hpp"
 #include "support/random_changes.hpp"
+#include "support/random_maps.hpp"
 
 namespace ridgeway {
 namespace {
@@ -135,6 +138,24 @@ TEST(GraphDelta, WhereUnknownSpaceIsFreeItsEndIsTold) {
   const auto now = live.snapshot();
   EXPECT_FALSE(still_safe(path, kRadius, *now));
   EXPECT_TRUE(may_be_invalid(path, kRadius, delta_between(*before, *now)));
+}
+
+/// A planar map has one layer, which stands for whatever height a path says it is at.
+TEST(GraphDelta, HeightsOfPathsSayNothingInAPlane) {
+  const auto flat = [](VoxelState state_of_middle) {
+    const OccupancyMap map = testing::make_map(0.1, {0, 0, 0}, {31, 7, 7}, [&](const auto& v) {
+      return v == VoxelIndex{16, 4, 4} ? state_of_middle : VoxelState::kFree;
+    });
+    return build_roadmap(flatten(map, 0.4, 0.5), {.min_clearance = kRadius}).roadmap;
+  };
+  const Roadmap before = flat(VoxelState::kFree), now = flat(VoxelState::kOccupied);
+  const GraphDelta delta = delta_between(before, now);
+  for (const double height : {-3.0, 0.45, 5.0}) {
+    const std::vector<Point> path = {{0.8, 0.4, height}, {2.4, 0.4, height}};
+    ASSERT_TRUE(still_safe(path, kRadius, before));
+    ASSERT_FALSE(still_safe(path, kRadius, now));
+    EXPECT_TRUE(may_be_invalid(path, kRadius, delta));
+  }
 }
 
 TEST(GraphDelta, APathThatIsLeftAloneStaysFree) {

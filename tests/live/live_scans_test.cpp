@@ -307,6 +307,24 @@ TEST(LiveRoadmap, RefusesScansFarFromItsOrigin) {
   EXPECT_EQ(live.map().layout.block_count(), 0u);
 }
 
+/// Whether what it sees lies within the window or waits beyond.
+TEST(LiveRoadmap, RefusesScansThatReachTooFarBeyondItsWindow) {
+  for (const double window : {1.0, 100.0}) {
+    LiveConfig config = house_config();
+    config.window = window;
+    config.origin = VoxelIndex{-500'000'000 + 10, 0, 0};
+    LiveRoadmap live(config);
+    const double far = 60.0 * config.fusion.voxel_size;
+    const std::vector<Point> points = {{far, 0.0, 0.0}, {far, 0.1, 0.0}};
+    EXPECT_NE(refusal([&] {
+                live.integrate(points, Eigen::Isometry3d::Identity());
+              }).find("farther than 5e8 voxels"),
+              std::string::npos);
+    live.catch_up();
+    EXPECT_EQ(live.map().layout.block_count(), 0u);
+  }
+}
+
 TEST(LiveRoadmap, OfAWorldThatChangesHasTheBytesOfABatchBuildAndForgets) {
   const World world = corridor();
   LiveConfig config = house_config();

@@ -33,6 +33,7 @@ struct GraphDelta {
   /// box of a map has left in which unknown space is free, or that are obstacles now and were none.
   std::vector<VoxelIndex> closed;
   double voxel_size = 0.0;  ///< metres
+  bool planar = false;      ///< as of the maps: heights of paths say nothing
 
   /// Whether nothing is different.
   bool is_empty() const {
@@ -42,7 +43,7 @@ struct GraphDelta {
 };
 
 /// Compares two roadmaps of the same map, before and after it has changed. Throws InputError where
-/// voxel size, origin or policy differ.
+/// voxel size, origin or policy differ, or one is planar and the other is not.
 GraphDelta delta_between(const Roadmap& before, const Roadmap& now);
 
 /// Whether a path (metres, world) that was free at a radius before may not be so any more: whether
