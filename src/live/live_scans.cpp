@@ -47,7 +47,7 @@ UpdateReport LiveRoadmap::State::integrate_frame(const Eigen::Isometry3d& T_worl
     }
     const Point& sensor = T_world_sensor.translation();
     const std::vector<VoxelChange> found = fusion.find_changes();
-    require_near_origin(found, sensor);  // those that wait are taken some day
+    require_near_origin(found, sensor);  // those that wait outside of the window too
     const std::vector<VoxelChange> changes = window.take_near(found, sensor);
     report.fusion_seconds = lap.seconds();
     update(changes, voxel_at(sensor, config.fusion.voxel_size), report);

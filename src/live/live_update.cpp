@@ -109,7 +109,7 @@ void LiveRoadmap::State::bring_up_to_date(std::span<const VoxelChange> changes,
     snapshot.swap(next);
     ++version;
   }
-  next.reset();  // where nobody holds it that takes long, and planners need not wait for it
+  next.reset();  // may free the last snapshot, which takes long: planners need not wait for that
   if (other) now = std::move(other);
   now->memory->segments.forget_unasked();
   constexpr std::size_t kUsual = 50'000;  // changes of an update

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <random>
 
 #include "common/number_text.hpp"
@@ -32,8 +31,7 @@ struct Query {
 
 struct Outcome {
   PlanResult roadmap, raw, esdf;
-  double radius = 0.0;
-  bool is_complete = false;  ///< all three
+  bool is_complete = false;  ///< all three are there
 };
 
 /// Places anywhere in traversable voxels that fit the radius; queries whose radius no voxel fits,
@@ -107,13 +105,15 @@ bool disagrees(const PlanResult& answer, const PlanResult& esdf, bool is_limited
   return answer.status != esdf.status;
 }
 
-void summarise(const Roadmap& roadmap, const CheckConfig& config, std::vector<Outcome>& outcomes,
-               CheckReport& report) {
+void summarise(const Roadmap& roadmap, const CheckConfig& config, const std::vector<Query>& queries,
+               std::vector<Outcome>& outcomes, CheckReport& report) {
   const FlightLimits limits = detail::limits_of(roadmap.esdf, config.limits);
   const FreeSpace space(roadmap.esdf, limits, roadmap.min_clearance, config.robot_height);
   std::vector<double> ratios, microseconds, raw, esdf;
-  report.queries = outcomes.size();
-  for (Outcome& o : outcomes) {
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    Outcome& o = outcomes[i];
+    if (!o.is_complete) continue;
+    ++report.queries;
     report.graph_ok += o.roadmap.ok();
     report.esdf_ok += o.esdf.ok();
     report.disagreements +=
@@ -124,11 +124,12 @@ void summarise(const Roadmap& roadmap, const CheckConfig& config, std::vector<Ou
     raw.push_back(o.raw.seconds.total * 1e6);
     esdf.push_back(o.esdf.seconds.total * 1e3);
     for (const PlanResult* path : {&o.roadmap, &o.raw, &o.esdf})
-      report.paths_below_clearance += path->ok() && !holds_clearance(space, *path, o.radius);
+      report.paths_below_clearance +=
+          path->ok() && !holds_clearance(space, *path, queries[i].radius);
     if (o.esdf.ok() && o.roadmap.length > 0.0)
       ratios.push_back(o.roadmap.length / std::min(o.roadmap.length, o.esdf.length));
     for (Point& p : o.roadmap.waypoints) p = to_world(roadmap.esdf, p);
-    report.paths.push_back({o.radius, std::move(o.roadmap.waypoints)});
+    report.paths.push_back({queries[i].radius, std::move(o.roadmap.waypoints)});
   }
   report.length_ratio = spread_of(std::move(ratios));
   report.microseconds = spread_of(std::move(microseconds));
@@ -162,8 +163,8 @@ PlanConfig answers_of(const CheckConfig& config) {
           .robot_height = config.robot_height};
 }
 
-/// Answers the queries batch by batch into outcomes. Where it is cancelled these are of the queries
-/// that all three were asked.
+/// Answers the queries batch by batch, each into the outcome of its number. Where it is cancelled
+/// those that were answered are complete.
 void ask_all(const Roadmap& roadmap, const CheckConfig& config, const std::vector<Query>& queries,
              const Progress& progress, std::vector<Outcome>& outcomes) {
   const PlanConfig own = answers_of(config);
@@ -177,30 +178,19 @@ void ask_all(const Roadmap& roadmap, const CheckConfig& config, const std::vecto
     plan.radius = q.radius;
     return detail::plan_locally(roadmap, q.start, q.goal, plan);
   };
+  outcomes.resize(queries.size());
   for (std::size_t first = 0; first < queries.size(); first += kBatch) {
     report_progress(progress, first, queries.size());
-    std::vector<Outcome> batch(std::min(kBatch, queries.size() - first));
-    parallel_for_each_index(batch.size(), [&](std::size_t k) {
-      batch[k].roadmap = ask(queries[first + k], own);
-      batch[k].raw = ask(queries[first + k], raw);
+    const std::size_t batch = std::min(kBatch, queries.size() - first);
+    parallel_for_each_index(batch, [&](std::size_t k) {
+      outcomes[first + k].roadmap = ask(queries[first + k], own);
+      outcomes[first + k].raw = ask(queries[first + k], raw);
     });
-    const auto keep_complete = [&] {
-      std::copy_if(std::move_iterator(batch.begin()), std::move_iterator(batch.end()),
-                   std::back_inserter(outcomes), [](const Outcome& o) { return o.is_complete; });
-    };
-    try {
-      // Apart, so that its sweep through the map does not slow down the queries that are timed.
-      parallel_for_each_index(batch.size(), [&](std::size_t k) {
-        const Query& query = queries[first + k];
-        batch[k].esdf = ask(query, esdf);
-        batch[k].radius = query.radius;
-        batch[k].is_complete = true;
-      });
-    } catch (const Cancelled&) {
-      keep_complete();
-      throw;
-    }
-    keep_complete();
+    // Apart, so that its sweep through the map does not slow down the queries that are timed.
+    parallel_for_each_index(batch, [&](std::size_t k) {
+      outcomes[first + k].esdf = ask(queries[first + k], esdf);
+      outcomes[first + k].is_complete = true;
+    });
   }
 }
 
@@ -233,17 +223,19 @@ void check_roadmap(const Roadmap& roadmap, const CheckConfig& config, const Prog
   require_memory(static_cast<double>(config.queries) * kBytesPerQuery, "queries",
                  "ask for fewer at a time");
   require_room_for_balls(roadmap, config);
+  std::vector<Query> queries;
   std::vector<Outcome> outcomes;
   try {
     with_progress(progress, "check", [&](const Progress& go_on) {
       check_edges(roadmap, go_on, report);
-      ask_all(roadmap, config, draw_queries(roadmap, config), go_on, outcomes);
+      queries = draw_queries(roadmap, config);
+      ask_all(roadmap, config, queries, go_on, outcomes);
     });
   } catch (const Cancelled&) {
-    summarise(roadmap, config, outcomes, report);
+    summarise(roadmap, config, queries, outcomes, report);
     throw;
   }
-  summarise(roadmap, config, outcomes, report);
+  summarise(roadmap, config, queries, outcomes, report);
 }
 
 }  // namespace ridgeway
