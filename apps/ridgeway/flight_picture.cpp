@@ -14,10 +14,12 @@ namespace {
 /// Speed, acceleration and clearance over time.
 std::vector<Chart> charts_of(const EsdfMap& esdf, const std::vector<TrajectoryState>& states,
                              const TrajectoryConfig& config) {
-  const FreeSpace space(esdf);
+  const FreeSpace space(esdf), robot(esdf, esdf.limits, config.radius, config.robot_height);
+  const bool is_sphere = robot.is_for_sphere();
   Chart speed{"speed (m/s)", {}, {}, config.motion.max_speed, "limit"};
   Chart acceleration{"acceleration (m/s\u00b2)", {}, {}, config.motion.max_acceleration, "limit"};
-  Chart clearance{"clearance (m)", {}, {}, config.radius, "robot's radius"};
+  Chart clearance{"clearance (m)", {}, {}, robot.inner_radius(config.radius),
+                  is_sphere ? "robot's radius" : "sphere in the robot"};
   for (const TrajectoryState& state : states) {
     for (Chart* chart : {&speed, &acceleration, &clearance}) chart->times.push_back(state.time);
     speed.values.push_back(state.velocity.norm());

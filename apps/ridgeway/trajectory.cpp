@@ -68,7 +68,7 @@ std::string explain_not_free(const EsdfMap& esdf, const std::vector<Point>& path
                              const TrajectoryConfig& config) {
   const FlightLimits limits = both_of(esdf.limits, limits_in_local(esdf, config.limits));
   const FreeSpace space(esdf, limits, config.radius, config.robot_height);
-  for (std::size_t i = 0; i < path.size(); ++i) {
+  for (std::size_t i = path.size() > 1 ? 1 : 0; i < path.size(); ++i) {
     const Point &from = path[i == 0 ? 0 : i - 1], &to = path[i];
     const Point a = flight_place(esdf, from), b = flight_place(esdf, to);
     if (space.is_free(a, b, config.radius)) continue;
@@ -81,7 +81,8 @@ std::string explain_not_free(const EsdfMap& esdf, const std::vector<Point>& path
       return leg + "the robot does not fit, or space is unknown there: plan the path on this map";
     return leg + "it comes within " + text_of(rounded_down(clearance)) +
            " m of an obstacle, and the robot's radius is " + text_of(config.radius) +
-           " m: give a smaller --radius, or plan the path on this map";
+           " m: give a smaller --radius, plan the path on this map, or where this is an escape of "
+           "`plan --escape` give the path as .json, which tells so";
   }
   return "the path is not free at the radius";
 }
@@ -152,6 +153,9 @@ struct Course {
 Course find_course(const TrajectoryOptions& options, const Roadmap& roadmap, double radius) {
   if (!options.path.empty()) {
     Course course{given_path(roadmap, read_path(options.path), options.path), {}, {}, {}};
+    const PathEscapes escapes = read_escapes(options.path);
+    course.path.escape_start = escapes.start;
+    course.path.escape_goal = escapes.goal;
     course.query = {course.path.waypoints.front(), course.path.waypoints.back(), radius};
     return course;
   }

@@ -134,11 +134,13 @@ MeshReply read_triangles(const fs::path& file, std::string_view bytes, const std
 }
 
 /// By how much coordinates of single precision may be off, also those that a file's own transforms
-/// were applied to.
-double rounding_of(const std::vector<Point>& vertices, const std::string& format) {
+/// were applied to. Vertices of no triangle, often far away, do not count.
+double rounding_of(const MeshReply& mesh, const std::string& format) {
   double largest = 0.0;
-  for (const Point& v : vertices)
-    if (v.allFinite()) largest = std::max(largest, v.cwiseAbs().maxCoeff());
+  for (const auto& triangle : mesh.triangles)
+    for (const auto corner : triangle)
+      if (const Point& v = mesh.vertices[corner]; v.allFinite())
+        largest = std::max(largest, v.cwiseAbs().maxCoeff());
   const bool is_placed = format == "dae" || format == "glb" || format == "gltf";
   return (is_placed ? 4.0 : 0.5) * std::numeric_limits<float>::epsilon() * largest;
 }
@@ -186,7 +188,7 @@ TriangleSoup read_mesh(const fs::path& file, std::string_view bytes, const std::
   if (own.unit) scale /= *own.unit > 0.0 ? *own.unit : 1.0;
   Eigen::Matrix3d turn = z_up_from(given.up.value_or(own.up.value_or(UpAxis::kZ)));
   if (own.up) turn = turn * z_up_from(*own.up).transpose();
-  const double off = scale * rounding_of(reply.vertices, format);
+  const double off = scale * rounding_of(reply, format);
   if (scale != 1.0 || !turn.isIdentity(0.0))
     for (Point& v : reply.vertices) v = scale * (turn * v);
   return {std::move(reply.vertices), std::move(reply.triangles), off};

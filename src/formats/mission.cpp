@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -52,9 +53,15 @@ GeoPoint geodetic_of(const Point& p) {
   return {latitude / kDegree, std::atan2(p.y(), p.x()) / kDegree, altitude};
 }
 
-/// Seconds at every corner, and how near to it counts as there, metres: with both the autopilot
-/// stops at corners instead of cutting them, and what was verified are the legs between them.
-constexpr double kHold = 1.0, kAcceptance = 0.2;
+/// Seconds at every corner: the autopilot stops there instead of cutting corners, and what was
+/// verified are the legs between them.
+constexpr double kHold = 1.0;
+
+/// How near to a corner counts as there, metres: no farther than there is room beside the path.
+double acceptance_of(const PlanResult& path) {
+  constexpr double kLeast = 0.05, kMost = 0.2;  // below, no satellite navigation gets there
+  return std::clamp(path.clearance - path.planned_for.radius, kLeast, kMost);
+}
 
 /// Metres from the datum to a place of a mission. A path that is farther away is given in the
 /// coordinates of a grid; its altitude would be kilometres off.
@@ -63,7 +70,7 @@ constexpr double kFarthest = 2e5;
 // Of MAVLink and QGroundControl.
 constexpr int kNavWaypoint = 16, kGlobalFrame = 0, kAboveSeaLevel = 2, kPx4 = 12, kQuadrotor = 2;
 
-Json waypoint_item(const GeoPoint& place, std::size_t number) {
+Json waypoint_item(const GeoPoint& place, double acceptance, std::size_t number) {
   return {
       {"AMSLAltAboveTerrain", nullptr},
       {"Altitude", place.altitude},
@@ -72,7 +79,7 @@ Json waypoint_item(const GeoPoint& place, std::size_t number) {
       {"command", kNavWaypoint},
       {"doJumpId", number},
       {"frame", kGlobalFrame},
-      {"params", {kHold, kAcceptance, 0, nullptr, place.latitude, place.longitude, place.altitude}},
+      {"params", {kHold, acceptance, 0, nullptr, place.latitude, place.longitude, place.altitude}},
       {"type", "SimpleItem"}};
 }
 
@@ -111,7 +118,7 @@ std::string mission_json(const PlanResult& path, const Datum& datum) {
   datum.validate();
   Json items = Json::array();
   for (const Point& p : path.waypoints)
-    items.push_back(waypoint_item(geodetic(p, datum), items.size() + 1));
+    items.push_back(waypoint_item(geodetic(p, datum), acceptance_of(path), items.size() + 1));
   const GeoPoint home =
       geodetic(path.waypoints.empty() ? Point::Zero().eval() : path.waypoints.front(), datum);
   const Json json = {

@@ -111,6 +111,16 @@ std::vector<Point> read_json(const std::filesystem::path& path) {
   }
 }
 
+Escape escape_of(const Json& json, const char* key, const std::filesystem::path& path) {
+  if (!json.contains(key)) return {};
+  const Escape escape{json.at(key).at("length").get<double>(),
+                      json.at(key).at("clearance").get<double>()};
+  if (!(escape.length >= 0.0 && std::isfinite(escape.length) && escape.clearance >= 0.0 &&
+        std::isfinite(escape.clearance)))
+    refuse(path, "has an " + std::string(key) + " that is none");
+  return escape;
+}
+
 std::string plan_csv(const PlanResult& result) {
   std::string text = "x,y,z\n";
   for (const Point& p : result.waypoints) {
@@ -171,6 +181,18 @@ void write_plan(const PlanResult& result, const std::filesystem::path& path) {
 std::vector<Point> read_path(const std::filesystem::path& path) {
   require_path_format(path);
   return extension_of(path) == ".json" ? read_json(path) : read_csv(path);
+}
+
+PathEscapes read_escapes(const std::filesystem::path& path) {
+  require_path_format(path);
+  if (extension_of(path) != ".json") return {};
+  try {
+    const Json json = Json::parse(read_file(path));
+    if (!json.is_object()) return {};
+    return {escape_of(json, "escape_start", path), escape_of(json, "escape_goal", path)};
+  } catch (const Json::exception&) {
+    refuse(path, "has an escape that is none");
+  }
 }
 
 }  // namespace ridgeway

@@ -78,12 +78,33 @@ std::string trajectory_csv(const Trajectory& trajectory, double step) {
   return text;
 }
 
+namespace {
+
+/// Of a piece, as mav_trajectory_generation counts them; below 0 where they are too many.
+long long nanoseconds_of(const TrajectorySegment& segment) {
+  constexpr double kMost = 9e18;
+  const double nanoseconds = segment.duration * 1e9;
+  return nanoseconds < kMost ? std::llround(nanoseconds) : -1;
+}
+
+/// Refuses pieces whose durations the format cannot tell, but for a stand of none.
+void require_whole_nanoseconds(const Trajectory& trajectory, const std::filesystem::path& file) {
+  for (const TrajectorySegment& segment : trajectory.segments)
+    if (segment.duration > 0.0 && nanoseconds_of(segment) < 1)
+      throw InputError(file.string(),
+                       "counts whole nanoseconds, and a piece takes " +
+                           number_text(segment.duration) + " s",
+                       "write .json or .csv, or change the limits of motion");
+}
+
+}  // namespace
+
 std::string trajectory_yaml(const Trajectory& trajectory) {
   const int count = used_coefficients(trajectory);
   std::string text = "segments:\n";
   for (const TrajectorySegment& segment : trajectory.segments) {
     text += "  - N: " + std::to_string(count) + "\n    D: " + std::to_string(kFlatOutputs);
-    text += "\n    time: " + std::to_string(std::llround(segment.duration * 1e9)) + "  # [ns]\n";
+    text += "\n    time: " + std::to_string(nanoseconds_of(segment)) + "  # [ns]\n";
     text += "    coefficients:\n";
     for (int output = 0; output < kFlatOutputs; ++output) {
       text += "      - [";
@@ -103,8 +124,10 @@ void write_trajectory(const PlanResult& path, const TrajectoryResult& result,
     write_text_file(file, trajectory_json(path, result, step) + "\n");
   else if (extension == ".csv")
     write_text_file(file, trajectory_csv(result.trajectory, step));
-  else
+  else {
+    require_whole_nanoseconds(result.trajectory, file);
     write_text_file(file, trajectory_yaml(result.trajectory));
+  }
 }
 
 }  // namespace ridgeway

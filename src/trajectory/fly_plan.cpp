@@ -24,11 +24,12 @@ class Flights {
       config.start_yaw = whole_.trajectory.at(whole_.duration).yaw;
     }
     const TrajectoryResult leg = plan_trajectory(esdf_, path, config);
-    whole_.status = leg.status;
     if (!leg.ok()) {
-      whole_.trajectory = {};
+      whole_ = {};  // nothing of legs that would have held
+      whole_.status = leg.status;
       return false;
     }
+    whole_.status = leg.status;
     append(leg, counts);
     return true;
   }

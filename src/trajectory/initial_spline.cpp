@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kLeastPiece = 0.25;  // of the spacing: no knots closer, but for ends
 constexpr double kRestPiece = 0.15;   // of the piece next to a rest, cut off
+constexpr double kTouching = 1e-7;    // of the spacing: a piece too short to be one, whatever its ends
 
 bool is_among(std::span<const Point> places, const Point& p) {
   return std::find(places.begin(), places.end(), p) != places.end();
@@ -81,7 +82,8 @@ std::vector<Point> place_knots(std::span<const Point> path, double spacing,
     if (is_goal && (path[i] - knots.back()).norm() < passed_over) knots.push_back(farthest);
     const Point from = knots.back(), along = path[i] - from;
     const double length = along.norm();
-    if (length < kLeastPiece * spacing && !is_goal && !is_among(kept, path[i])) {
+    const double least = is_among(kept, path[i]) ? kTouching : kLeastPiece;
+    if (length < least * spacing && !is_goal) {
       if (length > passed_over) farthest = path[i];
       continue;
     }
@@ -92,9 +94,11 @@ std::vector<Point> place_knots(std::span<const Point> path, double spacing,
   }
   const std::size_t n = knots.size();
   const auto to_goal = [&](std::size_t i) { return (knots.back() - knots[i]).norm(); };
-  if (n > 2 && to_goal(n - 2) < kLeastPiece * spacing && to_goal(n - 2) < to_goal(n - 3) &&
-      !is_among(kept, knots[n - 2]))
-    knots.erase(knots.end() - 2);
+  if (n > 2) {
+    const double least = is_among(kept, knots[n - 2]) ? kTouching : kLeastPiece;
+    if (to_goal(n - 2) < least * spacing && to_goal(n - 2) < to_goal(n - 3))
+      knots.erase(knots.end() - 2);
+  }
   return knots;
 }
 

@@ -59,9 +59,12 @@ const EndForm& unit_cost(Smoothness smoothness) {
 }
 
 /// Derivatives at both ends of a piece, times the powers of its duration that make it last one
-/// unit.
+/// unit. Positions from its beginning: where the world's zero is plays no part, and their digits
+/// are not lost in what short pieces are far from it.
 EndRows to_unit_duration(const MatrixXd& derivatives, Index first, int rows, double duration) {
   EndRows unit = derivatives.middleRows(first, 2 * static_cast<Index>(rows));
+  unit.row(rows) -= unit.row(0);
+  unit.row(0).setZero();
   double power = 1.0;
   for (int order = 0; order < rows; ++order, power *= duration) {
     unit.row(order) *= power;
@@ -260,6 +263,8 @@ Trajectory make_trajectory(Smoothness smoothness, std::span<const double> durati
     double power = 1.0;
     for (Index k = 0; k < unit.rows(); ++k, power *= durations[s])
       for (Index d = 0; d < unit.cols(); ++d) segment.coefficients(d, k) = unit(k, d) / power;
+    segment.coefficients.col(0).head(unit.cols()) =
+        derivatives.row(static_cast<Index>(s) * rows).transpose();
     trajectory.segments.push_back(segment);
   }
   return trajectory;

@@ -41,15 +41,21 @@ class FreeBorder {
  private:
   bool is_free(VoxelId id) const { return esdf_.is_open(id); }
 
+  /// Of a voxel's centre; what was found is kept by blocks, as those looked at are mostly of one.
   double at_centre(const VoxelIndex& v) {
-    const auto part = [](int k) { return static_cast<std::uint64_t>(k) & 0x1fffff; };
-    const std::uint64_t key = part(v.x) | part(v.y) << 21 | part(v.z) << 42;
-    const auto [place, is_new] = known_.try_emplace(key, 0.0f);
-    if (is_new) place->second = static_cast<float>(search(v));
-    return place->second;
+    const BlockIndex block = block_of(v);
+    if (last_ == nullptr || !(block == last_block_)) {
+      const auto part = [](int k) { return static_cast<std::uint64_t>(k) & 0x1fffff; };
+      last_ = &known_[part(block.x) | part(block.y) << 21 | part(block.z) << 42];
+      last_block_ = block;
+    }
+    std::int8_t& halves_squared = (*last_)[local_of(v)];
+    if (halves_squared == 0) halves_squared = search(v);
+    return std::copysign(0.5 * std::sqrt(std::abs(halves_squared)), halves_squared);
   }
 
-  double search(const VoxelIndex& v) const {
+  /// Squared half voxels to the border, within 4 kReach^2; below 0 outside.
+  std::int8_t search(const VoxelIndex& v) const {
     const VoxelId centre = esdf_.layout.find(v);
     const bool inside = is_free(centre);
     std::uint32_t nearest = 4 * kReach * kReach;
@@ -62,11 +68,14 @@ class FreeBorder {
                                                 : esdf_.layout.find(v + VoxelIndex{x, y, z});
           if (is_free(id) != inside) nearest = squared;
         }
-    return (inside ? 0.5 : -0.5) * std::sqrt(static_cast<double>(nearest));
+    return static_cast<std::int8_t>(inside ? nearest : -static_cast<int>(nearest));
   }
 
   const EsdfMap& esdf_;
-  std::unordered_map<std::uint64_t, float> known_;
+  using Block = std::array<std::int8_t, kBlockVoxels>;  // 0: not looked at
+  std::unordered_map<std::uint64_t, Block> known_;
+  Block* last_ = nullptr;
+  BlockIndex last_block_;
 };
 
 }  // namespace
@@ -107,11 +116,13 @@ DistanceField field_of_map(const EsdfMap& esdf, double radius, double margin) {
   const auto from_obstacles = [&esdf, s, enough](const Point& p) -> DistanceAndGradient {
     if (!has_voxel(p, s)) return {-kReach * s, Point::Zero()};  // a wild step of an optimiser
     const VoxelId id = esdf.layout.find(voxel_at(p, s));
-    if (id != kNoVoxel && !esdf.is_obstacle(id) && esdf.distance(id) > enough)
+    // What the map does not reach has no distances; where it is no obstacle, borders push.
+    const bool is_beyond = id == kNoVoxel && esdf.unknown != UnknownPolicy::kObstacle;
+    if (is_beyond || (id != kNoVoxel && !esdf.is_obstacle(id) && esdf.distance(id) > enough))
       return {enough, Point::Zero()};
     return interpolate_distance(esdf, p, kReach * s);
   };
-  if (esdf.unknown == UnknownPolicy::kObstacle) return from_obstacles;
+  if (esdf.unknown != UnknownPolicy::kIgnore) return from_obstacles;
 
   return [=, border = std::make_shared<FreeBorder>(esdf)](const Point& p) {
     DistanceAndGradient obstacle = from_obstacles(p);
@@ -123,12 +134,29 @@ DistanceField field_of_map(const EsdfMap& esdf, double radius, double margin) {
   };
 }
 
+/// What no flight leaves: its limits, and where unknown space is free the box of the map's blocks.
+FlightLimits limits_of_field(const FreeSpace& space) {
+  const EsdfMap& esdf = space.map();
+  FlightLimits limits = space.limits() != nullptr ? *space.limits() : FlightLimits{};
+  if (esdf.unknown != UnknownPolicy::kFree || esdf.layout.block_count() == 0) return limits;
+  // All blocks of that box are there, so it is spanned by the first and the last in order.
+  const double side = kBlockSide * esdf.voxel_size;
+  const auto corner_of = [&](std::uint32_t rank, int corner) -> Point {
+    const BlockIndex& block = esdf.layout.block(esdf.layout.slot_at(rank));
+    return side * Point(block.x + corner, block.y + corner, block.z + corner);
+  };
+  FlightLimits within;
+  within.keep_in = {corner_of(0, 0), corner_of(esdf.layout.block_count() - 1, 1)};
+  return both_of(limits, within);
+}
+
 }  // namespace
 
 DistanceField obstacle_field(const FreeSpace& space, double radius, double margin) {
   DistanceField of_map = field_of_map(space.map(), radius, margin);
-  if (space.limits() == nullptr) return of_map;
-  return [=, limits = *space.limits()](const Point& p) {
+  const FlightLimits limits = limits_of_field(space);
+  if (!limits.any()) return of_map;
+  return [=](const Point& p) {
     const DistanceAndGradient obstacle = of_map(p), within = depth_within(limits, p);
     if (obstacle.distance <= radius + within.distance) return obstacle;
     return DistanceAndGradient{radius + within.distance, within.gradient};

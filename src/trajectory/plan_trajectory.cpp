@@ -212,6 +212,7 @@ TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> pat
   for (const Point& p : path) path_local.push_back(flight_place(esdf, p));
   TrajectoryConfig as_rounded = config;
   for (Point& p : as_rounded.via) p = flight_place(esdf, p);
+  if (esdf.planar) as_rounded.start_velocity.z() = as_rounded.start_acceleration.z() = 0.0;
   as_rounded.radius = detail::radius_less_rounding(config.radius, path);
   TrajectoryResult result = fly_locally(esdf, path_local, as_rounded);
   for (TrajectorySegment& segment : result.trajectory.segments) {

@@ -6,9 +6,7 @@
 #include <cmath>
 
 namespace ridgeway::detail {
-namespace {
 
-/// A piece from a time on: its Taylor coefficients there.
 TrajectorySegment tail_of(const TrajectorySegment& segment, double from) {
   TrajectorySegment tail;
   tail.duration = std::max(segment.duration - from, 0.0);
@@ -19,8 +17,6 @@ TrajectorySegment tail_of(const TrajectorySegment& segment, double from) {
   }
   return tail;
 }
-
-}  // namespace
 
 Trajectory tail_of(const Trajectory& trajectory, double from) {
   Trajectory tail;

@@ -6,6 +6,9 @@
 
 namespace ridgeway::detail {
 
+/// A piece from a time on, seconds: its Taylor coefficients there.
+TrajectorySegment tail_of(const TrajectorySegment& segment, double from);
+
 /// What is left of a trajectory from a time on, seconds.
 Trajectory tail_of(const Trajectory& trajectory, double from);
 

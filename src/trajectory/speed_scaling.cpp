@@ -74,9 +74,7 @@ Trajectory stretch_to_limits(Smoothness smoothness, std::vector<double> duration
 }
 
 bool keeps_limits(const Trajectory& trajectory, const MotionLimits& limits) {
-  const MotionPeaks peaks = find_peaks(trajectory);
-  return peaks.speed <= limits.max_speed && peaks.acceleration <= limits.max_acceleration &&
-         peaks.jerk <= limits.max_jerk;
+  return limits.hold(find_peaks(trajectory));
 }
 
 }  // namespace ridgeway::detail

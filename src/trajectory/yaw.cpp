@@ -8,6 +8,7 @@
 
 #include "bernstein.hpp"
 #include "minimum_spline.hpp"
+#include "shaped_trajectory.hpp"
 
 namespace ridgeway::detail {
 namespace {
@@ -49,9 +50,8 @@ std::vector<double> joint_rates(const std::vector<double>& yaw, const Trajectory
 void set_yaw(TrajectorySegment& segment, int rows, double from, double to, double rate_from,
              double rate_to) {
   Eigen::MatrixXd ends = Eigen::MatrixXd::Zero(2 * rows, 1);
-  ends(0) = from;
   ends(1) = rate_from * segment.duration;
-  ends(rows) = to;
+  ends(rows) = to - from;
   ends(rows + 1) = rate_to * segment.duration;
   const auto smoothness = static_cast<Smoothness>(rows - 1);
   const Eigen::VectorXd unit = unit_coefficients(smoothness) * ends;
@@ -64,11 +64,7 @@ void set_yaw(TrajectorySegment& segment, int rows, double from, double to, doubl
 
 /// Cuts a piece in two at a time, the curve staying the same.
 void cut(std::vector<TrajectorySegment>& segments, std::size_t i, double t) {
-  TrajectorySegment rest;
-  rest.duration = segments[i].duration - t;
-  double factorial = 1.0;
-  for (int k = 0; k < kCoefficients; factorial *= ++k)
-    rest.coefficients.col(k) = segments[i].derivative(k, t) / factorial;
+  const TrajectorySegment rest = tail_of(segments[i], t);
   segments[i].duration = t;
   segments.insert(segments.begin() + static_cast<std::ptrdiff_t>(i) + 1, rest);
 }

@@ -91,6 +91,20 @@ TEST(Mission, IsAPlanOfQGroundControlWithAWaypointACorner) {
   }
 }
 
+TEST(Mission, CornersAreReachedWithinTheRoomBesideThePath) {
+  PlanResult path;
+  path.waypoints = {{0.0, 0.0, 10.0}};
+  path.planned_for.radius = 0.5;
+  const auto acceptance = [&](double clearance) {
+    path.clearance = clearance;
+    const auto json = nlohmann::json::parse(mission_json(path, {}));
+    return json.at("mission").at("items").at(0).at("params").at(1).get<double>();
+  };
+  EXPECT_EQ(acceptance(std::numeric_limits<double>::infinity()), 0.2);
+  EXPECT_NEAR(acceptance(0.6), 0.1, 1e-12);
+  EXPECT_EQ(acceptance(0.5), 0.05);
+}
+
 TEST(Mission, CoordinatesOfAGridAreRefused) {
   const Datum datum{41.99, -93.0, 0.0};
   EXPECT_NEAR(geodetic(Point(1e5, 0.0, 0.0), datum).altitude, 784.0, 5.0);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -34,6 +35,23 @@ TEST(PathIo, WaypointsComeBackFromBothFormats) {
     for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(points[i], plan.waypoints[i]);
   }
   EXPECT_EQ(read_whole(folder / "path.csv").substr(0, 6), "x,y,z\n");
+}
+
+TEST(PathIo, EscapesComeBackFromJson) {
+  const TemporaryFolder folder;
+  PlanResult plan = sample_plan();
+  plan.escape_start = {.length = 0.7, .clearance = 0.1};
+  for (const char* name : {"path.csv", "path.json"}) write_plan(plan, folder / name);
+  const PathEscapes read = read_escapes(folder / "path.json");
+  EXPECT_EQ(read.start.length, 0.7);
+  EXPECT_EQ(read.start.clearance, 0.1);
+  EXPECT_EQ(read.goal.length, 0.0);
+  EXPECT_EQ(read_escapes(folder / "path.csv").start.length, 0.0);
+  for (const char* bad : {R"({"escape_goal":{"length":-1,"clearance":0}})", R"({"escape_goal":7})",
+                          R"({"escape_goal":{"length":1,"clearance":null}})", "{"}) {
+    std::ofstream(folder / "bad.json") << bad;
+    EXPECT_THROW(read_escapes(folder / "bad.json"), InputError) << bad;
+  }
 }
 
 TEST(PathIo, JsonHasThePlansKeys) {

@@ -4,6 +4,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <sstream>
@@ -48,6 +49,16 @@ TEST(TrajectoryIo, YamlHoldsEveryPieceToTheLastDigit) {
         for (int k = 0; k < count; ++k)
           EXPECT_EQ(segments[i]["coefficients"][d][k].as<double>(), expected.coefficients(d, k));
     }
+  }
+}
+
+TEST(TrajectoryIo, YamlRefusesDurationsThatItCannotTell) {
+  const TemporaryFolder folder;
+  for (const double duration : {1e10, 1e-10}) {
+    TrajectoryResult result = some_result(8);
+    result.trajectory.segments.back().duration = duration;
+    EXPECT_THROW(write_trajectory({}, result, folder / "flight.yaml", 1.0), InputError) << duration;
+    EXPECT_FALSE(std::filesystem::exists(folder / "flight.yaml"));
   }
 }
 

@@ -41,7 +41,7 @@ void expect_joined(const TrajectoryResult& flown, const PlanResult& path, int st
 }
 
 TEST(FlyPlan, StopsWhereAnEscapeEnds) {
-  const PlanResult path = between_escapes({{0.5, 5, 2}, {4, 7, 2}, {0.5, 9, 2}});
+  const PlanResult path = between_escapes({{0.5, 5, 2}, {4, 7.1, 2}, {0.5, 9, 2}});
   expect_joined(fly_plan(esdf(), path, {}), path, 2);
   TrajectoryConfig config{.radius = 0.3};
   config.via = path.waypoints;
@@ -51,6 +51,17 @@ TEST(FlyPlan, StopsWhereAnEscapeEnds) {
 TEST(FlyPlan, StopsOnceWhereBothEscapesEndAtOnePlace) {
   const PlanResult path = between_escapes({{0.5, 5, 2}});
   expect_joined(fly_plan(esdf(), path, {}), path, 1);
+}
+
+TEST(FlyPlan, TellsNothingOfLegsWhereOneCannotBeFlown) {
+  PlanResult path = between_escapes({{0.5, 5, 2}, {4, 7, 2}, {0.5, 9, 2}});
+  path.escape_goal.clearance = 0.3;  // it has less
+  const TrajectoryResult none = fly_plan(esdf(), path, {});
+  EXPECT_EQ(none.status, TrajectoryStatus::kPathNotFree);
+  EXPECT_TRUE(none.trajectory.segments.empty());
+  EXPECT_EQ(none.duration, 0.0);
+  EXPECT_EQ(none.clearance, 0.0);
+  EXPECT_EQ(none.stops, 0);
 }
 
 TEST(FlyPlan, AYawThatStaysIsKeptFromLegToLeg) {

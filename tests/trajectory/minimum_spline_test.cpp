@@ -175,6 +175,28 @@ TEST(MinimumSpline, JoinsWithFourContinuousDerivatives) {
     }
 }
 
+TEST(MinimumSpline, ShortPiecesFarFromZeroJoinWithoutJumps) {
+  constexpr double kFar = 1e4, kShort = 1e-3;  // metres, seconds
+  const std::vector<double> durations{1.0, kShort, 1.0};
+  const std::vector<DerivativeMask> fixed{kAllFixed, kPositionFixed, kPositionFixed, kAllFixed};
+  for (const Smoothness smoothness : kBoth) {
+    const int rows = knot_size(smoothness);
+    Eigen::MatrixXd derivatives = Eigen::MatrixXd::Zero(4 * rows, 3);
+    const std::array<double, 4> along{0.0, 0.5, 0.5 + kShort, 1.0};
+    for (int knot = 0; knot < 4; ++knot)
+      derivatives.row(knot * rows).setConstant(kFar + along[static_cast<std::size_t>(knot)]);
+    MinimumSpline(smoothness, durations, fixed).solve(derivatives);
+    const Trajectory t = make_trajectory(smoothness, durations, derivatives);
+    for (std::size_t s = 1; s < 3; ++s)
+      for (int order = 0; order < 3; ++order) {
+        const double jump = (t.segments[s - 1].derivative(order, durations[s - 1]) -
+                             t.segments[s].derivative(order, 0.0))
+                                .norm();
+        EXPECT_LE(jump, 1e-11 * std::max(kFar, std::pow(kShort, -order))) << s << " " << order;
+      }
+  }
+}
+
 TEST(MinimumSpline, ThousandSegmentsStayAccurate) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> value(-5.0, 5.0), exponent(-3.0, 3.0);

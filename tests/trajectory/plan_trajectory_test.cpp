@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -183,6 +184,21 @@ TEST(PlanTrajectory, PassesThePlacesThatItIsToPass) {
     }
 }
 
+TEST(PlanTrajectory, PassesPlacesThatAlmostTouch) {
+  for (const double apart : {1e-3, 1e-6, 1e-8, 1e-10, 1e-13})
+    for (const Point& end : {Point(2, 5, 2), Point(6, 5, 2), Point(2, 5.5, 2)}) {
+      SCOPED_TRACE(apart);
+      std::vector<Point> path{{2, 5, 2}, {6, 5, 2}, {6, 7, 2}, {2, 5.5, 2}};
+      const Point close = end + Point(apart, 0, 0);
+      path.insert(std::find(path.begin(), path.end(), end) + (end == path.back() ? 0 : 1), close);
+      TrajectoryConfig config{.radius = 0.3};
+      config.via = {end, close};
+      const TrajectoryResult result = plan_trajectory(esdf(), path, config);
+      expect_flown(result, path, config);
+      EXPECT_LT(nearest_to(result.trajectory, close), 5e-3);
+    }
+}
+
 TEST(PlanTrajectory, RefusesToPassWhatIsNoPointOfThePath) {
   const std::vector<Point> path{{2, 5, 2}, {6, 5, 2}, {6, 7, 2}};
   for (const Point& place : {Point(4, 5, 2), Point(6, 5, 2 + 1e-9), Point(0, 0, 9)}) {
@@ -336,6 +352,12 @@ TEST(PlanTrajectory, InAPlaneHeightsPlayNoPartAndRobotsHaveNone) {
   const TrajectoryResult flown = plan_trajectory(map, path, config);
   ASSERT_TRUE(flown.ok()) << name_of(flown.status);
   EXPECT_EQ(flown.trajectory.at(1.0).position.z(), flown.trajectory.at(0.0).position.z());
+  config.start_velocity = {0.1, 0.1, 0.3};
+  config.start_acceleration = {0.0, 0.0, -0.2};
+  const TrajectoryResult moving = plan_trajectory(map, path, config);
+  ASSERT_TRUE(moving.ok()) << name_of(moving.status);
+  EXPECT_LT((moving.trajectory.at(0.0).velocity - Point(0.1, 0.1, 0.0)).norm(), 1e-12);
+  EXPECT_EQ(moving.trajectory.at(1.0).position.z(), moving.trajectory.at(0.0).position.z());
   config.robot_height = 0.4;
   EXPECT_THROW(plan_trajectory(map, path, config), InputError);
 }

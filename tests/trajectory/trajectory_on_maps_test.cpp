@@ -108,7 +108,7 @@ TEST(TrajectoryOnMaps, HoldsOnRandomMapsWithEveryPolicyAndDerivative) {
   Tally tally;
   for (unsigned seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
-    const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
+    const auto policy = static_cast<UnknownPolicy>(seed % 3);
     try {
       fly(testing::random_map(seed, 30), {.min_clearance = 0.1, .unknown = policy}, 8, tally,
           seed % 2 == 0 ? Smoothness::kJerk : Smoothness::kSnap);

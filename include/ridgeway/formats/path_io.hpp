@@ -32,6 +32,16 @@ void write_plan(const PlanResult& result, const std::filesystem::path& path);
 /// InputError, with the line, for anything else.
 std::vector<Point> read_path(const std::filesystem::path& path);
 
+/// The escapes that the first and the last segment of a path are; length 0 where one is none.
+struct PathEscapes {
+  Escape start;  ///< of the first segment
+  Escape goal;   ///< of the last
+};
+
+/// Those of a .json file that write_plan wrote; files of other kinds tell of none. Throws
+/// InputError as read_path does.
+PathEscapes read_escapes(const std::filesystem::path& path);
+
 /// Where the world's frame lies on the Earth.
 struct Datum {
   double latitude = 0.0;    ///< of the origin, degrees, WGS 84
@@ -57,8 +67,9 @@ struct GeoPoint {
 GeoPoint geodetic(const Point& point, const Datum& datum);
 
 /// A path as a mission of QGroundControl for PX4: a waypoint a corner, at which the vehicle holds
-/// for a second within 0.2 m, as the legs between corners are what was verified. No take-off and no
-/// landing. MAVLink rounds angles to 1e-7 degrees, a centimetre.
+/// for a second, as the legs between corners are what was verified: within 0.2 m, or within what
+/// the path has of clearance beyond the radius that it was planned for, down to 0.05 m. No take-off
+/// and no landing. MAVLink rounds angles to 1e-7 degrees, a centimetre.
 std::string mission_json(const PlanResult& path, const Datum& datum);
 
 /// Writes a mission to a .plan file, whole or not at all. Throws InputError for another extension,
@@ -86,7 +97,8 @@ std::string trajectory_csv(const Trajectory& trajectory, double step);
 std::string trajectory_yaml(const Trajectory& trajectory);
 
 /// Writes a trajectory to a file, whole or not at all, in the format of its extension. Throws
-/// InputError for another extension, and where the file cannot be written.
+/// InputError for another extension, for a piece whose duration .yaml cannot tell, and where the file
+/// cannot be written.
 void write_trajectory(const PlanResult& path, const TrajectoryResult& result,
                       const std::filesystem::path& file, double step);
 
