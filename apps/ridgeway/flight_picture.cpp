@@ -18,7 +18,10 @@ std::vector<Chart> charts_of(const EsdfMap& esdf, const std::vector<TrajectorySt
   const bool is_sphere = robot.is_for_sphere();
   Chart speed{"speed (m/s)", {}, {}, config.motion.max_speed, "limit"};
   Chart acceleration{"acceleration (m/s\u00b2)", {}, {}, config.motion.max_acceleration, "limit"};
-  Chart clearance{"clearance (m)", {}, {}, robot.inner_radius(config.radius),
+  Chart clearance{"clearance (m)",
+                  {},
+                  {},
+                  robot.inner_radius(config.radius),
                   is_sphere ? "robot's radius" : "sphere in the robot"};
   for (const TrajectoryState& state : states) {
     for (Chart* chart : {&speed, &acceleration, &clearance}) chart->times.push_back(state.time);

@@ -57,7 +57,7 @@ std::string describe(py::handle value) {
 }
 
 double number_from(py::handle value, const char* name) {
-  if (!is_text(value)) {
+  if (!is_text(value) && !PyBool_Check(value.ptr())) {  // True is no radius of 1 m
     const double number = PyFloat_AsDouble(value.ptr());
     if (PyErr_Occurred() == nullptr) return number;
     const bool is_too_large = PyErr_ExceptionMatches(PyExc_OverflowError) != 0;

@@ -51,6 +51,22 @@ void add_errors(py::module_& module) {
   });
 }
 
+/// What never changes is its own copy, a deep one too.
+static void add_copies(py::module_& module) {
+  for (const char* name : {"Alternatives", "BlockedRoute", "DepthSequence", "EsdfMap",
+                           "ExplorationStep", "FlightLimits", "GraphDelta", "OccupancyMap",
+                           "PinholeCamera", "PlanResult", "Roadmap", "ScanSequence", "SparseGraph",
+                           "SpinningLidar", "Trajectory", "TsdfMap", "VoxelMask", "World"}) {
+    const py::object type = module.attr(name);
+    const auto itself = [of = py::handle(type)](const py::object& self, const py::args&) {
+      if (!py::isinstance(self, of)) throw py::type_error("copies an object of another type");
+      return self;
+    };
+    for (const char* method : {"__copy__", "__deepcopy__"})
+      type.attr(method) = py::cpp_function(itself, py::is_method(type));
+  }
+}
+
 static void add_all(py::module_& module) {
   // Docstrings begin with signatures of ours, which inspect.signature reads.
   py::options options;
@@ -68,6 +84,7 @@ static void add_all(py::module_& module) {
   add_fusion(module);
   add_live(module);
   add_exploration(module);
+  add_copies(module);
   add_words_for_wrong_calls(module);
   for (const auto& [name, value] : module.attr("__dict__").cast<py::dict>())
     if (py::isinstance<py::type>(value)) value.attr("__module__") = "ridgeway";

@@ -41,6 +41,7 @@ def test_points_may_be_anything_of_three_numbers(roadmap, kind):
         (lambda r: r.plan(START, GOAL, radius=-1), ValueError, "radius"),
         (lambda r: r.plan(START, GOAL, radius="0.3"), TypeError, "radius: expected a number"),
         (lambda r: r.plan(START, GOAL, shorten=1), TypeError, "shorten: expected True or False"),
+        (lambda r: r.plan(START, GOAL, radius=True), TypeError, "radius: expected a number"),
         (lambda r: r.plan(START, GOAL, planner="astar"), ValueError, "planner: is 'astar'.*'esdf'"),
         (lambda r: r.plan(START, GOAL, raduis=1), TypeError, "did you mean 'radius'"),
         (lambda r: r.plan(START, GOAL, time_limit=np.nan), ValueError, "time_limit"),

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 The Ridgeway authors
+import copy
 import json
 import subprocess
 
@@ -44,6 +45,16 @@ def test_the_same_bytes_with_other_options_and_threads(program, real_file, tmp_p
                               limits=limits, threads=threads)
         made.save(tmp_path / "b.ridge")
         assert (tmp_path / "a.ridge").read_bytes() == (tmp_path / "b.ridge").read_bytes()
+
+
+def test_what_never_changes_is_its_own_copy(real):
+    place = real.diagram.points[0]
+    plan = real.plan(place, place)
+    for thing in (real, real.graph, real.esdf, plan, real.trajectory(plan), ridgeway.FlightLimits()):
+        assert copy.copy(thing) is thing
+        assert copy.deepcopy({"it": [thing]})["it"][0] is thing
+    with pytest.raises(TypeError):
+        copy.copy(ridgeway.LiveRoadmap(voxel_size=0.1, min_clearance=0.3))
 
 
 @pytest.mark.parametrize("unknown", ["obstacle", "ignore", "free"])

@@ -91,10 +91,10 @@ long long nanoseconds_of(const TrajectorySegment& segment) {
 void require_whole_nanoseconds(const Trajectory& trajectory, const std::filesystem::path& file) {
   for (const TrajectorySegment& segment : trajectory.segments)
     if (segment.duration > 0.0 && nanoseconds_of(segment) < 1)
-      throw InputError(file.string(),
-                       "counts whole nanoseconds, and a piece takes " +
-                           number_text(segment.duration) + " s",
-                       "write .json or .csv, or change the limits of motion");
+      throw InputError(
+          file.string(),
+          "counts whole nanoseconds, and a piece takes " + number_text(segment.duration) + " s",
+          "write .json or .csv, or change the limits of motion");
 }
 
 }  // namespace

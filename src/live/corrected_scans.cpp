@@ -21,12 +21,22 @@ void sort_each_once(std::vector<std::uint32_t>& frames) {
   frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
 }
 
+void keep_first_of_lost(std::vector<std::uint32_t>& frames, std::size_t first_kept) {
+  const auto kept = std::lower_bound(frames.begin(), frames.end(), first_kept);
+  if (kept - frames.begin() > 1) frames.erase(frames.begin() + 1, kept);
+}
+
 }  // namespace
 
-void FrameIndex::add(const Eigen::Isometry3d& pose, std::span<const BlockIndex> reached) {
+void FrameIndex::add(const Eigen::Isometry3d& pose, std::span<const BlockIndex> reached,
+                     std::size_t first_kept) {
   const auto frame = static_cast<std::uint32_t>(poses.size());
   poses.push_back(pose);
-  for (const BlockIndex& block : reached) of_block[block].push_back(frame);
+  for (const BlockIndex& block : reached) {
+    std::vector<std::uint32_t>& own = of_block[block];
+    if (own.size() == own.capacity()) keep_first_of_lost(own, first_kept);  // before it grows
+    own.push_back(frame);
+  }
 }
 
 void FrameIndex::drop_last(std::span<const BlockIndex> reached, std::size_t frames) noexcept {

@@ -17,13 +17,17 @@
 
 namespace ridgeway::detail {
 
-/// Which frames reached which blocks of the fusion, from which poses. Frames are counted from 0.
+/// Which frames reached which blocks of the fusion, from which poses. Frames are counted from 0. Of
+/// those that the log has lost a block may remember the first alone: it tells that the block cannot
+/// be fused again, and lists do not grow for as long as a place is seen.
 struct FrameIndex {
   VoxelIndex origin;                                                               ///< the fusion's
   std::vector<Eigen::Isometry3d> poses;                                            ///< by frame
   std::unordered_map<BlockIndex, std::vector<std::uint32_t>, BlockHash> of_block;  ///< ascending
 
-  void add(const Eigen::Isometry3d& pose, std::span<const BlockIndex> reached);
+  /// The log holds the frames from `first_kept` on.
+  void add(const Eigen::Isometry3d& pose, std::span<const BlockIndex> reached,
+           std::size_t first_kept);
   /// Takes back what add() has added, or a part of it.
   void drop_last(std::span<const BlockIndex> reached, std::size_t frames) noexcept;
 };

@@ -43,7 +43,7 @@ UpdateReport LiveRoadmap::State::integrate_frame(const Eigen::Isometry3d& T_worl
       if (frames == 0)
         frames_of_blocks.origin = config.fusion.origin.value_or(
             voxel_at(T_world_sensor.translation(), config.fusion.voxel_size));
-      frames_of_blocks.add(T_world_sensor, reached);
+      frames_of_blocks.add(T_world_sensor, reached, log->first());
     }
     const Point& sensor = T_world_sensor.translation();
     const std::vector<VoxelChange> found = fusion.find_changes();

@@ -156,10 +156,13 @@ std::string diagram_text(const Range& range, const PictureConfig& config) {
 }
 
 std::vector<LegendItem> legend_items(const MapMarks& marks, const std::vector<PathLayer>& layers,
-                                     bool ends, bool keep_in, const PictureConfig& config) {
+                                     bool ends, bool keep_in, bool planar,
+                                     const PictureConfig& config) {
   using Mark = LegendItem::Mark;
   std::vector<LegendItem> items = {
-      {Mark::kFree, "free"}, {Mark::kWall, "occupied"}, {Mark::kUnknown, "unknown"}};
+      {Mark::kFree, "free"},
+      {Mark::kWall, planar ? "occupied" : "occupied, paler at few heights"},
+      {Mark::kUnknown, "unknown"}};
   if (config.graph && !marks.by_component()) items.push_back({Mark::kGraph, "graph"});
   if (!marks.dots.empty() || marks.by_component())
     items.push_back({marks.by_component() ? Mark::kComponents : Mark::kDiagram,
@@ -266,7 +269,7 @@ void draw_floor_plan(const Roadmap& roadmap, std::span<const Point> path,
     return is_cut(marks.limits.keep_in, panel.raster, voxel_size);
   });
   const std::vector<LegendItem> items =
-      legend_items(marks, layers, !marked.empty(), keep_in, config);
+      legend_items(marks, layers, !marked.empty(), keep_in, roadmap.esdf.planar, config);
   Canvas measure(out, 8, 8);  // is not written
   const Page page = lay_out_page(measure, panels, voxel_size, items, config);
   const double u = page.unit;

@@ -300,10 +300,10 @@ TEST_F(CliLimits, TrajectoriesGoViaPlacesAndLeaveTightOnes) {
   EXPECT_NEAR(up["samples"].back()["position"][2].get<double>(), 0.15, 1e-6);
   EXPECT_GE(up["clearance"].get<double>(), 0.3 * (1 - 1e-9));  // without its escapes
   for (const char* name : {"up.json", "up.csv"})
-    ASSERT_EQ(run({"plan", map, "--from", "-2,1,0.1", "--to", "2,1,0.15", "--escape", "-o",
-                   path(name)})
-                  .code,
-              0);
+    ASSERT_EQ(
+        run({"plan", map, "--from", "-2,1,0.1", "--to", "2,1,0.15", "--escape", "-o", path(name)})
+            .code,
+        0);
   const Json again = fly({"--path", path("up.json")}).json();
   EXPECT_EQ(again["samples"], up["samples"]);
   const Json untold = fly({"--path", path("up.csv")}).json();  // which leg is an escape

@@ -3,11 +3,13 @@
 // Poses that are corrected, worlds that change, windows: what comes of scans that were fused.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <thread>
 
 #include "house_flight.hpp"
+#include "live/corrected_scans.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "support/random_changes.hpp"
 #include "support/refusal.hpp"
@@ -151,6 +153,34 @@ TEST(CorrectPoses, GoOnInAThreadOfTheirOwnWhileScansAreFused) {
   EXPECT_TRUE(bytes_of(live.settled().get()) == flight.bytes_with(0, 4));
   EXPECT_TRUE(bytes_of(live.settled().get()) == batch_bytes(live.map(), config.build));
   EXPECT_THROW(live.correct_poses(flight.corrections(8, 9)), InputError);  // the oldest have gone
+}
+
+TEST(CorrectPoses, WhatWaitsOutsideOfAWindowIsCorrectedToo) {
+  const DriftingFlight flight(7);
+  const TemporaryFolder folder;
+  LiveConfig config = with_log(folder);
+  config.window = 2.0;
+  LiveRoadmap live(config);
+  flight.integrate_into(live, 0, 5);
+  EXPECT_GT(live.correct_poses(flight.corrections(0, 4)).waiting_voxels, 0u);
+  EXPECT_TRUE(bytes_of(live.settled().get()) == batch_bytes(live.map(), config.build));
+  flight.integrate_into(live, 5, 7);
+  EXPECT_TRUE(bytes_of(live.settled().get()) == batch_bytes(live.map(), config.build));
+  EXPECT_EQ(live.catch_up().waiting_voxels, 0u);
+  EXPECT_TRUE(bytes_of(live.settled().get()) == flight.bytes_with(0, 4));
+}
+
+TEST(FrameIndex, RemembersOfFramesThatAreLostTheFirst) {
+  detail::FrameIndex index;
+  const std::vector<BlockIndex> seen{{1, 2, 3}};
+  constexpr std::size_t kKept = 20, kFrames = 5'000;
+  for (std::size_t frame = 0; frame < kFrames; ++frame)
+    index.add(Eigen::Isometry3d::Identity(), seen, frame < kKept ? 0 : frame - kKept);
+  const std::vector<std::uint32_t>& frames = index.of_block.at(seen.front());
+  EXPECT_LE(frames.capacity(), 8 * kKept);
+  EXPECT_EQ(frames.front(), 0u);
+  for (std::size_t k = 1; k <= kKept; ++k) EXPECT_EQ(frames[frames.size() - k], kFrames - k);
+  EXPECT_TRUE(std::is_sorted(frames.begin(), frames.end()));
 }
 
 TEST(CorrectPoses, WhatCannotBeFusedAgainIsGivenUp) {

@@ -97,8 +97,8 @@ std::string trajectory_csv(const Trajectory& trajectory, double step);
 std::string trajectory_yaml(const Trajectory& trajectory);
 
 /// Writes a trajectory to a file, whole or not at all, in the format of its extension. Throws
-/// InputError for another extension, for a piece whose duration .yaml cannot tell, and where the file
-/// cannot be written.
+/// InputError for another extension, for a piece whose duration .yaml cannot tell, and where the
+/// file cannot be written.
 void write_trajectory(const PlanResult& path, const TrajectoryResult& result,
                       const std::filesystem::path& file, double step);
 

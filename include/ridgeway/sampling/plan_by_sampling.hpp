@@ -16,7 +16,8 @@ struct SamplingConfig {
   Planner planner = Planner::kRrtConnect;  ///< one that samples
   double radius = 0.0;                     ///< of the robot, metres; to be given
   std::uint64_t seed = 1;                  ///< of the planner's random numbers
-  double time_limit = 10.0;  ///< seconds of sampling; infinite: only the other limit counts
+  /// Seconds of sampling; shortening may take as many again. Infinite: only the other limit counts.
+  double time_limit = 10.0;
   /// Rounds of the planner's main loop. Runs that this limit ends, or that end by themselves,
   /// repeat exactly: same map, query and configuration, same path. Those that time ends do not.
   std::size_t iteration_limit = std::numeric_limits<std::size_t>::max();

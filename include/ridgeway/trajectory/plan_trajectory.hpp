@@ -62,7 +62,8 @@ struct TrajectoryConfig {
   bool stop_and_go = false;    ///< no smoothing: the last resort at once
   int most_evaluations = 120;  ///< of the cost, each time that a stretch is optimised
   /// Points of the path, digit for digit, that are passed as they are; other corners are rounded,
-  /// and may be missed by far where there is room.
+  /// and may be missed by far where there is room. Of two that all but touch, to a ten millionth of
+  /// the flight's scale, one is passed.
   std::vector<Point> via = {};
 
   /// Throws InputError naming the bad field.
@@ -110,7 +111,7 @@ struct TrajectoryResult {
 /// Without a limit on jerk straight legs reach a jerk of 18.75 a^2 / v, short ones more.
 ///
 /// From a motion that cannot go on along the path the robot brakes first, wherever it comes to
-/// rest, and goes on from there.
+/// rest, and goes on from there. In a planar map motion has no height, as places have none there.
 /// Where the map lies far from the world's zero, the path's coordinates have been rounded: the
 /// radius counts as smaller by at most 5e-16 of the largest of them (in UTM, 3 nanometres), so that
 /// paths of plan() that just fit are flown.
