@@ -65,6 +65,22 @@ test("asks for components where colours show them, and shows them", async () => 
   assert.equal(difference(before, await pixels(page)), 0);
 });
 
+test("what was said of a slice or a cut that could not be had goes once it can", async () => {
+  const page = await open(browser, served.address);
+  const set = (id, value) => set_control(page, id, value);
+  const refused = /api\/(slice|section)/;
+  await page.route(refused, (route) => route.fulfill({ status: 500, contentType: "application/json", body: '{"error":"no memory for it"}' }));
+  await set("cut", "0.5");
+  await set("slice", "1.3");
+  await page.waitForFunction(() => document.querySelector("#hint").textContent.includes("no memory"));
+  await page.unroute(refused);
+  await set("slice", "1.1");
+  await page.waitForFunction(() => document.querySelector("#hint").textContent === "");
+  // The section is asked for again by itself.
+  await page.waitForFunction(() => window.ridgeway.app.heights.section.mesh.visible, null, { timeout: 15_000 });
+  await page.close();
+});
+
 test("sliders move the cut and the slice", async () => {
   const before = await pixels(page);
   await set("cut", "0.5");

@@ -9,6 +9,8 @@ import type { Page } from "./page";
 import { SectionDrawing } from "./section";
 import type { Hit } from "./surface";
 
+const kPause = 2000, kLongestPause = 60_000; // milliseconds
+
 /** The sliders: where obstacles are cut off, and where distances are shown. */
 export class HeightPanel {
   readonly slice = new SliceDrawing();
@@ -21,6 +23,9 @@ export class HeightPanel {
   private is_cut_chosen = false;
   private is_slice_wanted = false;
   private is_slice_asked = false;
+  private failure = ""; // what is said where the slice could not be had
+  private again = 0; // the section is asked for again after the pause, where it could not be had
+  private pause = kPause;
   private is_section_wanted = false;
   private is_section_asked = false;
 
@@ -84,8 +89,12 @@ export class HeightPanel {
       this.is_section_wanted = false;
       try {
         section.show(read_section(await page.source.ask("/api/section", { z: String(page.base.z + page.surface.cut) })), page.base);
+        this.pause = kPause;
       } catch {
         section.mesh.visible = false; // the picture is as good as it can be without
+        window.clearTimeout(this.again);
+        this.again = window.setTimeout(() => this.cut_anew(), this.pause);
+        this.pause = Math.min(2 * this.pause, kLongestPause);
       }
       page.stage.changed();
     }
@@ -104,9 +113,12 @@ export class HeightPanel {
       try {
         const bytes = await page.source.ask("/api/slice", { z: String(page.base.z + input("slice").valueAsNumber) });
         this.slice.show(read_slice(bytes), page.base, page.scale);
+        if (this.failure && element("hint").textContent === this.failure) page.hint("");
+        this.failure = "";
       } catch (error) {
         this.slice.clear();
-        page.hint((error as Error).message);
+        this.failure = (error as Error).message;
+        page.hint(this.failure);
       }
       page.stage.changed();
     }
