@@ -115,7 +115,7 @@ Escape escape_of(const Json& json, const char* key, const std::filesystem::path&
   if (!json.contains(key)) return {};
   const Escape escape{json.at(key).at("length").get<double>(),
                       json.at(key).at("clearance").get<double>()};
-  if (!(escape.length >= 0.0 && std::isfinite(escape.length) && escape.clearance >= 0.0 &&
+  if (!(escape.length >= 0.0 && std::isfinite(escape.length) && escape.clearance > 0.0 &&
         std::isfinite(escape.clearance)))
     refuse(path, "has an " + std::string(key) + " that is none");
   return escape;

@@ -85,6 +85,9 @@ TrajectoryResult fly_plan(const EsdfMap& esdf, const PlanResult& path,
   if (leaves && !(own.start_velocity.isZero(0.0) && own.start_acceleration.isZero(0.0)))
     throw InputError("start_velocity", "is that of a robot in flight, which has nothing to escape",
                      "leave it out");
+  if (leaves && enters && points.size() == 2)
+    throw InputError("path", "has two escapes, and no place between them",
+                     "give a path of plan as it is");
   TrajectoryConfig between = own;  // the flight ends at the ends anyway
   std::erase_if(between.via,
                 [&](const Point& p) { return p == points.front() || p == points.back(); });

@@ -47,7 +47,8 @@ TEST(PathIo, EscapesComeBackFromJson) {
   EXPECT_EQ(read.start.clearance, 0.1);
   EXPECT_EQ(read.goal.length, 0.0);
   EXPECT_EQ(read_escapes(folder / "path.csv").start.length, 0.0);
-  for (const char* bad : {R"({"escape_goal":{"length":-1,"clearance":0}})", R"({"escape_goal":7})",
+  for (const char* bad : {R"({"escape_goal":{"length":-1,"clearance":1}})", R"({"escape_goal":7})",
+                          R"({"escape_goal":{"length":1,"clearance":0}})",
                           R"({"escape_goal":{"length":1,"clearance":null}})", "{"}) {
     std::ofstream(folder / "bad.json") << bad;
     EXPECT_THROW(read_escapes(folder / "bad.json"), InputError) << bad;

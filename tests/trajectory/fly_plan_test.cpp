@@ -64,6 +64,12 @@ TEST(FlyPlan, TellsNothingOfLegsWhereOneCannotBeFlown) {
   EXPECT_EQ(none.stops, 0);
 }
 
+TEST(FlyPlan, RefusesTwoEscapesOfTwoPoints) {
+  PlanResult path = between_escapes({{0.5, 5, 2}});
+  path.waypoints.erase(path.waypoints.begin() + 1);
+  EXPECT_THROW(fly_plan(esdf(), path, {}), InputError);
+}
+
 TEST(FlyPlan, AYawThatStaysIsKeptFromLegToLeg) {
   TrajectoryConfig config{.radius = 0.3};
   config.follow_yaw = false;
