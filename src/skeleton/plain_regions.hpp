@@ -22,7 +22,7 @@ inline Regions regions_at(const EsdfMap& esdf, double radius, const VoxelMask* w
   const SquaredHalves threshold = least_clearance(radius, esdf.voxel_size);
   const FreeSpace space(esdf);
   const auto passable = [&](VoxelId id) {
-    return id != kNoVoxel && esdf.state[id] == VoxelState::kFree && esdf.squared[id] >= threshold &&
+    return id != kNoVoxel && esdf.is_open(id) && esdf.squared[id] >= threshold &&
            (within == nullptr || within->test(id));
   };
   Regions regions;

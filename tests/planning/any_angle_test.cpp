@@ -73,7 +73,7 @@ TEST(ThetaStar, FindsPathsWhereTheLatticeDoesAndHardlyEverLongerOnes) {
   double worst = 0.0, sum_theta = 0.0, sum_lattice = 0.0;
   for (unsigned seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
-    const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
+    const auto policy = static_cast<UnknownPolicy>(seed % 3);
     const EsdfMap esdf = compute_esdf(testing::random_map(seed), {.unknown = policy});
     for (const double radius : {0.1, 0.125, 0.2}) {
       const std::vector<VoxelId> places = testing::traversable_places(esdf, radius);

@@ -65,7 +65,7 @@ TEST(Cylinder, IsFreeWhereItSharesNoVolumeWithAnObstacleOnTheWay) {
     const auto cubes = testing::all_obstacles(map, UnknownPolicy::kObstacle);
     std::vector<VoxelId> open;
     for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
-      if (esdf.state[id] == VoxelState::kFree && esdf.squared[id] > 4) open.push_back(id);
+      if (esdf.is_open(id) && esdf.squared[id] > 4) open.push_back(id);
     if (open.empty()) continue;
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -171,7 +171,7 @@ TEST(Cylinder, PlansExactlyWhereVoxelsAreConnectedForIt) {
     const FreeSpace space(esdf, kNoLimits, radius, height);
     std::vector<VoxelId> places;
     for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
-      if (esdf.state[id] == VoxelState::kFree &&
+      if (esdf.is_open(id) &&
           space.is_free(centre_of(esdf.layout.index_of(id), esdf.voxel_size), radius))
         places.push_back(id);
     if (places.empty()) continue;

@@ -113,7 +113,7 @@ class Judge {
   Judge(const EsdfMap& esdf, const FlightLimits& limits, double radius)
       : esdf_(esdf), free_(esdf), threshold_(least_clearance(radius, esdf.voxel_size)) {
     for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
-      if (esdf.state[id] == VoxelState::kFree && esdf.squared[id] >= threshold_ &&
+      if (esdf.is_open(id) && esdf.squared[id] >= threshold_ &&
           testing::is_within(limits, esdf.layout.index_of(id), esdf.voxel_size))
         places_.push_back(id);
     for (const VoxelId id : places_) within_.insert(id);
@@ -205,7 +205,7 @@ TEST(PlanWithinLimits, FindsAPathWhereVoxelsWithinThemAreConnected) {
   Answers asked, built;
   for (unsigned seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
-    const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
+    const auto policy = static_cast<UnknownPolicy>(seed % 3);
     const OccupancyMap map = testing::random_map(seed, 20);
     std::mt19937 random(seed);
     const FlightLimits limits = random_limits(random, *known_bounds(map));

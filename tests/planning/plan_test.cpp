@@ -67,7 +67,7 @@ TEST(Plan, AnswersExactlyWhenFloodingDoesAndItsPathsHoldByBruteForce) {
   int routes = 0, none = 0;
   for (unsigned seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
-    const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
+    const auto policy = static_cast<UnknownPolicy>(seed % 3);
     const OccupancyMap map = testing::random_map(seed, 22);
     std::optional<Roadmap> roadmap;
     try {

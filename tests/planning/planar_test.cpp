@@ -95,8 +95,7 @@ TEST(Planar, DistancesAreThoseInThePlane) {
     std::mt19937 random(seed);
     std::vector<VoxelId> open;
     for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
-      if (esdf.layout.index_of(id).z == kPlanarLayer && esdf.state[id] == VoxelState::kFree)
-        open.push_back(id);
+      if (esdf.layout.index_of(id).z == kPlanarLayer && esdf.is_open(id)) open.push_back(id);
     if (open.empty()) continue;
     for (int i = 0; i < 60; ++i) {
       const VoxelIndex v = esdf.layout.index_of(open[random() % open.size()]);
@@ -167,7 +166,7 @@ TEST(Planar, PathsStayInThePlaneAndAreFoundWhereThereAreSome) {
     by_graph += static_cast<int>(report.graph_ok - report.fallbacks);
     std::vector<VoxelIndex> places;
     for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
-      if (esdf.layout.index_of(id).z == kPlanarLayer && esdf.state[id] == VoxelState::kFree &&
+      if (esdf.layout.index_of(id).z == kPlanarLayer && esdf.is_open(id) &&
           esdf.squared[id] >= least_clearance(0.1, 0.1))
         places.push_back(esdf.layout.index_of(id));
     std::mt19937 random(seed);

@@ -64,7 +64,7 @@ TEST(AStar, ThroughEsdfDiagramAndGraphEqualsDijkstra) {
   int esdf_routes = 0, diagram_routes = 0, graph_routes = 0;
   for (unsigned seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
-    const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
+    const auto policy = static_cast<UnknownPolicy>(seed % 3);
     const auto roadmap = random_roadmap(seed, 0.1, policy);
     if (!roadmap) continue;
     const EsdfMap& esdf = roadmap->esdf;
@@ -221,7 +221,7 @@ TEST(AStar, WithinLimitsOfFlightEqualsDijkstra) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
     const OccupancyMap map = testing::random_map(seed);
-    const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
+    const auto policy = static_cast<UnknownPolicy>(seed % 3);
     const EsdfMap esdf = compute_esdf(map, {.unknown = policy});
     std::mt19937 random(seed);
     FlightLimits limits = testing::random_limits(random, *known_bounds(map));

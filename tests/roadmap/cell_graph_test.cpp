@@ -227,7 +227,7 @@ TEST(CellGraph, ConnectsWhatMovesAcrossFacesConnect) {
       ASSERT_NE(part, CellGraph::kNoPart);
       for (const VoxelIndex& step : {VoxelIndex{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) {
         const VoxelId to = esdf.layout.find(v + step);
-        if (to == kNoVoxel || esdf.state[to] != VoxelState::kFree) continue;
+        if (to == kNoVoxel || !esdf.is_open(to)) continue;
         ++moves;
         ASSERT_EQ(part_around(roadmap, v + step), part);
       }

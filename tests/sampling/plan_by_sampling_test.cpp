@@ -60,7 +60,7 @@ TEST(Sampling, PathsOfEveryPlannerKeepTheirClearanceOnRandomMaps) {
   int paths = 0;
   for (unsigned seed = 0; seed < 24; ++seed) {
     SCOPED_TRACE(seed);
-    const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
+    const auto policy = static_cast<UnknownPolicy>(seed % 3);
     const OccupancyMap map = testing::random_map(seed);
     const EsdfMap esdf = compute_esdf(map, {.unknown = policy});
     const std::vector<VoxelIndex> obstacles = testing::all_obstacles(map, policy);

@@ -92,7 +92,7 @@ TEST(BackgroundJoining, LeavesNothingFloatingAndAllElseAsItIs) {
   };
   for (unsigned seed = 0; seed < 100; ++seed) {
     SCOPED_TRACE(seed);
-    const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
+    const auto policy = static_cast<UnknownPolicy>(seed % 3);
     const double radius = seed % 2 == 0 ? 0.05 : 0.15;
     add(expect_joining_to_keep_its_word(space_of(floating_boxes(seed), policy, radius),
                                         seed % 5 == 0));

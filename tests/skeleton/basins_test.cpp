@@ -36,7 +36,7 @@ void expect_same_partition(const std::vector<std::uint32_t>& a,
 
 TEST(Basins, TellExactlyWhatIsConnectedAtEveryRadius) {
   for (unsigned seed = 0; seed < 120; ++seed) {
-    const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
+    const auto policy = static_cast<UnknownPolicy>(seed % 3);
     const EsdfMap esdf = compute_esdf(random_map(seed, 22), {.unknown = policy});
     const double smallest = kRadii[seed % 4];
     const Basins basins = find_basins(esdf, traversable_voxels(esdf, smallest), smallest);
@@ -84,7 +84,7 @@ TEST(Diagram, ConnectsWhatSpaceConnectsAndAttachesTheRest) {
   for (unsigned seed = 0; seed < 100; ++seed) {
     SCOPED_TRACE(seed);
     const double radius = seed % 2 == 0 ? 0.05 : 0.15;
-    const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
+    const auto policy = static_cast<UnknownPolicy>(seed % 3);
     const EsdfMap esdf = compute_esdf(random_map(seed, 26), {.unknown = policy});
     const VoxelMask traversable = traversable_voxels(esdf, radius);
     VoxelMask edges = extract_edges(esdf, compute_gvd(esdf, traversable));

@@ -35,7 +35,7 @@ std::vector<Eigen::Vector3d> basis_points(const EsdfMap& esdf, VoxelId id, doubl
   std::vector<Eigen::Vector3d> basis = {to_site(esdf, v, v)};
   for (const Direction d : kFaceDirections) {
     const VoxelId q = esdf.layout.find(v + offset_of(d));
-    if (q == kNoVoxel || esdf.state[q] != VoxelState::kFree || esdf.squared[q] == kNoSite) continue;
+    if (q == kNoVoxel || !esdf.is_open(q) || esdf.squared[q] == kNoSite) continue;
     const Eigen::Vector3d w = to_site(esdf, v, v + offset_of(d));
     bool is_new = w.norm() > 0.0 && (w - basis[0]).norm() >= least_apart - 1e-9;
     for (const Eigen::Vector3d& b : basis) is_new &= angle(b, w) > theta;
@@ -47,7 +47,7 @@ std::vector<Eigen::Vector3d> basis_points(const EsdfMap& esdf, VoxelId id, doubl
 TEST(Gvd, AndEdgesAreWhatTheirDefinitionsSay) {
   std::size_t ridges = 0, thick = 0, three = 0;
   for (unsigned seed = 0; seed < 40; ++seed) {
-    const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
+    const auto policy = static_cast<UnknownPolicy>(seed % 3);
     const double max_distance = seed % 4 == 1 ? 0.25 : std::numeric_limits<double>::infinity();
     const EsdfMap esdf = compute_esdf(random_map(seed, 22), {policy, max_distance});
     const VoxelMask traversable = traversable_voxels(esdf, 0.1);
@@ -59,7 +59,7 @@ TEST(Gvd, AndEdgesAreWhatTheirDefinitionsSay) {
       const VoxelMask apart = compute_gvd(esdf, traversable, {theta, least_apart * 0.1});
       const VoxelMask basis_edges = extract_basis_point_edges(esdf, gvd, {theta});
       for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id) {
-        const bool open = esdf.state[id] == VoxelState::kFree && esdf.distance(id) >= 0.1 - 1e-9;
+        const bool open = esdf.is_open(id) && esdf.distance(id) >= 0.1 - 1e-9;
         ASSERT_EQ(traversable.test(id), open);
         const bool has_site = esdf.squared[id] != kNoSite;
         const std::size_t basis = open && has_site ? basis_points(esdf, id, theta).size()

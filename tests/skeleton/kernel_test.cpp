@@ -48,7 +48,7 @@ void expect_kernel_and_opening_keep_their_word(const Stage& stage) {
 TEST(Kernel, KeepsTopologyAndOpeningMakesCurvesOnRandomMaps) {
   for (unsigned seed = 0; seed < 150; ++seed) {
     SCOPED_TRACE(seed);
-    const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
+    const auto policy = static_cast<UnknownPolicy>(seed % 3);
     const Stage stage = prepare(random_map(seed, 26), policy, seed % 2 == 0 ? 0.05 : 0.15);
     expect_kernel_and_opening_keep_their_word(stage);
     if (HasFatalFailure()) return;
@@ -85,7 +85,7 @@ VoxelMask peel_in_order(const Stage& stage) {
 
 TEST(Kernel, IsWhatPeelingEveryVoxelInOrderLeaves) {
   for (unsigned seed = 0; seed < 60; ++seed) {
-    const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
+    const auto policy = static_cast<UnknownPolicy>(seed % 3);
     const Stage stage = prepare(random_map(seed, 30), policy, seed % 2 == 0 ? 0.05 : 0.15);
     ASSERT_EQ(compute_kernel(stage.esdf, stage.traversable, stage.basins), peel_in_order(stage))
         << seed;

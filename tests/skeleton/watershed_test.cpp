@@ -105,7 +105,7 @@ TEST(Watershed, DynamicsAreThoseOfKruskalOverAllMoves) {
   std::size_t finite = 0;
   for (unsigned seed = 0; seed < 120; ++seed) {
     SCOPED_TRACE(seed);
-    const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
+    const auto policy = static_cast<UnknownPolicy>(seed % 3);
     const EsdfMap esdf = compute_esdf(seed % 2 == 0 ? specks(seed) : testing::random_map(seed, 26),
                                       {.unknown = policy});
     const double radius = seed % 2 == 0 ? 0.05 : 0.05 * (1 + seed / 2 % 3);
@@ -132,7 +132,7 @@ TEST(KernelJoiner, ConnectsAtEveryClearanceWhatSpaceConnectsThere) {
   constexpr unsigned kWanted[] = {4, 16, 64, 256};  // of 4,096
   std::size_t pieces_found = 0, radii = 0, added = 0;
   for (unsigned seed = 0; seed < 60; ++seed) {
-    const auto policy = seed % 3 == 0 ? UnknownPolicy::kIgnore : UnknownPolicy::kObstacle;
+    const auto policy = static_cast<UnknownPolicy>(seed % 3);
     const EsdfMap esdf = compute_esdf(testing::random_map(seed, 20), {.unknown = policy});
     const VoxelMask traversable = traversable_voxels(esdf, 0.05);
     std::mt19937 random(seed);

@@ -25,7 +25,7 @@ inline std::map<VoxelId, double> dijkstra_voxels(const EsdfMap& esdf, VoxelId st
     const Point here = centre_of(esdf.layout.index_of(id), esdf.voxel_size);
     for (int d = 0; d < 27; ++d) {
       const VoxelId next = esdf.layout.neighbour(id, d);
-      if (d == kCentre || next == kNoVoxel || esdf.state[next] != VoxelState::kFree ||
+      if (d == kCentre || next == kNoVoxel || !esdf.is_open(next) ||
           esdf.squared[next] < threshold || (within != nullptr && !within->test(next)))
         continue;
       const Point there = centre_of(esdf.layout.index_of(next), esdf.voxel_size);

@@ -13,8 +13,7 @@ inline std::vector<VoxelId> traversable_places(const EsdfMap& esdf, double radiu
                                                const VoxelMask* within = nullptr) {
   std::vector<VoxelId> places;
   for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id)
-    if (esdf.state[id] == VoxelState::kFree &&
-        esdf.squared[id] >= least_clearance(radius, esdf.voxel_size) &&
+    if (esdf.is_open(id) && esdf.squared[id] >= least_clearance(radius, esdf.voxel_size) &&
         (within == nullptr || within->test(id)))
       places.push_back(id);
   return places;

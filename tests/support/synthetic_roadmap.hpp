@@ -73,7 +73,7 @@ inline Roadmap synthetic_roadmap(const SyntheticConfig& config = {}) {
 
   std::vector<VoxelId> open;
   for (VoxelId id = 0; id < esdf.layout.voxel_count(); ++id) {
-    if (esdf.state[id] != VoxelState::kFree || esdf.distance(id) < 0.3) continue;
+    if (!esdf.is_open(id) || esdf.distance(id) < 0.3) continue;
     open.push_back(id);
     if (random() % 20 == 0) roadmap.diagram.voxels.set(id);
   }
@@ -89,7 +89,7 @@ inline Roadmap synthetic_roadmap(const SyntheticConfig& config = {}) {
   for (std::size_t i = 0; i < open.size(); ++i) {  // flood from the vertices
     for (int d = 0; d < 27; ++d) {
       const VoxelId n = esdf.layout.neighbour(open[i], d);
-      if (n == kNoVoxel || esdf.state[n] != VoxelState::kFree || esdf.squared[n] < low ||
+      if (n == kNoVoxel || !esdf.is_open(n) || esdf.squared[n] < low ||
           roadmap.attach.next[n] != AttachField::kNotTraversable) {
         continue;
       }
