@@ -157,7 +157,8 @@ DistanceField obstacle_field(const FreeSpace& space, double radius, double margi
   const FlightLimits limits = limits_of_field(space);
   if (!limits.any()) return of_map;
   return [=](const Point& p) {
-    const DistanceAndGradient obstacle = of_map(p), within = depth_within(limits, p);
+    DistanceAndGradient obstacle = of_map(p);
+    const DistanceAndGradient within = depth_within(limits, p);
     if (obstacle.distance <= radius + within.distance) return obstacle;
     return DistanceAndGradient{radius + within.distance, within.gradient};
   };
