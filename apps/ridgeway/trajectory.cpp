@@ -79,10 +79,12 @@ std::string explain_not_free(const EsdfMap& esdf, const std::vector<Point>& path
     const double clearance = space.clearance(a, b);
     if (clearance >= config.radius)
       return leg + "the robot does not fit, or space is unknown there: plan the path on this map";
+    const bool may_be_escape = i <= 1 || i + 1 == path.size();
     return leg + "it comes within " + text_of(rounded_down(clearance)) +
            " m of an obstacle, and the robot's radius is " + text_of(config.radius) +
-           " m: give a smaller --radius, plan the path on this map, or where this is an escape of "
-           "`plan --escape` give the path as .json, which tells so";
+           " m: give a smaller --radius, or plan the path on this map" +
+           (may_be_escape ? "; where it is an escape, give what `plan --escape` wrote as .json"
+                          : "");
   }
   return "the path is not free at the radius";
 }

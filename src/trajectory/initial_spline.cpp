@@ -11,8 +11,7 @@ namespace {
 
 constexpr double kLeastPiece = 0.25;  // of the spacing: no knots closer, but for ends
 constexpr double kRestPiece = 0.15;   // of the piece next to a rest, cut off
-constexpr double kTouching =
-    1e-7;  // of the spacing: a piece too short to be one, whatever its ends
+constexpr double kTouching = 1e-7;    // of the spacing: no knots closer, whatever they are
 
 bool is_among(std::span<const Point> places, const Point& p) {
   return std::find(places.begin(), places.end(), p) != places.end();

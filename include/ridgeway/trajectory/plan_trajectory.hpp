@@ -62,8 +62,8 @@ struct TrajectoryConfig {
   bool stop_and_go = false;    ///< no smoothing: the last resort at once
   int most_evaluations = 120;  ///< of the cost, each time that a stretch is optimised
   /// Points of the path, digit for digit, that are passed as they are; other corners are rounded,
-  /// and may be missed by far where there is room. Of two that all but touch, to a ten millionth of
-  /// the flight's scale, one is passed.
+  /// and may be missed by far where there is room. Of two that all but touch (1e-7 of the distance
+  /// between knots) one is passed.
   std::vector<Point> via = {};
 
   /// Throws InputError naming the bad field.
