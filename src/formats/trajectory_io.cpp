@@ -80,21 +80,17 @@ std::string trajectory_csv(const Trajectory& trajectory, double step) {
 
 namespace {
 
-/// Of a piece, as mav_trajectory_generation counts them; below 0 where they are too many.
+/// Of a piece, as mav_trajectory_generation counts them.
 long long nanoseconds_of(const TrajectorySegment& segment) {
-  constexpr double kMost = 9e18;
   const double nanoseconds = segment.duration * 1e9;
-  return nanoseconds < kMost ? std::llround(nanoseconds) : -1;
-}
-
-/// Refuses pieces whose durations the format cannot tell, but for a stand of none.
-void require_whole_nanoseconds(const Trajectory& trajectory, const std::filesystem::path& file) {
-  for (const TrajectorySegment& segment : trajectory.segments)
-    if (segment.duration > 0.0 && nanoseconds_of(segment) < 1)
-      throw InputError(
-          file.string(),
-          "counts whole nanoseconds, and a piece takes " + number_text(segment.duration) + " s",
-          "write .json or .csv, or change the limits of motion");
+  constexpr double kLeast = 0.5, kMost = 9e18;
+  const bool is_stand = segment.duration == 0.0;
+  if (!is_stand && !(nanoseconds >= kLeast && nanoseconds <= kMost))
+    throw InputError("trajectory",
+                     "has a piece of " + number_text(segment.duration) +
+                         " s, which is no whole number of nanoseconds that .yaml can tell",
+                     "write .json or .csv, or change the limits of motion");
+  return std::llround(nanoseconds);
 }
 
 }  // namespace
@@ -124,10 +120,8 @@ void write_trajectory(const PlanResult& path, const TrajectoryResult& result,
     write_text_file(file, trajectory_json(path, result, step) + "\n");
   else if (extension == ".csv")
     write_text_file(file, trajectory_csv(result.trajectory, step));
-  else {
-    require_whole_nanoseconds(result.trajectory, file);
+  else
     write_text_file(file, trajectory_yaml(result.trajectory));
-  }
 }
 
 }  // namespace ridgeway

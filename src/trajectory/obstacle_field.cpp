@@ -9,6 +9,8 @@
 #include <memory>
 #include <unordered_map>
 
+#include "planning/layout_box.hpp"
+
 namespace ridgeway::detail {
 namespace {
 
@@ -138,15 +140,12 @@ DistanceField field_of_map(const EsdfMap& esdf, double radius, double margin) {
 FlightLimits limits_of_field(const FreeSpace& space) {
   const EsdfMap& esdf = space.map();
   FlightLimits limits = space.limits() != nullptr ? *space.limits() : FlightLimits{};
-  if (esdf.unknown != UnknownPolicy::kFree || esdf.layout.block_count() == 0) return limits;
-  // All blocks of that box are there, so it is spanned by the first and the last in order.
-  const double side = kBlockSide * esdf.voxel_size;
-  const auto corner_of = [&](std::uint32_t rank, int corner) -> Point {
-    const BlockIndex& block = esdf.layout.block(esdf.layout.slot_at(rank));
-    return side * Point(block.x + corner, block.y + corner, block.z + corner);
-  };
+  if (esdf.unknown != UnknownPolicy::kFree) return limits;
+  const LayoutBox box(esdf.layout);
+  const double s = esdf.voxel_size;
   FlightLimits within;
-  within.keep_in = {corner_of(0, 0), corner_of(esdf.layout.block_count() - 1, 1)};
+  within.keep_in = {s * Point(box.low.x, box.low.y, box.low.z),
+                    s * Point(box.high.x + 1, box.high.y + 1, box.high.z + 1)};
   return both_of(limits, within);
 }
 

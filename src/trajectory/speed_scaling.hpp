@@ -17,7 +17,7 @@ Trajectory stretch_to_limits(Smoothness smoothness, std::vector<double> duration
                              std::span<const DerivativeMask> fixed, Eigen::MatrixXd derivatives,
                              const MotionLimits& limits);
 
-/// Whether speed, acceleration and jerk are within the limits.
+/// Whether all limits are kept; without a yaw that of its rate is.
 bool keeps_limits(const Trajectory& trajectory, const MotionLimits& limits);
 
 }  // namespace ridgeway::detail

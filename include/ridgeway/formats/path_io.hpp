@@ -94,11 +94,11 @@ std::string trajectory_csv(const Trajectory& trajectory, double step);
 /// The pieces as mav_trajectory_generation reads them: `segments`, each with N (coefficients), D
 /// (4: x, y, z, yaw), time (nanoseconds) and D lists of N coefficients, of 1, t, t^2, ... in
 /// seconds. Times are rounded to nanoseconds, so joints move by up to half of that times the speed.
+/// Throws InputError for a piece of less than half a nanosecond, or of more than 285 years.
 std::string trajectory_yaml(const Trajectory& trajectory);
 
 /// Writes a trajectory to a file, whole or not at all, in the format of its extension. Throws
-/// InputError for another extension, for a piece whose duration .yaml cannot tell, and where the
-/// file cannot be written.
+/// InputError for another extension, as trajectory_yaml does, and where the file cannot be written.
 void write_trajectory(const PlanResult& path, const TrajectoryResult& result,
                       const std::filesystem::path& file, double step);
 
