@@ -50,7 +50,6 @@ class CellGuide {
     bool is_final = false;                                ///< ways go on from it: once only
   };
   struct Met {
-    CellId cell = kNoCell;
     PartId first = kNoPart, last = kNoPart;  ///< its parts: from the first to before the last
   };
   struct Open {

@@ -16,8 +16,9 @@ inline constexpr CellId kNoCell = 0xffffffffu;
 
 /// From one of the eight cells of a block to the next cell in a direction.
 struct OctantStep {
-  Direction block;      ///< direction of that one's block; kCentre: the same block
-  std::uint8_t octant;  ///< its place in there
+  Direction block;       ///< direction of that one's block; kCentre: the same block
+  std::uint8_t octant;   ///< its place in there
+  std::uint8_t crossed;  ///< a bit for each axis along which that block is another one
 };
 inline constexpr auto kOctantSteps = [] {
   std::array<std::array<OctantStep, 27>, CellGraph::kPerBlock> steps{};
@@ -27,7 +28,8 @@ inline constexpr auto kOctantSteps = [] {
       const int x = (octant & 1) + o.x, y = (octant >> 1 & 1) + o.y, z = (octant >> 2) + o.z;
       steps[static_cast<std::size_t>(octant)][static_cast<std::size_t>(d)] = {
           static_cast<Direction>((x >> 1) + 1 + 3 * ((y >> 1) + 1) + 9 * ((z >> 1) + 1)),
-          static_cast<std::uint8_t>((x & 1) | (y & 1) << 1 | (z & 1) << 2)};
+          static_cast<std::uint8_t>((x & 1) | (y & 1) << 1 | (z & 1) << 2),
+          static_cast<std::uint8_t>((x >> 1 & 1) | (y >> 1 & 1) << 1 | (z >> 1 & 1) << 2)};
     }
   return steps;
 }();
@@ -63,24 +65,27 @@ class CellLattice {
 
   CellId neighbour(CellId cell, int direction) const {
     const OctantStep& step = step_from(cell, direction);
-    std::uint32_t rank = cell / CellGraph::kPerBlock;
-    if (step.block != kCentre) {
-      const std::uint32_t slot = layout_.neighbour_block(layout_.slot_at(rank), step.block);
-      if (slot == BlockLayout::kNoBlock) return kNoCell;
-      rank = layout_.rank(slot);
-    }
-    return rank * CellGraph::kPerBlock + step.octant;
+    const std::uint32_t rank = block_beside(cell, step);
+    return rank == BlockLayout::kNoBlock ? kNoCell : rank * CellGraph::kPerBlock + step.octant;
   }
 
+  /// Place in the order of all blocks of the one that a step from a cell leads to, or kNoBlock.
+  std::uint32_t block_beside(CellId cell, const OctantStep& step) const {
+    const std::uint32_t rank = cell / CellGraph::kPerBlock;
+    if (step.block == kCentre) return rank;
+    const std::uint32_t slot = layout_.neighbour_block(layout_.slot_at(rank), step.block);
+    return slot == BlockLayout::kNoBlock ? slot : layout_.rank(slot);
+  }
+
+  static const OctantStep& step_from(CellId cell, int direction) {
+    return kOctantSteps[cell % CellGraph::kPerBlock][static_cast<std::size_t>(direction)];
+  }
   /// In which direction the block of that neighbour lies.
   static int block_direction(CellId cell, int direction) {
     return step_from(cell, direction).block;
   }
 
  private:
-  static const OctantStep& step_from(CellId cell, int direction) {
-    return kOctantSteps[cell % CellGraph::kPerBlock][static_cast<std::size_t>(direction)];
-  }
   static CellId octant_of(const VoxelIndex& v) {
     return static_cast<CellId>((v.x >> 2 & 1) | (v.y >> 2 & 1) << 1 | (v.z >> 2 & 1) << 2);
   }

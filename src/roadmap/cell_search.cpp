@@ -21,6 +21,14 @@ namespace {
 
 constexpr float kFinal = -std::numeric_limits<float>::infinity();
 
+/// A cell that a search has met.
+struct MetCell {
+  CellId from = kNoCell;
+  /// Of the best way to it, voxels; minus infinity once ways go on from it, as it is final then.
+  float cost = std::numeric_limits<float>::infinity();
+  float rest = -1.0f;  ///< of the way to the goal, about, voxels; below 0: not known yet
+};
+
 const CellGraph::Lengths& lengths_for(const CellGraph& cells, double factor) {
   return widths_for(factor).least == kRadiusLevels.size() ? cells.lengths_wide : cells.lengths;
 }
@@ -56,6 +64,7 @@ class CellSearch {
 
  private:
   using Place = Eigen::Vector3f;  // voxels
+  using MetBlock = MetCells<MetCell>::Block;
 
   /// Where a cell is passed that begins at a voxel.
   Place place_in(CellId cell, const VoxelIndex& first) const {
@@ -67,12 +76,18 @@ class CellSearch {
   Place place_of(CellId cell) const { return place_in(cell, around_.first_voxel(cell)); }
 
   struct Open {
-    float estimate, cost;
-    CellId cell;
-    Direction back = kCentre;  ///< to the cell before it, if all 26 edges of that are free
-    bool operator<(const Open& other) const {  // the queue's top is the best
-      return estimate != other.estimate ? estimate > other.estimate : cell > other.cell;
-    }
+    Open(float estimate, float cost_there, CellId cell, Direction back_to)
+        : order(std::uint64_t{std::bit_cast<std::uint32_t>(estimate)} << 32 | cell),
+          cost(cost_there),
+          back(back_to) {}
+    CellId cell() const { return static_cast<CellId>(order); }
+    float estimate() const { return std::bit_cast<float>(static_cast<std::uint32_t>(order >> 32)); }
+    bool operator<(const Open& other) const { return order > other.order; }  // the top is the best
+
+    std::uint64_t
+        order;  ///< by the estimate (bits of floats from 0 on ascend with them), then cell
+    float cost;
+    std::uint32_t back;  ///< direction to the cell before it, if all 26 edges of that are free
   };
 
   void aim_at(CellId goal) {
@@ -80,21 +95,26 @@ class CellSearch {
     goal_lengths_ = lengths_[cell_of_place(graph_, goal) / CellGraph::kPerBlock];
   }
 
-  /// Of the way to the goal, about, voxels.
-  float rest_from(CellId cell, const Place& place) const {
-    float rest = (place - goal_).norm();
-    if (lengths_.empty()) return rest;
+  /// Of the way to the goal from a block, about, voxels, by landmarks; 0 where they do not tell.
+  float rest_by_landmarks(std::uint32_t block) const {
+    if (lengths_.empty()) return 0.0f;
     constexpr auto kShare = static_cast<float>(kPlanning.landmark_share);
-    const auto& own = lengths_[cell_of_place(graph_, cell) / CellGraph::kPerBlock];
+    const auto& own = lengths_[block];
+    float rest = 0.0f;
     for (std::size_t k = 0; k < own.size(); ++k)  // what is no number does not count
       rest = std::max(rest, kShare * std::abs(own[k] - goal_lengths_[k]));
     return rest;
   }
+  /// The same from a place of a cell.
+  float rest_from(CellId cell) const {
+    const std::uint32_t block = cell_of_place(graph_, cell) / CellGraph::kPerBlock;
+    return std::max((place_of(cell) - goal_).norm(), rest_by_landmarks(block));
+  }
 
-  void reach(float cost, CellId from, MetCell& met, Direction back = kCentre) {
+  void reach(float cost, CellId from, CellId cell, MetCell& met, Direction back = kCentre) {
     met.cost = cost;
     met.from = from;
-    open_.push({cost + static_cast<float>(kPlanning.cell_weight) * met.rest, cost, met.cell, back});
+    open_.emplace(cost + static_cast<float>(kPlanning.cell_weight) * met.rest, cost, cell, back);
   }
 
   /// The last cell of the best route found, or kNoCell. No cell is gone on from twice: estimates by
@@ -103,8 +123,8 @@ class CellSearch {
     for (CellApproach::Join& join : out.joins())
       if (out.sees(join)) {
         MetCell& met = met_[join.cell];
-        met.rest = rest_from(join.cell, place_of(join.cell));
-        reach(join.length, join.cell, met);
+        met.rest = rest_from(join.cell);
+        reach(join.length, join.cell, join.cell, met);
       }
     float best = longest_;
     CellId best_last = kNoCell;
@@ -112,74 +132,90 @@ class CellSearch {
       if (deadline_.has_passed(taken)) break;
       const Open next = open_.top();
       open_.pop();
-      if (best_last != kNoCell && next.estimate >= best) break;
-      MetCell& met = met_[next.cell];
+      const CellId cell = next.cell();
+      if (best_last != kNoCell && next.estimate() >= best) break;
+      MetCell& met = met_[cell];
       if (next.cost > met.cost) continue;
       met.cost = kFinal;
       for (CellApproach::Join& join : in.joins())
-        if (join.cell == next.cell && next.cost + join.length < best && in.sees(join) &&
+        if (join.cell == cell && next.cost + join.length < best && in.sees(join) &&
             next.cost + join.length < best) {  // a walk is longer than a segment
           best = next.cost + join.length;
-          best_last = next.cell;
+          best_last = cell;
         }
-      if (next.cell < cells_.size()) expand(next, best);
-      if (next.cell >= cells_.size() || cells_[next.cell].has_bends) follow_bends(next, best);
+      if (cell < cells_.size()) expand(cell, next, best);
+      if (cell >= cells_.size() || cells_[cell].has_bends) follow_bends(cell, next.cost, best);
     }
     return best_last;
   }
 
-  /// Cells beside one, by direction.
-  using Around = std::array<CellId, 27>;
+  /// Blocks that hold a cell and those beside it, by the axes along which they are other ones than
+  /// its own (OctantStep::crossed): places in met_, kNoBlock for those that do not exist.
+  using Around = std::array<std::uint32_t, 8>;
 
-  /// Finds those in some directions, and has the memory fetch what is known of them: all at once,
-  /// as most of a search is waiting for it.
-  void fetch_around(CellId cell, Cube27 directions, Around& around) const {
+  /// Finds those in some directions, and has the memory fetch what is known of their cells: all at
+  /// once, as much of a search is waiting for it.
+  Around meet_around(CellId cell, Cube27 directions) {
+    constexpr std::uint32_t kNotAsked = BlockLayout::kNoBlock - 1;
+    Around around;
+    around.fill(kNotAsked);
+    std::array<std::uint32_t, 8> numbers;
     for (; directions != 0; directions &= directions - 1) {
-      const int d = std::countr_zero(directions);
-      const CellId next = lattice_.neighbour(cell, d);
-      around[static_cast<std::size_t>(d)] = next;
-      if (next == kNoCell) continue;
-      __builtin_prefetch(&cells_[next]);
-      if (!lengths_.empty()) __builtin_prefetch(&lengths_[next / CellGraph::kPerBlock]);
+      const OctantStep& step = CellLattice::step_from(cell, std::countr_zero(directions));
+      std::uint32_t& place = around[step.crossed];
+      std::uint32_t& number = numbers[step.crossed];
+      if (place == kNotAsked) {
+        number = lattice_.block_beside(cell, step);
+        place = number == BlockLayout::kNoBlock ? number : met_.meet(number);
+        if (place != BlockLayout::kNoBlock && !lengths_.empty())
+          __builtin_prefetch(&lengths_[number]);
+      }
+      if (place != BlockLayout::kNoBlock)
+        __builtin_prefetch(&cells_[number * CellGraph::kPerBlock + step.octant]);
     }
+    return around;
   }
 
   /// `best`: length that ways have to stay below, voxels.
-  void expand(const Open& here, float best) {
-    const Cube27 directions = kBeyondParent[here.back];
-    Around around;
-    fetch_around(here.cell, directions, around);
-    const VoxelIndex first = lattice_.first_voxel(here.cell);
-    const Place place = place_in(here.cell, first);
-    const bool is_open = cells_[here.cell].all_around >= widths_.sure;
+  void expand(CellId here, const Open& open, float best) {
+    const Cube27 directions = kBeyondParent[open.back];
+    const Around around = meet_around(here, directions);
+    const VoxelIndex first = lattice_.first_voxel(here);
+    const Place place = place_in(here, first);
+    const bool is_open = cells_[here].all_around >= widths_.sure;
     for (Cube27 left = directions; left != 0; left &= left - 1) {
       const int d = std::countr_zero(left);
-      const CellId next = around[static_cast<std::size_t>(d)];
-      if (next == kNoCell) continue;
-      const std::size_t width = is_open ? widths_.sure : edge_width(cells_, here.cell, next, d);
+      const OctantStep& step = CellLattice::step_from(here, d);
+      if (around[step.crossed] == BlockLayout::kNoBlock) continue;
+      MetBlock& block = met_.block(around[step.crossed]);
+      const CellId next = block.number * CellGraph::kPerBlock + step.octant;
+      const std::size_t width = is_open ? widths_.sure : edge_width(cells_, here, next, d);
       if (width < widths_.least) continue;
-      MetCell& met = met_[next];
-      if (here.cost >= met.cost) continue;  // as most have
+      MetCell& met = block.cells[step.octant];
+      if (open.cost >= met.cost) continue;  // as most have
       const VoxelIndex& o = offset_of(d);
       const Place there =
           place_in(next, first + VoxelIndex{CellGraph::kSide * o.x, CellGraph::kSide * o.y,
                                             CellGraph::kSide * o.z});
-      const float cost = here.cost + (there - place).norm();
+      const float cost = open.cost + (there - place).norm();
       if (cost >= met.cost) continue;
-      if (met.rest < 0.0f) met.rest = rest_from(next, there);
-      if (cost + met.rest < best && (width >= widths_.sure || is_free(here.cell, next)))
-        reach(cost, here.cell, met, is_open ? static_cast<Direction>(opposite(d)) : kCentre);
+      if (met.rest < 0.0f) {
+        if (block.bound < 0.0f) block.bound = rest_by_landmarks(block.number);
+        met.rest = std::max((there - goal_).norm(), block.bound);
+      }
+      if (cost + met.rest < best && (width >= widths_.sure || is_free(here, next)))
+        reach(cost, here, next, met, is_open ? static_cast<Direction>(opposite(d)) : kCentre);
     }
   }
 
-  void follow_bends(const Open& here, float best) {
-    for (const CellGraph::Bend& bend : bends_from(graph_, here.cell)) {
+  void follow_bends(CellId here, float cost_here, float best) {
+    for (const CellGraph::Bend& bend : bends_from(graph_, here)) {
       if (bend.width < widths_.sure) continue;
-      const float cost = here.cost + bend.length;
+      const float cost = cost_here + bend.length;
       MetCell& met = met_[bend.to];
       if (cost >= met.cost) continue;
-      if (met.rest < 0.0f) met.rest = rest_from(bend.to, place_of(bend.to));
-      if (cost + met.rest < best) reach(cost, here.cell, met);
+      if (met.rest < 0.0f) met.rest = rest_from(bend.to);
+      if (cost + met.rest < best) reach(cost, here, bend.to, met);
     }
   }
 
@@ -240,7 +276,7 @@ class CellSearch {
   std::array<float, CellGraph::kLandmarks> goal_lengths_{};
   const Place goal_;
   const float longest_;
-  MetCells<> met_;
+  MetCells<MetCell> met_;
   std::priority_queue<Open> open_;
 };
 

@@ -2,68 +2,68 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <array>
 #include <cstddef>
-#include <limits>
+#include <cstdint>
 #include <vector>
 
 #include "cell_neighbours.hpp"
 
 namespace ridgeway::detail {
 
-/// A cell that a search has met.
-struct MetCell {
-  CellId cell = kNoCell, from = kNoCell;
-  /// Of the best way to it, voxels; minus infinity once ways go on from it, as it is final then.
-  float cost = std::numeric_limits<float>::infinity();
-  float rest = -1.0f;  ///< of the way to the goal, about, voxels; below 0: not known yet
-};
-
-/// What a search knows of the cells that it has met: a hash table, as they are few of many.
-template <typename Met = MetCell>
+/// What a search knows of the cells that it has met, few of many: those of a block together, as who
+/// asks for one asks for others of that block soon; blocks by a hash table.
+template <typename Met>
 class MetCells {
  public:
-  Met& operator[](CellId cell) {
-    if (2 * count_ >= table_.size()) grow();
-    return place_of(cell);
+  struct Block {
+    std::uint32_t number = 0;    ///< cells divided by CellGraph::kPerBlock
+    float bound = kNotComputed;  ///< for the searcher, of all cells of the block
+    std::array<Met, CellGraph::kPerBlock> cells{};
+  };
+  static constexpr float kNotComputed = -1.0f;
+
+  /// Place of a block, for block(); one that was not met is from now on.
+  std::uint32_t meet(std::uint32_t number) {
+    std::uint32_t& place = table_[place_in_table(number)];
+    if (place != kNone) return place;
+    place = static_cast<std::uint32_t>(blocks_.size());
+    blocks_.emplace_back().number = number;
+    if (2 * blocks_.size() <= table_.size()) return place;
+    grow();
+    return static_cast<std::uint32_t>(blocks_.size()) - 1;
   }
-  /// Null for one that was not met.
+  /// Valid until meet() is called for another one.
+  Block& block(std::uint32_t place) { return blocks_[place]; }
+
+  Met& operator[](CellId cell) {
+    return blocks_[meet(cell / CellGraph::kPerBlock)].cells[cell % CellGraph::kPerBlock];
+  }
+  /// Null for a cell of a block that was not met.
   const Met* find(CellId cell) const {
-    std::size_t i = first_place(cell);
-    while (table_[i].cell != cell) {
-      if (table_[i].cell == kNoCell) return nullptr;
-      i = (i + 1) & (table_.size() - 1);
-    }
-    return &table_[i];
+    const std::uint32_t place = table_[place_in_table(cell / CellGraph::kPerBlock)];
+    return place == kNone ? nullptr : &blocks_[place].cells[cell % CellGraph::kPerBlock];
   }
 
  private:
-  std::size_t first_place(CellId cell) const {
-    return cell * 2654435761u & (table_.size() - 1);  // Knuth's multiplicative hash
-  }
+  static constexpr std::uint32_t kNone = 0xffffffffu;
 
-  Met& place_of(CellId cell) {
-    std::size_t i = first_place(cell);
-    while (table_[i].cell != cell) {
-      if (table_[i].cell == kNoCell) {
-        table_[i].cell = cell;
-        ++count_;
-        break;
-      }
-      i = (i + 1) & (table_.size() - 1);
-    }
-    return table_[i];
+  /// Where a block is, or has to be put.
+  std::size_t place_in_table(std::uint32_t number) const {
+    const std::size_t mask = table_.size() - 1;
+    std::size_t i = number * 2654435761u & mask;  // Knuth's multiplicative hash
+    while (table_[i] != kNone && blocks_[table_[i]].number != number) i = (i + 1) & mask;
+    return i;
   }
 
   void grow() {
-    std::vector<Met> old(4 * table_.size());
-    old.swap(table_);
-    count_ = 0;
-    for (const Met& met : old)
-      if (met.cell != kNoCell) place_of(met.cell) = met;
+    table_.assign(4 * table_.size(), kNone);
+    for (std::uint32_t k = 0; k < blocks_.size(); ++k)
+      table_[place_in_table(blocks_[k].number)] = k;
   }
 
-  std::vector<Met> table_ = std::vector<Met>(2048);
-  std::size_t count_ = 0;
+  std::vector<std::uint32_t> table_ = std::vector<std::uint32_t>(512, kNone);
+  std::vector<Block> blocks_;
 };
 
 }  // namespace ridgeway::detail
