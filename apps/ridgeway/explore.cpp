@@ -104,6 +104,26 @@ Spread milliseconds_of(const ExplorationFlight& flight) {
   return spread_of(std::move(milliseconds));
 }
 
+std::string end_text(const ExplorationFlight& flight) {
+  if (flight.is_complete) return "complete: no viewpoint sees a frontier";
+  std::string text(flight.end_name());
+  if (flight.end == ExplorationStatus::kStuck)
+    text += ": no way that is known to be free leads on, or home";
+  return text;
+}
+
+/// What a reader of the figures alone could miss.
+void warn_of(const ExplorationFlight& flight, const Globals& globals) {
+  constexpr double kLittle = 0.5;
+  if (flight.collisions > 0)
+    warn(globals, "the drone came nearer than its radius to the exact world at " +
+                      count_text(flight.collisions) + " places of its flight");
+  if (flight.is_complete && flight.coverage < kLittle)
+    warn(globals, "only " + text_of(100.0 * flight.coverage, 2) +
+                      " % of what could be seen is mapped: the drone sees no more from where its "
+                      "map lets it go (a longer --max-range, a smaller --margin or --spacing?)");
+}
+
 void print(const ExplorationFlight& flight, const std::string& output, const Globals& globals) {
   const Spread decisions = milliseconds_of(flight);
   if (globals.json) {
@@ -123,8 +143,7 @@ void print(const ExplorationFlight& flight, const std::string& output, const Glo
                 {"unseen", json_of_unseen(flight)}});
     return;
   }
-  print_row("end", flight.is_complete ? "complete: no viewpoint sees a frontier"
-                                      : std::string(flight.end_name()));
+  print_row("end", end_text(flight));
   print_row("mapped", text_of(100.0 * flight.coverage, 2) + " % of " +
                           text_of(flight.viewable_volume, 1) + " cubic metres that can be seen");
   print_row("flight", text_of(flight.seconds, 1) + " s, " + text_of(flight.length, 1) + " m, " +
@@ -138,8 +157,10 @@ void print(const ExplorationFlight& flight, const std::string& output, const Glo
         "unseen",
         count_text(frontier.voxels) + " voxels at " + point_text(frontier.centroid) + ": " +
             std::string(name_of(frontier.reason)) +
-            (frontier.door ? ", the way there fits a radius of " + text_of(frontier.door_radius) +
-                                 " m at " + point_text(*frontier.door)
+            (frontier.door ? ", the way there has room for a radius of " +
+                                 text_of(frontier.door_radius) + " m, not for " +
+                                 text_of(flight.roadmap->min_clearance) + " m, at " +
+                                 point_text(*frontier.door)
                            : ""));
   print_row("file", output);
 }
@@ -200,6 +221,7 @@ int run(const ExploreOptions& options, const Globals& globals) {
   if (!options.volume.empty()) write_text_file(options.volume, volume_csv(flight));
   if (!options.picture.empty()) draw(flight, world.name, options.picture);
   print(flight, options.output, globals);
+  warn_of(flight, globals);
   followed.show_last(flight.roadmap);
   followed.stay();
   return kExitDone;

@@ -69,6 +69,9 @@ void add_explore_settings(Command& command, ExploreSettings& settings) {
                  "Gaussian noise on every range, metres");
   command.number("--max-range", settings.max_range, kLengths,
                  "Nothing farther is measured, metres");
+  command.whole("--forget-after", config.forget_after, {0, 255},
+                "Measurements in a row that contradict a voxel before it is forgotten; 0: never "
+                "(default: 8 where the world has solids that come and go, else 0)");
   command.number("--scan-rate", config.scan_rate, {1e-3, 1e3}, "Images a second");
   command.box("--bounds", settings.bounds,
               "What is to be mapped, x0,y0,z0,x1,y1,z1 (default: the world's enclosure)");

@@ -83,7 +83,7 @@ class ExplorationRun {
         on_image_(on_image),
         on_scan_(on_scan),
         within_(voxels_inside(bounds, config.voxel_size)),
-        live_(live_config(config)),
+        live_(live_config(config, !world.timed.empty())),
         viewable_(world_at(world, 0.0), config.voxel_size, within_, config.start,
                   config.clearance(), config.whole_view()),
         explorer_(explorer_config()),
@@ -93,6 +93,9 @@ class ExplorationRun {
     stand.coefficients.col(0) << config.start, config.start_yaw;
     flying_.segments.push_back(stand);
     flight_.viewable_volume = viewable_.volume();
+    if (flight_.viewable_volume == 0.0)
+      throw InputError("bounds", "hold nothing that the sensor could see from where the drone fits",
+                       "give larger bounds, or a sensor that reaches farther");
     if (config.planner == ExplorationPlanner::kOffline)
       offline_.emplace(world_at(world, 0.0), config.voxel_size, within_, config.clearance(),
                        config.max_distance, config.start, config.view(), config.explorer.motion,
@@ -117,10 +120,11 @@ class ExplorationRun {
   }
 
  private:
-  static LiveConfig live_config(const ExplorationFlightConfig& config) {
+  static LiveConfig live_config(const ExplorationFlightConfig& config, bool is_changing) {
     return {.fusion = {.voxel_size = config.voxel_size,
                        .min_range = std::max(0.1, config.min_range()),
-                       .max_range = config.max_range()},
+                       .max_range = config.max_range(),
+                       .forget_after = config.forget_after.value_or(is_changing ? 8 : 0)},
             .build = {.min_clearance = config.clearance(), .max_distance = config.max_distance},
             .origin = VoxelIndex{}};
   }

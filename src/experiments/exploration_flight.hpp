@@ -41,6 +41,8 @@ struct ExplorationFlightConfig {
   bool come_back = true;
   double voxel_size = 0.2;
   double max_distance = 4.0;  ///< distances stop here
+  /// See FusionConfig; none: 8 in worlds with solids that come and go, else 0.
+  std::optional<int> forget_after;
   double scan_rate = 4.0;     ///< images a second
   std::optional<Box> bounds;  ///< what is to be mapped; else the world's enclosure
   DepthSensor sensor;

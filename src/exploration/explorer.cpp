@@ -32,6 +32,18 @@ void require_state(const FlightState& state) {
     throw InputError("state", "is not finite", "give finite numbers");
 }
 
+/// As planned, but for how well it was followed and measured.
+void require_within(const FlightState& state, const MotionLimits& limits) {
+  constexpr double kMost = 1.1;  // times the limit
+  const auto require_below = [](const char* name, const Point& value, double most) {
+    if (value.norm() > kMost * most)
+      throw InputError(name, "is " + number_text(value.norm()) + " of " + number_text(most),
+                       "give a higher limit, or brake by the robot's own means first");
+  };
+  require_below("velocity", state.velocity, limits.max_speed);
+  require_below("acceleration", state.acceleration, limits.max_acceleration);
+}
+
 }  // namespace
 
 Explorer::State::State(const ExplorerConfig& given)
@@ -265,6 +277,7 @@ ExplorationStep Explorer::decide(std::shared_ptr<const Roadmap> now, const Fligh
     throw InputError("roadmap", "does not take unknown space for an obstacle",
                      "build it with that policy");
   require_state(state);
+  require_within(state, state_->config.motion);
   if (state_->config.kept_clearance > now->min_clearance)
     throw InputError("kept_clearance",
                      "is more than the roadmap's min_clearance, which trajectories keep",

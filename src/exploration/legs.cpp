@@ -23,7 +23,7 @@ bool is_moving(const FlightState& state) {
   return state.velocity.norm() > 1e-9 || state.acceleration.norm() > 1e-9;
 }
 
-/// From the robot's motion, within the limits but for rounding.
+/// From the robot's motion; what is a little above its limits counts as they do.
 TrajectoryConfig flight_from(const Roadmap& roadmap, const MotionLimits& limits,
                              const FlightState& state) {
   TrajectoryConfig fly = {.radius = roadmap.min_clearance,

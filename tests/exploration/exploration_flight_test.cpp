@@ -310,6 +310,12 @@ TEST(Exploration, RefusesWhatCannotBeFlown) {
   config.lidar = {.max_range = 0.3};
   refused(world, config, "max_range");
   config = quick_config();
+  config.sensor.max_range = config.free_radius() + config.voxel_size;
+  refused(world, config, "nothing new is seen");
+  config = quick_config();
+  config.forget_after = 256;
+  refused(world, config, "forget_after");
+  config = quick_config();
   config.budget = 1.0;
   refused(world, config, "budget");
   config = quick_config();

@@ -98,6 +98,21 @@ TEST(Explorer, BeginsWithTheMotionThatARobotHas) {
   EXPECT_TRUE(step.trajectory.at(0.0).velocity.isApprox(velocity, 1e-9));
 }
 
+/// A flight that begins with another velocity than the robot's is verified in vain.
+TEST(Explorer, RefusesAMotionBeyondItsLimits) {
+  LiveRoadmap live = live_for_explorers();
+  live.set_voxels(room_behind_a_wall());
+  const MotionLimits limits;
+  const auto decide = [&](double speed, double acceleration) {
+    return Explorer({}).decide(live.snapshot(), {.position = {5.1, 3.1, 1.5},
+                                                 .velocity = {speed, 0.0, 0.0},
+                                                 .acceleration = {acceleration, 0.0, 0.0}});
+  };
+  EXPECT_THROW(decide(1.2 * limits.max_speed, 0.0), InputError);
+  EXPECT_THROW(decide(0.1, 1.2 * limits.max_acceleration), InputError);
+  EXPECT_NO_THROW(decide(0.1, 1.05 * limits.max_acceleration));
+}
+
 /// It is in doubt of its way out only where something turns up there.
 TEST(Explorer, TheWayOutOfWhereItDoesNotFitIsFlownToItsEnd) {
   LiveRoadmap live = live_for_explorers();

@@ -156,9 +156,11 @@ struct UnseenFrontier {
   Point centroid = Point::Zero();                  ///< world
   std::size_t voxels = 0;                          ///< free ones of the frontier
   UnseenReason reason = UnseenReason::kOutOfView;  ///< why it was left
-  /// Of kTooNarrow: where the widest way there is narrowest, and the radius that would fit.
+  /// Of kTooNarrow: where the widest way there is narrowest.
   std::optional<Point> door = std::nullopt;
-  double door_radius = 0.0;  ///< metres; 0 where it is for another reason
+  /// Metres: the radius that would fit there, to be held against the roadmap's min_clearance, which
+  /// has the margin in it; 0 where it is for another reason.
+  double door_radius = 0.0;
 };
 
 /// Decides where a robot with a level depth sensor flies to map what it has not seen: from a
@@ -186,7 +188,8 @@ class Explorer {
   /// What to do now; to be asked after every scan. `now`: of unknown space as an obstacle; the
   /// robot's radius is its min_clearance. The robot is taken to follow the last trajectory, from
   /// the time on at which that was given; once its end has passed, what was seen there must be in
-  /// the map. Throws InputError for a state that is not finite, a time that runs backwards, or a
+  /// the map. A speed or acceleration up to a tenth above its limit counts as the limit. Throws
+  /// InputError for one above that, a state that is not finite, a time that runs backwards, or a
   /// roadmap of another policy, or whose min_clearance is below kept_clearance.
   ExplorationStep decide(std::shared_ptr<const Roadmap> now, const FlightState& state);
 
