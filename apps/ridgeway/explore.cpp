@@ -153,15 +153,14 @@ void print(const ExplorationFlight& flight, const std::string& output, const Glo
   print_row("decision", seconds_text(1e-3 * decisions.median) + ", 95% within " +
                             seconds_text(1e-3 * decisions.p95));
   for (const UnseenFrontier& frontier : flight.unseen)
-    print_row(
-        "unseen",
-        count_text(frontier.voxels) + " voxels at " + point_text(frontier.centroid) + ": " +
-            std::string(name_of(frontier.reason)) +
-            (frontier.door ? ", the way there has room for a radius of " +
-                                 text_of(frontier.door_radius) + " m, not for " +
-                                 text_of(flight.roadmap->min_clearance) + " m, at " +
-                                 point_text(*frontier.door)
-                           : ""));
+    print_row("unseen", count_text(frontier.voxels) + " voxels at " +
+                            point_text(frontier.centroid) + ": " +
+                            std::string(name_of(frontier.reason)) +
+                            (frontier.door ? ", the way there has room for a radius of " +
+                                                 text_of(frontier.door_radius) + " m, not for " +
+                                                 text_of(flight.roadmap->min_clearance) +
+                                                 " m, at " + point_text(*frontier.door)
+                                           : ""));
   print_row("file", output);
 }
 

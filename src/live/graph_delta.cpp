@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <map>
+#include <utility>
+#include <vector>
 
 #include "paths/world_rounding.hpp"
 #include "ridgeway/common/error.hpp"
@@ -16,14 +17,23 @@ namespace {
 
 using detail::radius_less_rounding;
 
+/// By name, ascending.
 template <typename Name>
-using Clearances = std::map<Name, double>;
+using Clearances = std::vector<std::pair<Name, double>>;
+
+template <typename Name>
+Clearances<Name> in_order(Clearances<Name> clearances) {
+  if (!std::is_sorted(clearances.begin(), clearances.end()))
+    std::sort(clearances.begin(), clearances.end());
+  return clearances;
+}
 
 Clearances<VoxelIndex> vertices_of(const Roadmap& roadmap) {
   Clearances<VoxelIndex> vertices;
+  vertices.reserve(roadmap.graph.vertices.size());
   for (const Vertex& vertex : roadmap.graph.vertices)
-    vertices[roadmap.esdf.origin + vertex.voxel] = vertex.clearance;
-  return vertices;
+    vertices.emplace_back(roadmap.esdf.origin + vertex.voxel, vertex.clearance);
+  return in_order(std::move(vertices));
 }
 
 Clearances<EdgeName> edges_of(const Roadmap& roadmap) {
@@ -31,26 +41,28 @@ Clearances<EdgeName> edges_of(const Roadmap& roadmap) {
     return roadmap.esdf.origin + roadmap.graph.vertices[number(id)].voxel;
   };
   Clearances<EdgeName> edges;
+  edges.reserve(roadmap.graph.edges.size());
   for (const Edge& edge : roadmap.graph.edges) {
     const VoxelIndex a = name(edge.from), b = name(edge.to);
-    edges[{std::min(a, b), std::max(a, b)}] = edge.clearance;
+    edges.push_back({{std::min(a, b), std::max(a, b)}, edge.clearance});
   }
-  return edges;
+  return in_order(std::move(edges));
 }
 
 template <typename Name>
 void compare(const Clearances<Name>& before, const Clearances<Name>& now, std::vector<Name>& came,
              std::vector<Name>& gone, std::vector<Name>& changed) {
+  auto old = before.begin();
   for (const auto& [name, clearance] : now) {
-    const auto old = before.find(name);
-    if (old == before.end()) {
+    for (; old != before.end() && old->first < name; ++old) gone.push_back(old->first);
+    if (old == before.end() || name < old->first) {
       came.push_back(name);
-    } else if (old->second != clearance) {
-      changed.push_back(name);
+      continue;
     }
+    if (old->second != clearance) changed.push_back(name);
+    ++old;
   }
-  for (const auto& [name, clearance] : before)
-    if (!now.contains(name)) gone.push_back(name);
+  for (; old != before.end(); ++old) gone.push_back(old->first);
 }
 
 /// The voxels of a block where a robot may not be any more, or that it has to keep away from now.
@@ -58,6 +70,7 @@ void compare(const Clearances<Name>& before, const Clearances<Name>& now, std::v
 /// space is free it ends with the box of the blocks.
 void find_closed(const VoxelIndex& first, const VoxelState* old, const VoxelState* states,
                  UnknownPolicy policy, std::vector<VoxelIndex>& closed) {
+  if (old == states) return;  // the same memory
   if (old != nullptr && states != nullptr &&
       std::memcmp(old, states, kBlockVoxels * sizeof(VoxelState)) == 0)
     return;
@@ -75,18 +88,21 @@ void find_closed(const VoxelIndex& first, const VoxelState* old, const VoxelStat
 std::vector<VoxelIndex> closed_between(const EsdfMap& before, const EsdfMap& now) {
   std::vector<VoxelIndex> closed;
   const auto first_of = [&](const BlockIndex& block) { return now.origin + voxel_of(block, 0); };
+  // Snapshots that follow each other mostly have a block in the same slot.
+  const auto slot_in = [](const BlockLayout& layout, std::uint32_t slot, const BlockIndex& block) {
+    return slot < layout.block_count() && layout.block(slot) == block ? slot
+                                                                      : layout.find_block(block);
+  };
   for (std::uint32_t slot = 0; slot < before.layout.block_count(); ++slot) {
     const BlockIndex& block = before.layout.block(slot);
-    const std::uint32_t other = slot < now.layout.block_count() && now.layout.block(slot) == block
-                                    ? slot
-                                    : now.layout.find_block(block);
+    const std::uint32_t other = slot_in(now.layout, slot, block);
     find_closed(first_of(block), before.state.block(slot),
                 other == BlockLayout::kNoBlock ? nullptr : now.state.block(other), now.unknown,
                 closed);
   }
   for (std::uint32_t slot = 0; slot < now.layout.block_count(); ++slot)
     if (const BlockIndex& block = now.layout.block(slot);
-        before.layout.find_block(block) == BlockLayout::kNoBlock)
+        slot_in(before.layout, slot, block) == BlockLayout::kNoBlock)
       find_closed(first_of(block), nullptr, now.state.block(slot), now.unknown, closed);
   std::sort(closed.begin(), closed.end());
   return closed;

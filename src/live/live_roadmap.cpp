@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include "ridgeway/live/live_roadmap.hpp"
 
+#include <tbb/task_arena.h>
+
 #include <string>
 
 #include "common/require.hpp"
@@ -26,6 +28,14 @@ void validate_changes(std::span<const VoxelChange> changes, const VoxelIndex& or
              "check its units and the voxel size");
     if (!reach.contains(changes[i].voxel)) refuse(detail::kTooFar, detail::kNearerOrigin);
   }
+}
+
+/// Runs work while nothing else updates the state. Isolated: a thread that waits for a loop of it
+/// must not take up another task of the caller's, which may want the same state.
+template <typename Work>
+auto alone(std::mutex& updating, const Work& work) {
+  const std::lock_guard lock(updating);
+  return tbb::this_task_arena::isolate(work);
 }
 
 }  // namespace
@@ -58,57 +68,55 @@ LiveRoadmap& LiveRoadmap::operator=(LiveRoadmap&&) noexcept = default;
 
 UpdateReport LiveRoadmap::integrate(const DepthImage& image, const PinholeCamera& camera,
                                     const Eigen::Isometry3d& T_world_camera) {
-  const std::lock_guard updating(state_->updating);
-  return state_->integrate(image, camera, T_world_camera);
+  return alone(state_->updating, [&] { return state_->integrate(image, camera, T_world_camera); });
 }
 
 UpdateReport LiveRoadmap::integrate(std::span<const Point> points,
                                     const Eigen::Isometry3d& T_world_sensor) {
-  const std::lock_guard updating(state_->updating);
-  return state_->integrate(points, T_world_sensor);
+  return alone(state_->updating, [&] { return state_->integrate(points, T_world_sensor); });
 }
 
 UpdateReport LiveRoadmap::set_voxels(std::span<const VoxelChange> changes) {
   State& s = *state_;
-  const std::lock_guard updating(s.updating);
-  validate_changes(changes,
-                   s.now ? s.now->field.esdf.origin : s.config.origin.value_or(VoxelIndex{}));
-  UpdateReport report;
-  s.update(s.window.take_with(changes), std::nullopt, report);
-  s.window.keep();
-  report.waiting_voxels = s.window.size();
-  return report;
+  return alone(s.updating, [&] {
+    validate_changes(changes,
+                     s.now ? s.now->field.esdf.origin : s.config.origin.value_or(VoxelIndex{}));
+    UpdateReport report;
+    s.update(s.window.take_with(changes), std::nullopt, report);
+    s.window.keep();
+    report.waiting_voxels = s.window.size();
+    return report;
+  });
 }
 
 UpdateReport LiveRoadmap::catch_up() {
   State& s = *state_;
-  const std::lock_guard updating(s.updating);
-  UpdateReport report;
-  s.update(s.window.take_all(), std::nullopt, report);
-  s.window.keep();
-  report.waiting_voxels = 0;
-  return report;
+  return alone(s.updating, [&] {
+    UpdateReport report;
+    s.update(s.window.take_all(), std::nullopt, report);
+    s.window.keep();
+    report.waiting_voxels = 0;
+    return report;
+  });
 }
 
 UpdateReport LiveRoadmap::correct_poses(std::span<const PoseCorrection> corrections) {
-  const std::lock_guard updating(state_->updating);
-  state_->begin_correcting(corrections);
-  return state_->finish_correcting();
+  return alone(state_->updating, [&] {
+    state_->begin_correcting(corrections);
+    return state_->finish_correcting();
+  });
 }
 
 void LiveRoadmap::begin_correcting(std::span<const PoseCorrection> corrections) {
-  const std::lock_guard updating(state_->updating);
-  state_->begin_correcting(corrections);
+  alone(state_->updating, [&] { state_->begin_correcting(corrections); });
 }
 
 bool LiveRoadmap::is_correction_ready() {
-  const std::lock_guard updating(state_->updating);
-  return state_->is_correction_ready();
+  return alone(state_->updating, [&] { return state_->is_correction_ready(); });
 }
 
 UpdateReport LiveRoadmap::finish_correcting() {
-  const std::lock_guard updating(state_->updating);
-  return state_->finish_correcting();
+  return alone(state_->updating, [&] { return state_->finish_correcting(); });
 }
 
 std::shared_ptr<const Roadmap> LiveRoadmap::snapshot() const {
@@ -120,12 +128,13 @@ std::shared_ptr<const Roadmap> LiveRoadmap::settled() { return state_->settled()
 
 OccupancyMap LiveRoadmap::map() const {
   const State& s = *state_;
-  const std::lock_guard updating(s.updating);
-  if (s.now) return map_of(s.now->field);
-  OccupancyMap map;
-  map.voxel_size = s.config.fusion.voxel_size;
-  map.origin = s.config.origin.value_or(VoxelIndex{});
-  return map;
+  return alone(s.updating, [&] {
+    if (s.now) return map_of(s.now->field);
+    OccupancyMap map;
+    map.voxel_size = s.config.fusion.voxel_size;
+    map.origin = s.config.origin.value_or(VoxelIndex{});
+    return map;
+  });
 }
 
 }  // namespace ridgeway

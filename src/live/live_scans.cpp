@@ -3,6 +3,7 @@
 // What is fused, and fused again.
 #include <algorithm>
 #include <string>
+#include <unordered_set>
 
 #include "live_state.hpp"
 #include "ridgeway/common/error.hpp"
@@ -102,7 +103,11 @@ std::vector<Eigen::Isometry3d> LiveRoadmap::State::corrected(
 }
 
 void LiveRoadmap::State::begin_correcting(std::span<const PoseCorrection> corrections) {
-  std::vector<PoseCorrection> all = under_way;
+  std::unordered_set<std::uint64_t> said_again;
+  for (const PoseCorrection& one : corrections) said_again.insert(one.frame);
+  std::vector<PoseCorrection> all;
+  for (const PoseCorrection& one : under_way)
+    if (!said_again.contains(one.frame)) all.push_back(one);
   all.insert(all.end(), corrections.begin(), corrections.end());
   std::vector<Eigen::Isometry3d> poses = corrected(all);
   const auto same = [](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {

@@ -86,12 +86,16 @@ void LiveRoadmap::State::bring_up_to_date(std::span<const VoxelChange> changes,
   const bool follows =
       config.build.unknown == UnknownPolicy::kObstacle && !config.build.basis_point_edges;
   // Blocks in which nothing is known any more are none of the map's.
-  report.in_batch =
-      !follows || std::find(field.known.begin(), field.known.end(), 0) != field.known.end();
+  const bool has_empty = std::find(field.known.begin(), field.known.end(), 0) != field.known.end();
+  report.in_batch = !follows || has_empty;
   std::optional<Live> other;
   std::shared_ptr<const Roadmap> next;
   if (!follows) {
     next = built_in_batch(lap, report);
+    if (has_empty) {
+      other = nothing(field.esdf.origin, field.esdf.site.has_near_only());
+      apply_changes(other->field, all_of(map_of(field)));
+    }
   } else if (report.in_batch) {
     other = remade();
     next = built_on(*other, lap, report);

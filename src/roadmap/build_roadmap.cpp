@@ -155,7 +155,7 @@ Peeled peel(const RememberedSpace& space, Space parts, double min_clearance, Bui
     else
       join_background(esdf, parts.traversable, not_simple);  // to have fewer voxels of it
   });
-  VoxelMask peaks = significant_peaks(esdf, basins);
+  VoxelMask peaks = significant_peaks(esdf, basins, parts.traversable);
   VoxelMask kernel = memory != nullptr
                          ? memory->peeling.peel(esdf, parts.traversable, not_simple, peaks,
                                                 memory->rest ? &*memory->rest : nullptr)

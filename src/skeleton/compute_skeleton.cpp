@@ -27,7 +27,7 @@ VoxelMask compute_skeleton(const EsdfMap& esdf, double min_clearance, const GvdC
   Basins basins = find_basins(esdf, traversable, min_clearance);
   join_background(esdf, traversable, basins.not_simple_at_first_turn);
   VoxelMask kernel = compute_kernel(esdf, traversable, basins);
-  open_shells(esdf, kernel, significant_peaks(esdf, basins));
+  open_shells(esdf, kernel, significant_peaks(esdf, basins, traversable));
   return join_diagram(esdf, edges, kernel, min_clearance, basins);
 }
 

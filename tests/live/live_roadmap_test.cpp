@@ -4,7 +4,11 @@
 #include "ridgeway/live/live_roadmap.hpp"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <limits>
 #include <random>
@@ -181,6 +185,26 @@ TEST(LiveRoadmap, DoesNotDependOnOrderAndGroupingOfChanges) {
       live.set_voxels(std::span(shuffled).subspan(i, std::min(group, shuffled.size() - i)));
     EXPECT_TRUE(bytes_of(live.settled().get()) == expected) << group;
   }
+}
+
+/// A thread that waits for the loops of one update must not begin another one.
+TEST(LiveRoadmap, TakesUpdatesThatAreTasksOfOneArena) {
+  constexpr int kThreads = 4, kUpdates = 150;
+  const tbb::global_control as_many(tbb::global_control::max_allowed_parallelism, kThreads);
+  LiveRoadmap live(testing::house_config());
+  tbb::task_arena arena(kThreads);
+  std::atomic<int> done = 0;
+  arena.execute([&] {
+    tbb::task_group updates;
+    for (int k = 0; k < kUpdates; ++k)
+      updates.run([&, k] {
+        std::mt19937 random(static_cast<unsigned>(k));
+        live.set_voxels(testing::random_changes(random, {-20, -20, -20}, {30, 30, 30}));
+        ++done;
+      });
+    updates.wait();
+  });
+  EXPECT_EQ(done, kUpdates);
 }
 
 TEST(LiveRoadmap, TakesUpdatesOfSeveralThreadsOneAfterTheOther) {

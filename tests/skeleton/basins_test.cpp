@@ -91,7 +91,7 @@ TEST(Diagram, ConnectsWhatSpaceConnectsAndAttachesTheRest) {
     thin(esdf.layout, edges);
     Basins basins = find_basins(esdf, traversable, radius);
     VoxelMask kernel = compute_kernel(esdf, traversable, basins);
-    open_shells(esdf, kernel, significant_peaks(esdf, basins));
+    open_shells(esdf, kernel, significant_peaks(esdf, basins, traversable));
     const VoxelMask diagram = join_diagram(esdf, edges, kernel, radius, basins);
     // One piece of the diagram, by legal moves, in each region of space.
     const testing::Regions space = regions_at(esdf, radius);

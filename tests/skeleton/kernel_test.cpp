@@ -38,7 +38,7 @@ void expect_kernel_and_opening_keep_their_word(const Stage& stage) {
   const Betti of_kernel = betti_numbers(stage.esdf.layout, kernel);
   ASSERT_EQ(of_kernel, space);
   ASSERT_LE(kernel.count(), stage.traversable.count());
-  open_shells(stage.esdf, kernel, significant_peaks(stage.esdf, stage.basins));
+  open_shells(stage.esdf, kernel, significant_peaks(stage.esdf, stage.basins, stage.traversable));
   const Betti opened = betti_numbers(stage.esdf.layout, kernel);
   ASSERT_EQ(opened.b0, space.b0);
   ASSERT_EQ(opened.b2, 0);
@@ -72,7 +72,7 @@ TEST(Kernel, OpensTheShellAroundAFloatingObstacleIntoCurves) {
     VoxelMask kernel = compute_kernel(stage.esdf, stage.traversable, stage.basins);
     const std::size_t shell = kernel.count();
     ASSERT_EQ(betti_numbers(stage.esdf.layout, kernel).b2, 1);
-    open_shells(stage.esdf, kernel, significant_peaks(stage.esdf, stage.basins));
+    open_shells(stage.esdf, kernel, significant_peaks(stage.esdf, stage.basins, stage.traversable));
     EXPECT_LT(kernel.count(), shell / 2);
     EXPECT_GT(kernel.count(), 0u);
   }
@@ -80,7 +80,7 @@ TEST(Kernel, OpensTheShellAroundAFloatingObstacleIntoCurves) {
 
 VoxelMask peel_in_order(const Stage& stage) {
   return detail::peel_in_order(stage.esdf, stage.traversable,
-                               significant_peaks(stage.esdf, stage.basins));
+                               significant_peaks(stage.esdf, stage.basins, stage.traversable));
 }
 
 TEST(Kernel, IsWhatPeelingEveryVoxelInOrderLeaves) {
@@ -102,7 +102,8 @@ TEST(Kernel, IsTheSameForAnyNumberOfThreads) {
     const Stage stage = prepare(random_map(seed, 60), UnknownPolicy::kObstacle, 0.05);
     const auto run = [&] {
       VoxelMask kernel = compute_kernel(stage.esdf, stage.traversable, stage.basins);
-      open_shells(stage.esdf, kernel, significant_peaks(stage.esdf, stage.basins));
+      open_shells(stage.esdf, kernel,
+                  significant_peaks(stage.esdf, stage.basins, stage.traversable));
       return kernel;
     };
     ASSERT_EQ(with_threads(1, run), with_threads(2, run));

@@ -102,7 +102,7 @@ TEST(MapTopology, EveryStageKeepsItsPromiseOnRealMaps) {
     EXPECT_EQ(not_floating, (Betti{space.b0, space.b1, 0}));
     VoxelMask kernel = compute_kernel(esdf, open, basins);
     EXPECT_EQ(betti_numbers(esdf.layout, kernel), not_floating);
-    open_shells(esdf, kernel, significant_peaks(esdf, basins));
+    open_shells(esdf, kernel, significant_peaks(esdf, basins, open));
     const Betti opened = betti_numbers(esdf.layout, kernel);
     EXPECT_EQ(opened.b0, space.b0);
     EXPECT_EQ(opened.b2, 0);

@@ -25,8 +25,9 @@ VoxelMask compute_kernel(const EsdfMap& esdf, const VoxelMask& traversable, cons
 /// b2 becomes zero, b1 never falls. Voxels of `keep` and ends of curves stay.
 void open_shells(const EsdfMap& esdf, VoxelMask& voxels, const VoxelMask& keep);
 
-/// Peaks with dynamics of at least one voxel.
-VoxelMask significant_peaks(const EsdfMap& esdf, const Basins& basins);
+/// Peaks with dynamics of at least one voxel, of those that are in `voxels`: join_background may
+/// have removed some.
+VoxelMask significant_peaks(const EsdfMap& esdf, const Basins& basins, const VoxelMask& voxels);
 
 /// Joins thinned edges and kernel to one diagram along which space is connected as widely as it is.
 ///
