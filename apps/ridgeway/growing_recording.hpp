@@ -51,7 +51,7 @@ class GrowingRecording {
   const std::string& ending() const { return ending_; }
   void done(const DepthFrame& frame) { done_.insert(frame.image.string()); }
   bool is_last(const DepthFrame& frame) const {
-    return !until_.empty() && frame.image.filename() == until_;
+    return !until_.empty() && frame.image.filename() == std::filesystem::path(until_).filename();
   }
 
  private:

@@ -70,7 +70,10 @@ TYPES = {name: kind for names, kind in PARAMETERS.items() for name in names.spli
 # Where a name means something else than usually.
 PARTICULAR = {
     "load_map.path": "_Path", "load.path": "_Path", "load_tsdf.path": "_Path", "load_world.path": "_Path",
-    "read_path.path": "_Path",
+    "read_path.path": "_Path", "Roadmap.read_plan.path": "_Path",
+    "Roadmap.explain.start": "Union[PlanResult, _Point]", "Roadmap.explain.goal": "Optional[_Point]",
+    "PinholeCamera.__init__.fx": "Optional[float]", "PinholeCamera.__init__.fy": "Optional[float]",
+    "PinholeCamera.__init__.cx": "Optional[float]", "PinholeCamera.__init__.cy": "Optional[float]",
     "Roadmap.save.path": "_Path", "Roadmap.export_graph.path": "_Path", "TsdfMap.save.path": "_Path",
     "Trajectory.save.path": "_Path", "PlanResult.save.path": "_Path", "PlanResult.save_mission.path": "_Path",
     "Roadmap.export_voxblox.path": "_Path", "TsdfMap.export_voxblox.path": "_Path",
@@ -106,7 +109,7 @@ RETURNS = {
     "distance_at": "Tuple[NDArray[np.float64], NDArray[np.float64]]", "block": "NDArray[np.uint32]",
     "plan": "PlanResult", "plan_many": "List[PlanResult]",
     "plan_nearest": "Tuple[Optional[int], PlanResult]", "plan_via": "Tuple[PlanResult, Optional[int]]",
-    "alternatives": "Alternatives", "explain": "Optional[BlockedRoute]", "trajectory": "Trajectory",
+    "alternatives": "Alternatives", "explain": "Optional[BlockedRoute]", "read_plan": "PlanResult", "trajectory": "Trajectory",
     "save save_mission add finish save_surface export_graph export_voxblox draw begin_correcting": "None",
     "components": "List[Dict[str, Any]]",
     "check integrate_depth integrate_points set_voxels correct_poses finish_correcting catch_up":

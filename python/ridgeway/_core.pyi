@@ -315,11 +315,17 @@ class Roadmap:
     ) -> NDArray[np.float64]: ...
     def explain(
         self,
-        start: _Point,
-        goal: _Point,
+        start: Union[PlanResult, _Point],
+        goal: Optional[_Point] = ...,
         radius: Optional[float] = ...,
         limits: Optional[FlightLimits] = ...,
     ) -> Optional[BlockedRoute]: ...
+    def read_plan(
+        self,
+        path: _Path,
+        radius: Optional[float] = ...,
+        robot_height: float = ...,
+    ) -> PlanResult: ...
     def trajectory(
         self,
         path: Union[PlanResult, ArrayLike],
@@ -414,10 +420,10 @@ class PinholeCamera:
         self,
         width: int = ...,
         height: int = ...,
-        fx: float = ...,
-        fy: float = ...,
-        cx: float = ...,
-        cy: float = ...,
+        fx: Optional[float] = ...,
+        fy: Optional[float] = ...,
+        cx: Optional[float] = ...,
+        cy: Optional[float] = ...,
     ) -> None: ...
     @property
     def width(self) -> int: ...

@@ -98,9 +98,17 @@ void read(py::handle value, const char* name, VoxelRange& field) {
     field = kAllVoxels;
     return;
   }
-  const std::vector<VoxelIndex> ends = voxels_from(value, name);
-  if (ends.size() != 2)
-    throw InputError(name, "is " + describe(value), "give the first and the last voxel, (2, 3)");
+  const auto refuse = [&] {
+    throw InputError(name, "is " + describe(value),
+                     "give the first and the last voxel of the lattice, (2, 3) whole numbers");
+  };
+  std::vector<VoxelIndex> ends;
+  try {
+    ends = voxels_from(value, name);
+  } catch (const InputError&) {
+    refuse();
+  }
+  if (ends.size() != 2) refuse();
   field = {ends[0], ends[1]};
 }
 void read(py::handle value, const char* name, ExplorationStrategy& field) {

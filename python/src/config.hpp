@@ -108,11 +108,12 @@ class Fields {
     return *this;
   }
 
-  /// The configuration that keyword arguments ask for, validated.
-  Config read_all(const py::kwargs& keywords) const {
+  /// The configuration that keyword arguments ask for, validated. `others`: the names of those that
+  /// the function takes too.
+  Config read_all(const py::kwargs& keywords, const std::vector<std::string>& others = {}) const {
     Config config;
     if (keywords.empty()) return config;
-    for (const auto& [key, value] : keywords) set(config, key, value);
+    for (const auto& [key, value] : keywords) set(config, key, value, others);
     config.validate();
     return config;
   }
@@ -153,11 +154,14 @@ class Fields {
     std::function<void(Config&, py::handle)> set;
   };
 
-  void set(Config& config, py::handle key, py::handle value) const {
+  void set(Config& config, py::handle key, py::handle value,
+           const std::vector<std::string>& others) const {
     const std::string keyword = text_from(key, "keyword");
     for (const Field& field : fields_)
       if (std::string_view(keyword) == field.name) return field.set(config, value);
-    refuse_keyword(keyword, names());
+    std::vector<std::string> known = names();
+    known.insert(known.end(), others.begin(), others.end());
+    refuse_keyword(keyword, known);
   }
 
   std::vector<Field> fields_;

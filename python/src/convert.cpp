@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "common/number_text.hpp"
+#include "files/text.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/mapping/map_edits.hpp"
 
@@ -130,6 +131,13 @@ std::filesystem::path path_from(py::handle value, const char* name) {
   if (PyUnicode_FSConverter(path.ptr(), &bytes) == 0) throw py::error_already_set();
   const auto owner = py::reinterpret_steal<py::bytes>(bytes);
   return std::string(owner);
+}
+
+std::filesystem::path path_from(py::handle value, const char* name, const char* ending) {
+  std::filesystem::path file = path_from(value, name);
+  if (extension_of(file) != ending)
+    throw InputError(name, "is " + describe(value), std::string("let it end in ") + ending);
+  return file;
 }
 
 void require_no_mask(py::handle value, const char* name) {

@@ -37,6 +37,8 @@ std::string text_from(py::handle value, const char* name);
 py::str text_to_python(const std::string& name);
 /// str, bytes or os.PathLike.
 std::filesystem::path path_from(py::handle value, const char* name);
+/// The same of a file to be written, whose name has to end as what is in it does.
+std::filesystem::path path_from(py::handle value, const char* name, const char* ending);
 
 /// Three finite numbers, metres.
 Point point_from(py::handle value, const char* name);

@@ -103,7 +103,7 @@ void add_tsdf(py::module_& module) {
       .def(
           "save_surface",
           [](const TsdfFace& face, py::handle path) {
-            const std::filesystem::path file = path_from(path, "path");
+            const std::filesystem::path file = path_from(path, "path", ".ply");
             const Unlocked unlocked;
             write_mesh_ply(surface_of(*face.tsdf), file);
           },
@@ -111,12 +111,12 @@ void add_tsdf(py::module_& module) {
       .def(
           "export_voxblox",
           [](const TsdfFace& face, py::handle path) {
-            const std::filesystem::path file = path_from(path, "path");
+            const std::filesystem::path file = path_from(path, "path", ".vxblx");
             const Unlocked unlocked;
             write_voxblox(*face.tsdf, file);
           },
           py::arg("path"),
-          "export_voxblox(self, path)\n--\n\nWrites it as a TSDF layer of voxblox.")
+          "export_voxblox(self, path)\n--\n\nWrites it as a TSDF layer of voxblox, .vxblx.")
       .def(
           "save",
           [](const TsdfFace& face, py::handle path, py::handle source) {

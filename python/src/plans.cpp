@@ -41,7 +41,7 @@ std::string reason_of(PlanStatus status) {
     case PlanStatus::kGoalInCollision:
       return "the goal is nearer to an obstacle than the radius (snap=METRES moves it)";
     case PlanStatus::kNoRoute:
-      return "no route joins start and goal at this radius (Roadmap.explain tells why)";
+      return "no route joins start and goal at this radius (roadmap.explain(plan) tells why)";
     case PlanStatus::kRadiusTooSmall:
       return "the radius is smaller than the roadmap was built for";
     case PlanStatus::kTimeout:
@@ -78,19 +78,21 @@ std::string reason_of(const PlanFace& plan) {
   if (plan.status == PlanStatus::kRadiusTooSmall) return too_small(plan, *roadmap);
   const bool is_start = plan.status == PlanStatus::kStartInCollision;
   if (!is_start && plan.status != PlanStatus::kGoalInCollision) return reason_of(plan.status);
+  const std::string end = is_start ? "the start" : "the goal";
+  if (plan.config.robot_height > 0.0)
+    return end + " has no room for a robot of that radius and height";
   const EsdfMap& esdf = roadmap->esdf;
   const double radius = plan.config.radius.value_or(roadmap->min_clearance);
   const Unlocked unlocked;
   const Point& place = is_start ? start : goal;
   const double distance = FreeSpace(esdf).distance(flight_place(esdf, place));
   const bool is_unknown = is_unknown_nearest(esdf, place, radius);
-  const std::string end = is_start ? "the start" : "the goal";
   if (distance > 0.0) {
     const auto widest = detail::widest_place(esdf);
     return widest && widest->clearance < radius
                ? "no place of the map has room for a radius of " + literal(radius) +
                      ": the widest has " + shown(widest->clearance)
-           : is_unknown ? end + " is " + shown(distance) +
+           : is_unknown ? end + " is " + literal(std::floor(distance * 1000.0 + 1e-6) / 1000.0) +
                               " m from what the map does not know, less than the radius"
                         : reason_of(plan.status);
   }
@@ -144,7 +146,8 @@ void add_plan_result(py::module_& module) {
           "Metres; inf where there is no path.")
       .def_property_readonly(
           "clearance", [](const PlanFace& plan) { return plan.ok() ? plan.clearance : kNoNumber; },
-          "Smallest distance to an obstacle along the path, metres; nan where there is no path.")
+          "Smallest distance to an obstacle along the path, escapes left out, metres; nan where "
+          "there is no path.")
       .def_property_readonly(
           "within", [](const PlanFace& plan) { return plan.ok() ? plan.within : kInfinity; },
           "The path is at most so many times as long as the shortest; inf where there is no path.")

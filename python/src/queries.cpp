@@ -7,6 +7,8 @@
 #include "config.hpp"
 #include "long_call.hpp"
 #include "plans.hpp"
+#include "ridgeway/common/error.hpp"
+#include "ridgeway/formats/path_io.hpp"
 #include "ridgeway/live/graph_delta.hpp"
 #include "ridgeway/planning/alternatives.hpp"
 #include "ridgeway/planning/blocked_route.hpp"
@@ -20,7 +22,7 @@ PlanFace plan_face(const std::shared_ptr<const Roadmap>& roadmap, const Point& s
                    const Point& goal, const PlanConfig& config, PlanResult plan) {
   PlanFace face{std::move(plan), config};
   if (face.status == PlanStatus::kStartInCollision || face.status == PlanStatus::kGoalInCollision ||
-      face.status == PlanStatus::kRadiusTooSmall)
+      face.status == PlanStatus::kRadiusTooSmall || face.status == PlanStatus::kNoRoute)
     face.question =
         std::make_shared<const PlanFace::Question>(PlanFace::Question{roadmap, start, goal});
   return face;
@@ -138,20 +140,70 @@ AlternativesFace alternatives(const RoadmapFace& face, py::handle start, py::han
           config};
 }
 
-py::object explain(const RoadmapFace& face, py::handle start, py::handle goal, py::handle radius,
-                   py::handle limits) {
-  const Point from = point_from(start, "start"), to = point_from(goal, "goal");
-  std::optional<double> given;
-  read(radius, "radius", given);
-  FlightLimits flight;
-  read(limits, "limits", flight);
+/// What a query that found no route asked for, between the places that its ends were moved to.
+struct Blocked {
+  Point start, goal;
+  std::optional<double> radius;
+  FlightLimits limits;
+};
+
+py::object explained(const RoadmapFace& face, const Blocked& query) {
   std::optional<BlockedRoute> blocked = run_stage([&]() -> std::optional<BlockedRoute> {
-    if (plan(*face.roadmap, from, to, {.radius = given, .limits = flight}).ok()) return {};
+    if (plan(*face.roadmap, query.start, query.goal,
+             {.radius = query.radius, .limits = query.limits})
+            .ok())
+      return {};
     return RouteBlocks(*face.roadmap)
-        .between(from, to, given.value_or(face.roadmap->min_clearance), flight);
+        .between(query.start, query.goal, query.radius.value_or(face.roadmap->min_clearance),
+                 query.limits);
   });
   if (!blocked) return py::none();
   return py::cast(*std::move(blocked));
+}
+
+py::object explain(const RoadmapFace& face, py::handle start, py::handle goal, py::handle radius,
+                   py::handle limits) {
+  if (!py::isinstance<PlanFace>(start)) {
+    Blocked query{point_from(start, "start"), point_from(goal, "goal"), {}, {}};
+    read(radius, "radius", query.radius);
+    read(limits, "limits", query.limits);
+    return explained(face, query);
+  }
+  if (!goal.is_none() || !radius.is_none() || !limits.is_none())
+    throw py::type_error("explain: a PlanResult knows its goal, radius and limits; leave them out");
+  const auto& plan = start.cast<const PlanFace&>();
+  if (plan.status != PlanStatus::kNoRoute || !plan.question) return py::none();
+  const auto place = [](const Moved& moved, const Point& asked) {
+    return moved.distance > 0.0 ? moved.place : asked;
+  };
+  return explained(
+      face, {place(plan.moved_start, plan.question->start),
+             place(plan.moved_goal, plan.question->goal), plan.config.radius, plan.config.limits});
+}
+
+/// A path that was saved, with its escapes, for a robot.
+PlanFace read_plan(const RoadmapFace& face, py::handle path, py::handle radius,
+                   py::handle robot_height) {
+  const std::filesystem::path file = path_from(path, "path");
+  PlanConfig robot;
+  read(radius, "radius", robot.radius);
+  read(robot_height, "robot_height", robot.robot_height);
+  robot.validate();
+  const Unlocked unlocked;
+  const EsdfMap& esdf = face.roadmap->esdf;
+  PlanFace plan{given_plan(esdf, read_path(file)), robot};
+  const PathEscapes escapes = read_escapes(file);
+  std::vector<Point> inner = plan.waypoints;
+  const std::size_t ends = (escapes.start.length > 0.0) + (escapes.goal.length > 0.0);
+  if (inner.size() <= ends)
+    throw InputError(file.string(), "has escapes and nothing between them", "plan it again");
+  if (escapes.start.length > 0.0) inner.erase(inner.begin());
+  if (escapes.goal.length > 0.0) inner.pop_back();
+  plan.clearance = given_plan(esdf, std::move(inner)).clearance;
+  plan.escape_start = escapes.start;
+  plan.escape_goal = escapes.goal;
+  plan.planned_for = {robot.radius.value_or(face.roadmap->min_clearance), robot.robot_height, {}};
+  return plan;
 }
 
 }  // namespace
@@ -205,12 +257,19 @@ void add_queries(py::class_<RoadmapFace>& type) {
            "distances(self, start, goals, radius=None)\n--\n\n"
            "Lengths along the graph from start to goals (N, 3): (N,), metres; inf where it has no "
            "way.");
-  type.def("explain", &explain, py::arg("start"), py::arg("goal"), py::arg("radius") = py::none(),
-           py::arg("limits") = py::none(),
-           "explain(self, start, goal, radius=None, limits=None)\n--\n\n"
+  type.def("explain", &explain, py::arg("start"), py::arg("goal") = py::none(),
+           py::arg("radius") = py::none(), py::arg("limits") = py::none(),
+           "explain(self, start, goal=None, radius=None, limits=None)\n--\n\n"
            "Why there is no route at a radius (metres), as BlockedRoute: at which there would be "
-           "one, and where it\nis too narrow. None where there is a route, or start or goal are no "
-           "place to be. Takes longer than a plan.");
+           "one, and where it\nis too narrow. In place of start and goal: a PlanResult of status "
+           "'no_route', with all that it was asked\nfor. None where there is a route (of robots "
+           "with a height: for a ball of their radius), or start or goal\nare no place to be. "
+           "Takes longer than a plan.");
+  type.def("read_plan", &read_plan, py::arg("path"), py::arg("radius") = py::none(),
+           py::arg("robot_height") = 0.0,
+           "read_plan(self, path, radius=None, robot_height=0.0)\n--\n\n"
+           "A path that was saved (.csv or .json), as a PlanResult for a robot: with the escapes "
+           "of a .json. Not verified:\nstill_safe() and trajectory() do that.");
 }
 
 }  // namespace ridgeway::python

@@ -53,7 +53,7 @@ RoadmapFace build(py::handle map, const py::object& progress, py::handle threads
         "; use ridgeway.build(ridgeway.OccupancyMap.from_numpy(states, voxel_size), ...)");
   const LoadConfig loading = load_fields().take(keywords);
   loading.validate();
-  const BuildConfig config = build_fields().read_all(keywords);
+  const BuildConfig config = build_fields().read_all(keywords, load_fields().names());
   MapFace face = load_face(path_from(map, "map"), loading);
   OccupancyMap taken_over = taken(*face.map, config.unknown);
   face.map.reset();
@@ -251,13 +251,13 @@ void add_roadmap(py::module_& module) {
       .def(
           "export_voxblox",
           [](const RoadmapFace& face, py::handle path) {
-            const std::filesystem::path file = path_from(path, "path");
+            const std::filesystem::path file = path_from(path, "path", ".vxblx");
             const Unlocked unlocked;
             write_voxblox(*face.roadmap, file);
           },
           py::arg("path"),
           "export_voxblox(self, path)\n--\n\nWrites the field and the diagram as layers of "
-          "voxblox.")
+          "voxblox, .vxblx.")
       .def(
           "describe", &describe_point, py::arg("point"),
           "describe(self, point)\n--\n\n"

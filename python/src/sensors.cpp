@@ -27,10 +27,15 @@ PinholeCamera make_camera(py::handle width, py::handle height, py::handle fx, py
   PinholeCamera camera;
   read(width, "width", camera.width);
   read(height, "height", camera.height);
-  read(fx, "fx", camera.fx);
-  read(fy, "fy", camera.fy);
-  read(cx, "cx", camera.cx);
-  read(cy, "cy", camera.cy);
+  // What is not said is of the middle of the image, and of 90 degrees across.
+  const auto read_or = [](py::handle value, const char* name, double otherwise, double& field) {
+    field = otherwise;
+    if (!value.is_none()) read(value, name, field);
+  };
+  read_or(fx, "fx", 0.5 * camera.width, camera.fx);
+  read_or(fy, "fy", camera.fx, camera.fy);
+  read_or(cx, "cx", 0.5 * (camera.width - 1), camera.cx);
+  read_or(cy, "cy", 0.5 * (camera.height - 1), camera.cy);
   camera.validate();
   return camera;
 }
@@ -173,13 +178,14 @@ DepthImage image_from(py::handle value, const char* name) {
 void add_sensors(py::module_& module) {
   py::class_<PinholeCamera>(
       module, "PinholeCamera",
-      "PinholeCamera(width=320, height=240, fx=160.0, fy=160.0, cx=159.5, cy=119.5)\n--\n\n"
+      "PinholeCamera(width=320, height=240, fx=None, fy=None, cx=None, cy=None)\n--\n\n"
       "From pixels to rays, without distortion; all in pixels. Its frame: x right, y down, z "
-      "forward.")
+      "forward.\nNone: the middle of the image, 90 degrees across, and as long a focal length "
+      "down as across.")
       .def(py::init(&make_camera), py::arg("width") = 320, py::arg("height") = 240,
-           py::arg("fx") = 160.0, py::arg("fy") = 160.0, py::arg("cx") = 159.5,
-           py::arg("cy") = 119.5,
-           "__init__(self, width=320, height=240, fx=160.0, fy=160.0, cx=159.5, cy=119.5)\n--\n\n")
+           py::arg("fx") = py::none(), py::arg("fy") = py::none(), py::arg("cx") = py::none(),
+           py::arg("cy") = py::none(),
+           "__init__(self, width=320, height=240, fx=None, fy=None, cx=None, cy=None)\n--\n\n")
       .def_readonly("width", &PinholeCamera::width, "Pixels.")
       .def_readonly("height", &PinholeCamera::height, "Pixels.")
       .def_readonly("fx", &PinholeCamera::fx, "Focal length across, pixels.")

@@ -180,6 +180,7 @@ def test_objects_that_were_not_made_are_refused():
     "make, words",
     [
         (lambda: ridgeway.PinholeCamera(widht=3), r"'widht'; it is PinholeCamera\(width=320, "),
+        (lambda: ridgeway.build("x.bt", voxelsize=0.1), "did you mean 'voxel_size'"),
         (lambda: ridgeway.ScanWriter(), r"'folder'; it is ScanWriter\(folder\)"),
         (lambda: ridgeway.LiveRoadmap(0.2), r"it is LiveRoadmap\(name=value, ...\)"),
         (lambda: ridgeway.Roadmap(), "is not made by calling it"),

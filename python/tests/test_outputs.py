@@ -175,7 +175,23 @@ def test_bad_lidars_and_scans_are_named(tmp_path, call, error, words):
         call(ridgeway.ScanWriter(tmp_path / "run"))
 
 
+def test_saved_paths_are_flown_with_their_escapes(roadmap, tmp_path):
+    start, goal = (0.25, 0.8, 1.0), (5.4, 2.9, 1.2)
+    plan = roadmap.plan(start, goal, escape=True)
+    plan.save(tmp_path / "out.json")
+    again = roadmap.read_plan(tmp_path / "out.json")
+    assert again.escape_start == pytest.approx(plan.escape_start) and again.escape_start > 0
+    assert again.clearance == pytest.approx(plan.clearance) and again.length == pytest.approx(plan.length)
+    assert roadmap.still_safe(again) and not roadmap.still_safe(roadmap.read_plan(tmp_path / "out.json", radius=0.6))
+    assert roadmap.trajectory(again).duration == roadmap.trajectory(plan).duration
+    roadmap.plan(start, goal).save(tmp_path / "none.json")
+    with pytest.raises(ValueError, match="no path: start_in_collision"):
+        roadmap.read_plan(tmp_path / "none.json")
+
+
 def test_files_of_voxblox_are_read_back(roadmap, tmp_path):
+    with pytest.raises(ValueError, match="let it end in .vxblx"):
+        roadmap.export_voxblox(tmp_path / "rooms.ply")
     roadmap.export_voxblox(tmp_path / "rooms.vxblx")
     roadmap.export_graph(tmp_path / "rooms.pb")
     assert (tmp_path / "rooms.pb").stat().st_size > 0

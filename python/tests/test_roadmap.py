@@ -169,6 +169,15 @@ def test_plans_are_arrays_and_reasons(roadmap, rooms):
     blocked = roadmap.explain(START, GOAL, radius=0.5)
     assert 0.35 <= blocked.radius <= 0.4 and blocked.by == "obstacle" and blocked.map_end is None
     assert blocked.place[0] == pytest.approx(3.2, abs=0.2)
+    assert repr(roadmap.explain(wide)) == repr(blocked)
+    assert "explain(plan)" in wide.reason and roadmap.explain(roadmap.plan(START, GOAL)) is None
+    with pytest.raises(TypeError, match="PlanResult knows"):
+        roadmap.explain(wide, GOAL)
+    limits = ridgeway.FlightLimits(keep_out=[((2.0, -1.0, -1.0), (4.0, 6.0, 4.0))])
+    shut = roadmap.plan((0.1, 2.0, 1.0), GOAL, limits=limits, snap=1.0)
+    assert shut.status == "no_route" and shut.moved_start > 0
+    assert roadmap.explain(shut).by == "limits"
+    assert "radius and height" in roadmap.plan((0.9, 0.9, 0.4), GOAL, robot_height=1.0).reason
     assert roadmap.plan((0.25, 0.8, 1.0), GOAL).status == "start_in_collision"
     assert roadmap.plan((0.25, 0.8, 1.0), GOAL, snap=0.5).moved_start > 0
     narrow = roadmap.plan(START, GOAL, radius=0.1)

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -32,6 +33,15 @@ OccupancyMap columns_of(const GreyImage& image, const MapServerFile& file, int l
   return std::move(builder).finish();
 }
 
+/// The turn of a map's file. People write quarter turns with some decimals: one that moves no
+/// corner of the image by a hundredth of a pixel from where a quarter turn puts it is one.
+Eigen::AngleAxisd turn_of(const MapServerFile& facts, const GreyImage& image) {
+  constexpr double kQuarter = 0.5 * std::numbers::pi, kSmall = 0.01;
+  const double nearest = kQuarter * std::round(facts.yaw / kQuarter);
+  const double moves = std::abs(facts.yaw - nearest) * std::hypot(image.width, image.height);
+  return {moves < kSmall ? nearest : facts.yaw, Eigen::Vector3d::UnitZ()};
+}
+
 }  // namespace
 
 OccupancyMap load_planar_map(const std::filesystem::path& file, std::string_view text,
@@ -50,8 +60,7 @@ OccupancyMap load_planar_map(const std::filesystem::path& file, std::string_view
     config.bounds->min.z() = -kInfinity;
     config.bounds->max.z() = kInfinity;
   }
-  config.transform = Eigen::Translation3d(facts.x, facts.y, 0.0) *
-                     Eigen::AngleAxisd(facts.yaw, Eigen::Vector3d::UnitZ());
+  config.transform = Eigen::Translation3d(facts.x, facts.y, 0.0) * turn_of(facts, image);
   const double voxel_size = config.voxel_size.value_or(facts.resolution);
   // So many that the lowest layer of larger voxels lies within what is known.
   constexpr double kMostLayers = 1e6;

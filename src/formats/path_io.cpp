@@ -103,6 +103,9 @@ std::vector<Point> read_json(const std::filesystem::path& path) {
       }
       points.emplace_back(p[0], p[1], p[2]);
     }
+    if (points.empty() && json.is_object() && json.contains("status"))
+      throw InputError(path.string(), "holds no path: " + json.at("status").get<std::string>(),
+                       "plan again, with what that says changed");
     return points;
   } catch (const Json::parse_error& error) {
     refuse(path, "is no JSON: byte " + std::to_string(error.byte) + " does not fit");

@@ -135,10 +135,10 @@ PlanResult tighten(const FreeSpace& space, detail::Route route, double radius,
 Alternatives alternatives_locally(const Roadmap& roadmap, const Point& start, const Point& goal,
                                   std::size_t count, const PlanConfig& config) {
   if (config.planner != Planner::kGraph || !config.shorten || config.prefer_clearance != 0.0 ||
-      config.escape)
+      config.escape || config.quick || config.within != 0.0)
     throw InputError("alternatives", "are planned on the graph and pulled tight",
-                     "leave out the planner, raw paths (shorten), escapes and the preference for "
-                     "clearance");
+                     "leave out the planner, raw paths (shorten), escapes, the preference for "
+                     "clearance and a quality (quick, within)");
   if (count == 0) throw InputError("alternatives", "are none", "ask for at least 1");
   const double began = detail::seconds_now();
   const Deadline deadline(config.time_limit);

@@ -84,16 +84,18 @@ class Verifier {
   double radius_;
 };
 
-/// Points of a curve such that it departs from the chords between them by at most `most`.
-void flatten(const BezierPoints& curve, double most, int depth, std::vector<Point>& points) {
-  if (departure(curve) <= most || depth == kDeepest) {
+/// Points of a curve such that it departs from the chords between them by at most `most`, and by
+/// how much.
+double flatten(const BezierPoints& curve, double most, int depth, std::vector<Point>& points) {
+  const double off = departure(curve);
+  if (off <= most || depth == kDeepest) {
     points.push_back(last_of(curve));
-    return;
+    return off;
   }
   BezierPoints left, right;
   detail::halve(curve, left, right);
-  flatten(left, most, depth + 1, points);
-  flatten(right, most, depth + 1, points);
+  const double before = flatten(left, most, depth + 1, points);
+  return std::max(before, flatten(right, most, depth + 1, points));
 }
 
 }  // namespace
@@ -116,14 +118,15 @@ std::vector<double> find_doubts(const FreeSpace& space, const Trajectory& trajec
 }
 
 double clearance_of(const EsdfMap& esdf, const Trajectory& trajectory) {
-  constexpr double kMillimetre = 1e-3;
+  constexpr double kMost = 1e-4;  // metres by which it may be told too small
+  double off = 0.0;
   std::vector<Point> points;
   for (const TrajectorySegment& segment : trajectory.segments) {
     const BezierPoints curve = detail::bezier_points(segment, 0, 0, 3);
     if (points.empty()) points.push_back(first_of(curve));
-    flatten(curve, kMillimetre, 0, points);
+    off = std::max(off, flatten(curve, kMost, 0, points));
   }
-  return std::max(FreeSpace(esdf).clearance(points) - kMillimetre, 0.0);
+  return std::max(FreeSpace(esdf).clearance(points) - off, 0.0);
 }
 
 }  // namespace ridgeway

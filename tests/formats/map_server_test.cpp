@@ -49,6 +49,12 @@ TEST(MapServer, AQuarterTurnIsExactAndAnyOtherLosesNoObstacle) {
   const OccupancyMap quarter = load_map(folder / "quarter.yaml");
   EXPECT_EQ(at(quarter, -0.25, 0.25), VoxelState::kOccupied);
   EXPECT_EQ(at(quarter, -0.25, 0.75), VoxelState::kFree);
+  for (const char* few_decimals : {"1.5708", "1.571", "-4.712389"}) {
+    write_whole(folder / "few.yaml", yaml("a.pgm", std::string("[0, 0, ") + few_decimals + "]"));
+    const OccupancyMap few = load_map(folder / "few.yaml");
+    EXPECT_EQ(count_voxels(few).occupied, 1u) << few_decimals;
+    EXPECT_EQ(at(few, -0.25, 0.25), VoxelState::kOccupied) << few_decimals;
+  }
   write_whole(folder / "turned.yaml", yaml("a.pgm", "[0.1, 0.2, 0.4]"));
   const OccupancyMap turned = load_map(folder / "turned.yaml");
   for (double u = 0.02; u < 0.5; u += 0.04)

@@ -75,6 +75,7 @@ TEST(PathIo, NoPathIsNoTable) {
   const TemporaryFolder folder;
   write_plan({}, folder / "none.json");
   EXPECT_EQ(nlohmann::json::parse(read_whole(folder / "none.json")).at("status"), "no_route");
+  EXPECT_THROW(read_path(folder / "none.json"), InputError);
   EXPECT_THROW(write_plan({}, folder / "none.csv"), InputError);
   EXPECT_FALSE(std::filesystem::exists(folder / "none.csv"));
 }

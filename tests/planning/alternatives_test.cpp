@@ -389,6 +389,8 @@ TEST(Alternatives, SayWhyThereIsNoneAndRefuseOtherPlanners) {
   EXPECT_THROW(plan_alternatives(roadmap, kStart, kGoal, 2, {.planner = Planner::kEsdf}),
                InputError);
   EXPECT_THROW(plan_alternatives(roadmap, kStart, kGoal, 2, {.shorten = false}), InputError);
+  EXPECT_THROW(plan_alternatives(roadmap, kStart, kGoal, 2, {.quick = true}), InputError);
+  EXPECT_THROW(plan_alternatives(roadmap, kStart, kGoal, 2, {.within = 1.01}), InputError);
 }
 
 }  // namespace
