@@ -210,6 +210,52 @@ test("parts that nothing joins are told, and a map's own radius is planned with,
   await other.stop();
 });
 
+test("what is typed before the map is there is planned once it is, and Plan leaves no page", { timeout: 120_000 }, async () => {
+  const early = await browser.newPage({ viewport: { width: 1280, height: 720 } });
+  const surface = await hold(early, "**/api/surface");
+  await early.goto(served.address);
+  await surface.asked;
+  await early.fill("#from", "(-2, 1, 1)");
+  await early.fill("#to", "[2, -1, 1]");
+  await early.locator("#go").click();
+  await planned(early, surface.release);
+  assert.equal(await early.locator("#length").count(), 1, await text_of(early, "#result"));
+  assert.equal(new URL(early.url()).search, "");
+  await early.close();
+});
+
+test("a click turns nothing, a drag does: until then the view follows", async () => {
+  await page.locator("#top").click();
+  const follows = () => page.evaluate(() => { const { stage } = window.ridgeway; const before = stage.camera.top; stage.camera.top *= 2; stage.look_again(); const is_fitted = Math.abs(stage.camera.top - before) < 1e-9; if (!is_fitted) stage.camera.top = before; return is_fitted; });
+  const { x, y } = await page.locator("#canvas").boundingBox();
+  await page.mouse.click(x + 300, y + 300);
+  assert.ok(await follows());
+  await page.mouse.move(x + 300, y + 300);
+  await page.mouse.down();
+  await page.mouse.move(x + 340, y + 320, { steps: 4 });
+  await page.mouse.up();
+  assert.ok(!(await follows()));
+});
+
+test("a drag with Alt goes straight up, and Escape takes it back", async () => {
+  await page.locator("#orbit").click();
+  await planned(page, () => set("from", "-2, 1, 1"));
+  await planned(page, () => set("to", "2, -1, 1"));
+  const at = await page.evaluate(() => { const { app, stage } = window.ridgeway; return stage.on_canvas(app.routes.goal.position); });
+  const goal = () => page.evaluate(() => window.ridgeway.app.query.goal);
+  await page.keyboard.down("Alt");
+  await page.mouse.move(at.x, at.y);
+  await page.mouse.down();
+  await page.mouse.move(at.x, at.y - 12, { steps: 3 });
+  const [gx, gy, gz] = await goal();
+  assert.deepEqual([gx, gy], [2, -1]);
+  assert.ok(gz > 1.02, `${gz}`);
+  await page.keyboard.up("Alt");
+  await planned(page, () => page.keyboard.press("Escape"));
+  await page.mouse.up();
+  assert.deepEqual(await goal(), [2, -1, 1]);
+});
+
 test("on a planar map, which has no floor, clicks between its walls are places", async () => {
   const other = await view(rooms({ name: "planar", options: ["--min-clearance", "0.3", "--planar", "0.1,1.5"] }));
   const planar = await open(browser, other.address);

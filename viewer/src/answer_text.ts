@@ -26,7 +26,8 @@ function in_words_of_form(reason: string): string {
     .replace(/let --snap ([\d.]+) do so/, "let a Snap of $1 m do so")
     .replace("give a larger --time-limit, or --iteration-limit where the planner samples", "take the planner graph, or move Start and Goal nearer to each other")
     .replace("give that --radius", "give that Radius")
-    .replace("--radius", "Radius");
+    .replace("--radius", "Radius")
+    .replaceAll("m^3", "m\u00b3");
 }
 
 /** What the server calls what stands in a field of the form. */
@@ -38,13 +39,30 @@ export function error_text(error: unknown): string {
   return message.replace(/^\w+(?= '|:)/, (name) => kTitles[name] ?? name);
 }
 
+/** While an end is dragged no reason is asked for. */
+const kStatuses: Record<string, string> = {
+  start_outside_map: "Start is outside of the map",
+  goal_outside_map: "Goal is outside of the map",
+  start_unknown: "Start is in unknown space",
+  goal_unknown: "Goal is in unknown space",
+  start_in_collision: "Start is too near to an obstacle",
+  goal_in_collision: "Goal is too near to an obstacle",
+  start_outside_limits: "Start is outside of the flight's limits",
+  goal_outside_limits: "Goal is outside of the flight's limits",
+  no_route: "No route joins Start and Goal at this radius",
+  timeout: "Time was up before a route was found",
+};
+
+const kPlanners: Record<string, string> = { graph: "the graph", diagram: "the skeleton diagram", esdf: "A* on voxels", theta: "Theta*" };
+
 /** Why there is no route, beginning with what to change. */
 export function reason_text(answer: PlanAnswer): string {
   const { blocked, radius, reason } = answer;
-  const full = reason ? in_words_of_form(reason) : `No route: ${answer.status.replaceAll("_", " ")}`;
+  const words = reason ? in_words_of_form(reason) : (kStatuses[answer.status] ?? `No route: ${answer.status.replaceAll("_", " ")}`);
+  const full = `${words[0]!.toUpperCase()}${words.slice(1)}`;
   if (!blocked || blocked.radius <= 0 || !blocked.place) return full;
   const narrow = { unknown: "Between unknown space the way is", limits: "Within the limits of flights the way is" }[blocked.by] ?? "The way is";
-  return `${narrow} too narrow by ${metres_at_least(Math.max(0.001, radius - blocked.radius))} m at ${place_text(blocked.place)}. ${full[0]!.toUpperCase()}${full.slice(1)}`;
+  return `${narrow} too narrow by ${metres_at_least(Math.max(0.001, radius - blocked.radius))} m at ${place_text(blocked.place)}. ${full}`;
 }
 
 /** No more than there is. */
@@ -70,8 +88,8 @@ export function route_rows(routes: Route[], answer: PlanAnswer): HTMLElement[] {
   };
   row("clearance", clearance_text(first.clearance));
   row("planned in", seconds(answer.seconds.total));
-  row("answered by", `the ${first.answered_by}, ${first.waypoints.length} waypoints`);
-  if (first.within !== undefined) row("shortest", first.within <= 1.0005 ? "there is no shorter one" : `within ${(100 * (first.within - 1)).toFixed(1)} % of it`);
+  row("answered by", `${kPlanners[first.answered_by] ?? first.answered_by}, ${first.waypoints.length} waypoints`);
+  if (first.within !== undefined) row("shortest", first.within <= 1.0005 ? "there is no shorter one" : `this is at most ${(100 * (first.within - 1)).toFixed(1)} % longer`);
   if (first.moved_start) row("start", `moved by ${metres(first.moved_start.distance)} m`);
   if (first.moved_goal) row("goal", `moved by ${metres(first.moved_goal.distance)} m`);
   routes.slice(1).forEach((route, i) => row(`route ${i + 2}`, `${metres(route.length)} m, ${clearance_text(route.clearance, "clearance ")}`));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 import * as THREE from "three";
-import { element } from "./dom";
+import { element, input } from "./dom";
 import { ClearanceScale } from "./drawings";
 import { FlightPanel } from "./flight";
 import { HeightPanel } from "./heights";
@@ -49,11 +49,17 @@ export class App implements Page {
     this.flight.is_shown = () => this.layers.is_shown("flight");
     this.query = new QueryPanel(this, this.flight, fly_to);
     connect_keys(stage, new Pointing(this, this.query));
+    input("lift").disabled = this.layer !== undefined;
     this.tell_map();
     this.update_legend();
     const box = element<HTMLDetailsElement>("legend-box");
     stage.covered = () => (box.hidden || !box.open ? 0 : box.offsetLeft + box.offsetWidth);
     stage.look_again();
+  }
+
+  get layer(): number | undefined {
+    const { planar, bounds, voxel_size } = this.info;
+    return planar && bounds ? bounds.min[2] + voxel_size / 2 : undefined;
   }
 
   hint(text: string): void {
@@ -76,7 +82,7 @@ export class App implements Page {
     element("name").textContent = info.name;
     const { x, y, z } = this.stage.size;
     element("facts").textContent =
-      `${[x, y, z].map((side) => metres(side, side < 1 ? 3 : 1)).join(" x ")} m, voxels of ${metres(info.voxel_size)} m, ` +
+      `${(this.layer === undefined ? [x, y, z] : [x, y]).map((side) => metres(side, side < 1 ? 3 : 1)).join(" x ")} m${this.layer === undefined ? "" : `, a plane at z = ${metres(this.layer)} m`}, voxels of ${metres(info.voxel_size)} m, ` +
       `for robots of ${metres_at_least(info.min_clearance)} m radius and more; ${counted(info.vertices, "vertex", "vertices")}, ${counted(info.edges, "edge", "edges")}`;
   }
 }

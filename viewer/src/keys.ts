@@ -28,7 +28,10 @@ function press(event: KeyboardEvent, stage: Stage, pointing: Pointing): void {
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key; // also with Shift and Caps Lock
   const tool = kTools[key];
   if (tool) {
-    if (key === "Escape") pointing.clear_measured();
+    if (key === "Escape") {
+      pointing.take_back();
+      pointing.clear_measured();
+    }
     return pointing.use(tool);
   }
   if (key === "t") return stage.look_from_above();

@@ -5,7 +5,7 @@ import { join_text, no_joins_text } from "./answer_text";
 import { kClearances, kHeights, kNarrow, kSection } from "./colours";
 import { element, input } from "./dom";
 import { ball, cloud_drawing, dispose, LabelLayer, NetDrawing, type ColourBy, type SliceDrawing } from "./drawings";
-import { read_cloud, read_components, read_net, type Narrow, type Net, type Vector } from "./layers";
+import { read_cloud, read_components, read_net, type Join, type Narrow, type Net, type Vector } from "./layers";
 import type { Legend } from "./legend";
 import { metres, metres_at_most, volume_text } from "./numbers";
 import type { Page } from "./page";
@@ -22,7 +22,9 @@ interface Layer {
   on_switch?: () => Promise<void>;
 }
 
-/** Small parts are parts, too. */
+/** Narrow places that are shown. */
+const kMostNarrow = 60;
+
 /** What is drawn of the map, switched on and off. */
 export class LayerPanel {
   private readonly labels = new LabelLayer(element("labels"));
@@ -188,7 +190,9 @@ export class LayerPanel {
   private async load_narrow(): Promise<THREE.Object3D> {
     const { joins, components } = await ask_json<Narrow>(this.page.source, "/api/narrow");
     const wide_enough = joins.filter((join) => join.radius > 0.5 * this.page.info.voxel_size);
-    const shown = wide_enough.slice(0, 60);
+    // Those that join most space first: of a ragged map most parts are crumbs.
+    const joined = (join: Join) => Math.min(components[join.a]!.volume, components[join.b]!.volume);
+    const shown = [...wide_enough].sort((a, b) => joined(b) - joined(a) || b.radius - a.radius).slice(0, kMostNarrow);
     const marks = new THREE.Group();
     const list = element("narrow-list");
     this.labels.clear();
@@ -198,7 +202,7 @@ export class LayerPanel {
       const mark = ball(kNarrow, Math.max(join.radius, 0.04));
       mark.position.copy(place);
       marks.add(mark);
-      this.labels.add(place, `${metres_at_most(join.radius, 2)} m`);
+      this.labels.add(place, `${metres_at_most(join.radius)} m`);
       const item = document.createElement("li");
       const button = document.createElement("button");
       button.type = "button";
@@ -212,7 +216,7 @@ export class LayerPanel {
       none.textContent = no_joins_text(components.length);
       list.append(none);
     }
-    if (wide_enough.length > shown.length) this.page.hint(`${shown.length} of ${wide_enough.length} narrow places are shown, the widest`);
+    if (wide_enough.length > shown.length) this.page.hint(`${shown.length} of ${wide_enough.length} narrow places are shown: those that join the largest parts`);
     return marks;
   }
 }

@@ -8,7 +8,7 @@ export class Legend {
   private readonly rows: HTMLElement[] = [];
   /** `box`: which is folded, at first where there is little room, and holds the rows. */
   constructor(private readonly box: HTMLDetailsElement, private readonly root: HTMLElement) {
-    box.open = !matchMedia("(max-width: 760px)").matches;
+    box.open = !matchMedia("(max-width: 760px), (max-height: 500px)").matches;
   }
 
   begin(): void {

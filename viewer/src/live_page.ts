@@ -11,6 +11,7 @@ import { LiveGraph } from "./live_graph";
 import { LiveSurface } from "./live_surface";
 import { metres } from "./numbers";
 import { ask_json, bytes_of, type MapSource } from "./source";
+import { kLeastDrone } from "./routes";
 import { Stage } from "./stage";
 import { SurfaceMesh } from "./surface";
 
@@ -78,7 +79,10 @@ export class LivePage {
       const events = (this.events = new EventSource("/api/live"));
       events.onmessage = (message) => this.take(message.data);
       events.onerror = () => {
-        if (events.readyState !== EventSource.CLOSED) return this.tell("The connection is lost; trying again");
+        if (events.readyState !== EventSource.CLOSED) {
+          const before = this.last ? `${this.event_text(this.last)}. ` : "";
+          return this.tell(`${before}The connection is lost; trying again`);
+        }
         this.tell("The run cannot be followed: as many pages as can already do; trying again");
         this.ask_server();
         setTimeout(() => this.follow_again(events), kAgain);
@@ -127,7 +131,7 @@ export class LivePage {
 
   private async refresh(): Promise<void> {
     const event = this.last!;
-    this.tell_event(event);
+    this.tell(this.event_text(event));
     if (!event.bounds) return;
     this.beginning ??= this.begin(event.bounds);
     await this.beginning;
@@ -157,7 +161,9 @@ export class LivePage {
     this.app = new App(this.source, this.stage, info, base, surface);
     this.app.layers.add("live", "Drone and its way", this.group);
     this.app.explain_more.push((legend) => this.explain(legend));
-    this.drone.scale.setScalar(info.min_clearance);
+    this.stage.before_frame.push(() => {
+      this.drone.scale.setScalar(Math.max(info.min_clearance, kLeastDrone / this.stage.css_pixels_of(1)));
+    });
     this.group.visible = true;
     this.stage.look_from_side();
     this.on_begin(this.app);
@@ -207,11 +213,11 @@ export class LivePage {
     if (this.last?.ahead.length) legend.mark("Where it flies next", kAhead);
   }
 
-  private tell_event({ scan, scans, seconds, mapped, is_last }: LiveEvent): void {
+  private event_text({ scan, scans, seconds, mapped, is_last }: LiveEvent): string {
     const parts = [`scan ${scan}${scans ? ` of ${scans}` : ""}`];
     if (mapped !== undefined) parts.push(`${metres(mapped, 1)} m³ mapped`);
     parts.push(`${seconds.toFixed(1)} s`);
-    this.tell(`${is_last ? "Done" : "Live"}: ${parts.join(", ")}`);
+    return `${is_last ? "Done" : "Live"}: ${parts.join(", ")}`;
   }
 
   private tell(text: string): void {

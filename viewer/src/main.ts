@@ -59,6 +59,7 @@ async function begin_map(source: MapSource, stage: Stage, info: Info): Promise<v
   if (fine instanceof Error) throw fine;
   surface.refine(fine);
   if (!is_coarse_enough()) draw_all();
+  app.query.take_form();
   is_ready();
 }
 
@@ -67,6 +68,8 @@ function soon(): Promise<void> {
 }
 
 async function begin(): Promise<void> {
+  // Until there is a map to plan on, what is typed waits in the form (QueryPanel.take_form).
+  element("query").addEventListener("submit", (event) => event.preventDefault());
   try {
     const source = new EarlySource(find_source());
     const asked_info = ask_json<Info>(source, "/api/info").then((info) => {
@@ -81,6 +84,7 @@ async function begin(): Promise<void> {
     element("loading").textContent = "Waiting for the first scan";
     const live = new LivePage(source, stage, (app) => {
       show_to_tests({ app, stage, live, surface: app.surface });
+      app.query.take_form();
       is_ready();
     });
   } catch (error) {

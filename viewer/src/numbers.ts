@@ -12,25 +12,29 @@ export function metres(value: number, decimals = 3): string {
   return String(Number(value.toFixed(decimals)));
 }
 
+/** Metres by which a value may be off for rounding alone. */
+const kRounding = 1e-6;
+
 /** What fits: metres that are no more than a value. */
 export function metres_at_most(value: number, decimals = 3): string {
   const scale = 10 ** decimals;
-  return metres(Math.floor(value * scale + 1e-9) / scale, decimals);
+  return metres(Math.floor((value + kRounding) * scale) / scale, decimals);
 }
 
 /** What is needed: metres that are no less than a value. */
 export function metres_at_least(value: number, decimals = 3): string {
   const scale = 10 ** decimals;
-  return metres(Math.ceil(value * scale - 1e-9) / scale, decimals);
+  return metres(Math.ceil((value - kRounding) * scale) / scale, decimals);
 }
 
 export function place_text(place: Vector): string {
   return place.map((x) => metres(x)).join(",");
 }
 
-/** "x, y, z", commas or blanks between; nothing for what is no place. */
-export function place_of(text: string): Vector | undefined {
-  const parts = text.trim().split(/[\s,;]+/).filter(Boolean).map(Number);
+/** "x, y, z", commas or blanks between, in brackets or not; nothing for what is no place. `layer`: the z of "x, y". */
+export function place_of(text: string, layer?: number): Vector | undefined {
+  const parts = text.replace(/^\s*[([]|[)\]]\s*$/g, "").trim().split(/[\s,;]+/).filter(Boolean).map(Number);
+  if (parts.length === 2 && layer !== undefined) parts.push(layer);
   return parts.length === 3 && parts.every(Number.isFinite) ? (parts as Vector) : undefined;
 }
 

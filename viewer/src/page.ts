@@ -20,6 +20,8 @@ export interface Page {
   readonly routes: RouteDrawing;
   readonly scale: ClearanceScale;
   readonly heights: HeightPanel;
+  /** The height that robots of a planar map are at, metres, world. */
+  readonly layer?: number;
   hint(text: string): void;
   update_legend(): void;
 }

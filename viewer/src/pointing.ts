@@ -12,7 +12,22 @@ import type { Hit } from "./surface";
 
 export type Tool = "look" | "start" | "goal" | "measure";
 
+/** Pixels from a click, nearest first. */
+const kAround = [0, 3, 6].flatMap((radius) => (radius === 0 ? [0] : [0, 1, 2, 3, 4, 5, 6, 7]).map((k) => ({ x: radius * Math.cos((k * Math.PI) / 4), y: radius * Math.sin((k * Math.PI) / 4) })));
+
+/** The place above or below another that a ray comes nearest to. */
+function nearest_upright(ray: THREE.Ray, place: THREE.Vector3): THREE.Vector3 | null {
+  const { origin, direction } = ray;
+  const slant = 1 - direction.z * direction.z;
+  if (slant < 1e-6) return null; // looked at along the line
+  const from = place.clone().sub(origin);
+  const up = (direction.z * direction.dot(from) - from.z) / slant;
+  return new THREE.Vector3(place.x, place.y, place.z + up);
+}
+
 const kHints: Record<Tool, string> = { look: "", start: "Click where the route starts", goal: "Click where the route ends", measure: "Click two places" };
+
+const kSecond = "Click the second place";
 
 /** Clicks on the map, and ends of the route that are dragged. */
 export class Pointing {
@@ -21,15 +36,16 @@ export class Pointing {
   private tool: Tool = "look";
   private measure_from?: THREE.Vector3;
   private down?: { pointer: number; x: number; y: number };
-  private dragged?: { pointer: number; which: "start" | "goal"; plane: THREE.Plane; offset: THREE.Vector3 };
+  private dragged?: { pointer: number; which: "start" | "goal"; from: Vector; place: (ray: THREE.Ray) => THREE.Vector3 | null };
 
   constructor(private readonly page: Page, private readonly query: QueryPanel) {
     const { stage, routes } = page;
-    stage.scene.add(this.measured);
+    stage.overlay.add(this.measured);
     stage.before_frame.push(() => this.labels.place((p) => stage.on_canvas(p)));
     for (const button of document.querySelectorAll<HTMLButtonElement>("[data-tool]"))
       button.addEventListener("click", () => this.use(button.dataset.tool as Tool));
     const canvas = element("canvas");
+    for (const kind of ["pointerdown", "change"]) document.addEventListener(kind, () => this.forget_hint(), { capture: true });
     canvas.addEventListener("pointerdown", (event) => {
       // A second finger moves the view: neither is a click then.
       this.down = event.isPrimary ? { pointer: event.pointerId, x: event.offsetX, y: event.offsetY } : undefined;
@@ -56,6 +72,11 @@ export class Pointing {
     this.page.hint(kHints[tool]);
   }
 
+  /** What was said of the last action is not of the next one. */
+  private forget_hint(): void {
+    this.page.hint(this.measure_from ? kSecond : kHints[this.tool]);
+  }
+
   clear_measured(): void {
     dispose(this.measured);
     this.measured.clear();
@@ -66,8 +87,8 @@ export class Pointing {
   private click(x: number, y: number): void {
     if (this.tool === "look") return;
     const { page } = this;
-    const hit = this.hit_at(x, y);
-    if (!hit) return page.hint("There is no obstacle to click on here: click on the floor or a wall");
+    const hit = this.hit_near(x, y);
+    if (!hit) return page.hint("There is no obstacle to click on here: click on the floor or a wall, or type the place");
     if (this.tool === "measure") return this.measure(hit.place);
     if (hit.is_cut) return page.hint("This is inside an obstacle that is cut: click on the floor, or cut higher");
     const room = this.query.radius + page.info.voxel_size;
@@ -82,6 +103,15 @@ export class Pointing {
     this.query.set_end(which, this.rounded(place));
     this.use(which === "start" && !this.query.goal ? "goal" : "look");
     void this.query.plan();
+  }
+
+  /** What is clicked on, past holes that scans leave in floors. */
+  private hit_near(x: number, y: number): Hit | undefined {
+    for (const off of kAround) {
+      const hit = this.hit_at(x + off.x, y + off.y);
+      if (hit) return hit;
+    }
+    return undefined;
   }
 
   /** What is clicked on: an obstacle, or on a planar map, which has no floor, the layer that robots are in. */
@@ -109,7 +139,7 @@ export class Pointing {
       const mark = ball(kMeasure, Math.max(0.05, 5 / this.page.stage.css_pixels_of(1)));
       mark.position.copy(place);
       this.measured.add(mark);
-      this.page.hint("Click the second place");
+      this.page.hint(kSecond);
       this.page.stage.changed();
       return;
     }
@@ -128,11 +158,11 @@ export class Pointing {
     const { stage, routes } = this.page;
     const marker = routes[which];
     const upright = event.altKey && !stage.is_orthographic;
-    const ray = stage.ray_at(event.offsetX, event.offsetY);
-    const normal = upright ? ray.direction.clone().setZ(0).normalize().negate() : new THREE.Vector3(0, 0, 1);
-    const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(normal, marker.position);
-    const at = ray.intersectPlane(plane, new THREE.Vector3()) ?? marker.position;
-    this.dragged = { pointer: event.pointerId, which, plane, offset: marker.position.clone().sub(at) };
+    const begin = marker.position.clone();
+    const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(new THREE.Vector3(0, 0, 1), begin);
+    const on = (ray: THREE.Ray) => (upright ? nearest_upright(ray, begin) : ray.intersectPlane(plane, new THREE.Vector3()));
+    const offset = begin.clone().sub(on(stage.ray_at(event.offsetX, event.offsetY)) ?? begin);
+    this.dragged = { pointer: event.pointerId, which, from: this.query[which]!, place: (ray) => on(ray)?.add(offset) ?? null };
     this.query.is_dragging = true;
     stage.controls.enabled = false;
     stage.moves_over(true);
@@ -141,13 +171,20 @@ export class Pointing {
   }
 
   private drag(event: PointerEvent): void {
-    const { which, plane, offset } = this.dragged!;
+    const { which, place } = this.dragged!;
     const { stage } = this.page;
-    const at = stage.ray_at(event.offsetX, event.offsetY).intersectPlane(plane, new THREE.Vector3());
+    const at = place(stage.ray_at(event.offsetX, event.offsetY));
     if (!at) return;
-    stage.box.clampPoint(at.add(offset), at);
+    stage.box.clampPoint(at, at);
     this.query.set_end(which, this.rounded(at));
     void this.query.plan();
+  }
+
+  /** Puts what is dragged back. */
+  take_back(): void {
+    if (!this.dragged) return;
+    this.query.set_end(this.dragged.which, this.dragged.from);
+    this.end_drag();
   }
 
   private end_drag(): void {

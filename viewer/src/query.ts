@@ -41,7 +41,8 @@ export class QueryPanel {
   private unwritten?: End; // moved, and not yet in the form
 
   constructor(private readonly page: Page, private readonly flight: FlightPanel, fly_to: (place: Vector) => void) {
-    input("radius").value = String(page.info.min_clearance); // rounded it may be less than the map was built for
+    if (!input("radius").value) input("radius").value = String(page.info.min_clearance); // rounded it may be less than the map was built for
+    input("radius").min = String(page.info.min_clearance);
     page.routes.set_radius(this.radius);
     page.stage.after_frame.push(() => this.write_end());
     for (const end of kEnds) input(kFields[end]).addEventListener("change", () => this.take_typed(end));
@@ -76,10 +77,17 @@ export class QueryPanel {
 
   private take_typed(end: End): void {
     const text = input(kFields[end]).value.trim();
-    const place = place_of(text);
+    const { layer } = this.page;
+    const place = place_of(text, layer);
+    if (place && layer !== undefined) place[2] = layer; // the others are none of the map's
     this.mark_field(end, text && !place ? kNoPlace : "");
     this.set_end(end, place);
     void this.plan();
+  }
+
+  /** Takes what was typed before there was a map. */
+  take_form(): void {
+    for (const end of kEnds) if (!this[end] && input(kFields[end]).value) this.take_typed(end);
   }
 
   /** `fault`: what should stand there instead. */

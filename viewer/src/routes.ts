@@ -8,6 +8,7 @@ import type { Stage } from "./stage";
 
 /** Pixels: marks are drawn no smaller, however far they are. */
 const kLeastRadius = 5;
+export const kLeastDrone = 12;
 
 /** Start, goal, the routes between them and the flight along the shortest, as they are drawn. */
 export class RouteDrawing {
@@ -49,7 +50,8 @@ export class RouteDrawing {
 
   private scale_marks(): void {
     const least = kLeastRadius / this.stage.css_pixels_of(1);
-    for (const part of [this.start, this.goal, this.robot]) part.scale.setScalar(Math.max(this.radius, least));
+    for (const part of [this.start, this.goal]) part.scale.setScalar(Math.max(this.radius, least));
+    this.robot.scale.setScalar(Math.max(this.radius, kLeastDrone / this.stage.css_pixels_of(1)));
     this.narrow.scale.setScalar(Math.max(this.narrow_radius, least));
   }
 

@@ -4,6 +4,9 @@ import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { corners_of, distance_to_see_all, step_aside } from "./framing";
 
+/** Half of the height that is seen from above at least, metres: nearer there is nothing to see. */
+const kNearest = 0.1;
+
 /** From where the picture is looked at: in perspective from the side, or straight down. Positions are metres from the map's lowest corner, z up. */
 export abstract class View {
   readonly controls: OrbitControls;
@@ -25,10 +28,15 @@ export abstract class View {
     this.controls.enableDamping = false;
     this.controls.zoomToCursor = true;
     this.controls.screenSpacePanning = false;
+    let is_held = false; // a click alone turns nothing
     this.controls.addEventListener("start", () => {
-      this.preset = undefined;
+      is_held = true;
       cancelAnimationFrame(this.flight);
     });
+    this.controls.addEventListener("change", () => {
+      if (is_held) this.preset = undefined;
+    });
+    this.controls.addEventListener("end", () => (is_held = false));
   }
 
   /** Asks for a frame in which anything may be another. */
@@ -117,6 +125,7 @@ export abstract class View {
     const middle = this.box.getCenter(new THREE.Vector3());
     this.orthographic.top = 0.54 * Math.max(size.y, size.x / this.aspect);
     this.orthographic.bottom = -this.orthographic.top;
+    this.controls.maxZoom = Math.max(1, this.orthographic.top / kNearest);
     this.orthographic.zoom = 1;
     this.orthographic.position.set(middle.x, middle.y - 1e-3, middle.z + size.length());
     this.fit_orthographic();
@@ -171,7 +180,7 @@ export abstract class View {
     cancelAnimationFrame(this.flight);
     this.preset = undefined;
     if (this.camera_now === this.orthographic) {
-      this.orthographic.zoom = Math.max(this.controls.minZoom, this.orthographic.zoom / farther);
+      this.orthographic.zoom = Math.min(this.controls.maxZoom, Math.max(this.controls.minZoom, this.orthographic.zoom / farther));
       this.orthographic.updateProjectionMatrix();
       const step = this.orthographic.top / this.orthographic.zoom;
       const move = new THREE.Vector3(right * step, up * step, 0);
