@@ -16,7 +16,7 @@ HEAD = '''# SPDX-License-Identifier: BSD-3-Clause
 #
 # Made by python/packaging/make_stub.py.
 import os
-from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, Tuple, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -194,7 +194,8 @@ def stub_of(cls):
         elif name == "__exit__":
             lines.append(function(where, "    ", ["error: object", "value: object", "traceback: object"], "None"))
         elif name == "__getitem__":
-            lines.append(function(where, "    ", ["index: int"], RESULTS[where]))
+            for index, result in (("int", RESULTS[where]), ("slice", f"List[{RESULTS[where]}]")):
+                lines.append("    @overload\n" + function(where, "    ", [f"index: {index}"], result))
         elif name == "__iter__":
             lines.append(function(where, "    ", [], RESULTS[where]))
         elif not name.startswith("_"):

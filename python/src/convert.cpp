@@ -193,6 +193,12 @@ std::vector<Point> points_from(py::handle value, const char* name) {
   return points;
 }
 
+OneOrMany one_or_many_from(py::handle value, const char* name) {
+  const Doubles array = doubles_from(value, name, "(3,) or (N, 3) numbers, metres");
+  if (array.ndim() == 1 && array.size() == 3) return {{point_from(value, name)}, true};
+  return {points_from(value, name)};
+}
+
 std::vector<VoxelIndex> voxels_from(py::handle value, const char* name) {
   const std::string expected = "an (N, 3) array of whole numbers";
   require_no_mask(value, name);

@@ -31,6 +31,17 @@ std::int64_t whole_from(py::handle value, const char* name);
 std::size_t place_from(py::handle index, std::size_t count, const char* what);
 /// What iter() gives of a value with __getitem__ and __len__.
 py::object iterator_of(const py::object& sequence);
+/// What sequence[index] gives of `count` items: one(place) of a whole number, a list of a slice.
+template <typename One>
+py::object item_or_slice(py::handle index, std::size_t count, const One& one) {
+  if (!PySlice_Check(index.ptr())) return one(index);
+  std::size_t at = 0, stop = 0, step = 0, length = 0;
+  if (!py::reinterpret_borrow<py::slice>(index).compute(count, &at, &stop, &step, &length))
+    throw py::error_already_set();
+  py::list items;
+  for (std::size_t i = 0; i < length; ++i, at += step) items.append(one(py::int_(at)));
+  return items;
+}
 std::string text_from(py::handle value, const char* name);
 /// Text that may hold the name of a file. Bytes that are no UTF-8 become what os.fsencode() turns
 /// back into them.
@@ -44,6 +55,12 @@ std::filesystem::path path_from(py::handle value, const char* name, const char* 
 Point point_from(py::handle value, const char* name);
 /// An (N, 3) array of finite numbers, metres, or what numpy makes one of.
 std::vector<Point> points_from(py::handle value, const char* name);
+/// The same, or one point alone.
+struct OneOrMany {
+  std::vector<Point> points;
+  bool is_one = false;  ///< answers are the item, no array of one
+};
+OneOrMany one_or_many_from(py::handle value, const char* name);
 /// An (N, 3) array of whole numbers within kAllVoxels.
 std::vector<VoxelIndex> voxels_from(py::handle value, const char* name);
 VoxelIndex voxel_from(py::handle value, const char* name);

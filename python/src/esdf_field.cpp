@@ -53,7 +53,8 @@ py::object states(const EsdfFace& face, py::handle bounds) {
 }
 
 py::tuple distance_at(const EsdfFace& face, py::handle points, py::handle deepest) {
-  const std::vector<Point> places = points_from(points, "points");
+  const OneOrMany asked = one_or_many_from(points, "points");
+  const std::vector<Point>& places = asked.points;
   const double depth = number_from(deepest, "deepest");
   if (!(depth >= 0.0))
     throw InputError("deepest", "is " + number_text(depth), "give metres, 0 or more");
@@ -73,7 +74,10 @@ py::tuple distance_at(const EsdfFace& face, py::handle points, py::handle deepes
         256);
   }
   const auto count = static_cast<py::ssize_t>(places.size());
-  return py::make_tuple(owning_array(std::move(distance), {count}), array_of(std::move(gradient)));
+  py::array distances = owning_array(std::move(distance), {count});
+  py::array gradients = array_of(std::move(gradient));
+  if (asked.is_one) return py::make_tuple(distances[py::int_(0)], gradients[py::int_(0)]);
+  return py::make_tuple(distances, gradients);
 }
 
 /// Of each point, in the map's frame; places beyond all voxels get `outside`.
@@ -103,14 +107,15 @@ double radius_from(py::handle value) {
   return radius;
 }
 
-py::array is_free(const EsdfFace& face, py::handle points, py::handle radius) {
+py::object is_free(const EsdfFace& face, py::handle points, py::handle radius) {
   const double r = radius_from(radius);
-  const py::array answers =
-      ask_each<std::uint8_t>(face, points_from(points, "points"), 0,
-                             [&](const FreeSpace& space, const Point& p) -> std::uint8_t {
-                               return space.is_free(p, r) ? 1 : 0;
-                             });
-  return answers.attr("view")("bool");
+  const OneOrMany asked = one_or_many_from(points, "points");
+  const py::array answers = ask_each<std::uint8_t>(
+      face, asked.points, 0, [&](const FreeSpace& space, const Point& p) -> std::uint8_t {
+        return space.is_free(p, r) ? 1 : 0;
+      });
+  const py::object free = answers.attr("view")("bool");
+  return asked.is_one ? py::object(free[py::int_(0)]) : free;
 }
 
 double clearance(const EsdfFace& face, py::handle path) {
@@ -210,10 +215,12 @@ void add_questions(py::class_<EsdfFace>& type) {
       .def("distance_at", &distance_at, py::arg("points"), py::arg("deepest") = 1.0,
            "distance_at(self, points, deepest=1.0)\n--\n\n"
            "Interpolated signed distances (N,), metres, and their gradients (N, 3), at points "
-           "(N, 3), world; NaN\nwhere nothing was seen. Negative in obstacles, down to -deepest.")
+           "(N, 3), world, or at one;\nNaN where nothing was seen. Negative in obstacles, down to "
+           "-deepest.")
       .def("is_free", &is_free, py::arg("points"), py::arg("radius"),
            "is_free(self, points, radius)\n--\n\n"
-           "Whether a sphere (radius in metres) fits at points (N, 3), world: (N,) bool, exact.")
+           "Whether a sphere (radius in metres) fits at points (N, 3), world: (N,) bool, exact; of "
+           "one point one bool.")
       .def("path_is_free", &path_is_free, py::arg("path"), py::arg("radius"),
            "path_is_free(self, path, radius)\n--\n\n"
            "Whether a sphere (radius in metres) can move along straight segments (N, 3), world, or "

@@ -90,13 +90,13 @@ py::object to_numpy(const MapFace& face, py::handle bounds) {
       });
 }
 
-py::array state_at(const MapFace& face, py::handle points) {
+py::object state_at(const MapFace& face, py::handle points) {
   const OccupancyMap& map = *face.map;
-  const std::vector<Point> places = points_from(points, "points");
+  const OneOrMany asked = one_or_many_from(points, "points");
   std::vector<std::uint8_t> states;
   {
     const Unlocked unlocked;
-    for (const Point& place : places) {
+    for (const Point& place : asked.points) {
       const Point local = to_local(map, place);
       states.push_back(has_voxel(local, map.voxel_size)
                            ? static_cast<std::uint8_t>(map.at(voxel_at(local, map.voxel_size)))
@@ -104,7 +104,8 @@ py::array state_at(const MapFace& face, py::handle points) {
     }
   }
   const auto count = static_cast<py::ssize_t>(states.size());
-  return owning_array(std::move(states), {count});
+  py::array all = owning_array(std::move(states), {count});
+  return asked.is_one ? py::object(all[py::int_(0)]) : std::move(all);
 }
 
 py::dict counts_of(const MapFace& face) {
@@ -264,7 +265,7 @@ void add_maps(py::module_& module) {
            "((x0, y0, z0), (x1, y1, z1)).\n`from_numpy(*map.to_numpy())` is the map again.");
   type.def("state_at", &state_at, py::arg("points"),
            "state_at(self, points)\n--\n\n"
-           "States of the voxels that hold points (N, 3), world: (N,) uint8.");
+           "States of the voxels that hold points (N, 3), world: (N,) uint8; of one point one.");
   type.def_property_readonly(
       "voxel_size", [](const MapFace& face) { return face.map->voxel_size; }, "Metres.");
   type.def_property_readonly(

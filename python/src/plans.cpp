@@ -219,7 +219,10 @@ void add_alternatives(py::module_& module) {
       .def(
           "__getitem__",
           [](const AlternativesFace& all, py::handle index) {
-            return PlanFace{all.routes[place_from(index, all.routes.size(), "routes")], all.config};
+            return item_or_slice(index, all.routes.size(), [&](py::handle place) {
+              return py::cast(
+                  PlanFace{all.routes[place_from(place, all.routes.size(), "routes")], all.config});
+            });
           },
           py::arg("index"))
       .def("__iter__", &iterator_of)

@@ -48,12 +48,6 @@ Point at(const std::vector<Point>& points, std::size_t i) {
   return points.size() == 1 ? points.front() : points[i];
 }
 
-std::vector<Point> one_or_many(py::handle value, const char* name) {
-  const Doubles array = doubles_from(value, name, "(3,) or (N, 3) numbers, metres");
-  if (array.ndim() == 1 && array.size() == 3) return {point_from(value, name)};
-  return points_from(value, name);
-}
-
 /// Runs `count` pieces of work on so many threads; Ctrl-C ends it after those under way.
 template <typename Work>
 void run_many(int threads, std::size_t count, const Work& work) {
@@ -77,7 +71,8 @@ py::list list_of(std::vector<PlanFace> plans) {
 py::list plan_many(const RoadmapFace& face, py::handle starts, py::handle goals, py::handle threads,
                    const py::kwargs& keywords) {
   const PlanConfig config = plan_fields().read_all(keywords);
-  const std::vector<Point> from = one_or_many(starts, "starts"), to = one_or_many(goals, "goals");
+  const std::vector<Point> from = one_or_many_from(starts, "starts").points,
+                           to = one_or_many_from(goals, "goals").points;
   if (from.size() != to.size() && from.size() != 1 && to.size() != 1)
     throw InputError("starts and goals",
                      "are " + std::to_string(from.size()) + " and " + std::to_string(to.size()),

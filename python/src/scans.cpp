@@ -74,7 +74,7 @@ void add_lidar(py::module_& module) {
       .def("__repr__", &lidar_repr);
 }
 
-py::tuple scan_of(const ScanSequence& sequence, py::handle index) {
+py::object scan_of(const ScanSequence& sequence, py::handle index) {
   const Scan& scan = sequence.scans[place_from(index, sequence.scans.size(), "scans")];
   PointCloud cloud;
   {
@@ -94,7 +94,13 @@ void add_sequence(py::module_& module) {
       .def_readonly("without_pose", &ScanSequence::without_pose,
                     "Scans whose pose is not finite, passed over.")
       .def("__len__", [](const ScanSequence& sequence) { return sequence.scans.size(); })
-      .def("__getitem__", &scan_of, py::arg("index"))
+      .def(
+          "__getitem__",
+          [](const ScanSequence& sequence, py::handle index) {
+            return item_or_slice(index, sequence.scans.size(),
+                                 [&](py::handle place) { return scan_of(sequence, place); });
+          },
+          py::arg("index"))
       .def("__iter__", &iterator_of)
       .def("__repr__", [](const ScanSequence& sequence) {
         return "ScanSequence(" + std::to_string(sequence.scans.size()) + " scans, layout='" +

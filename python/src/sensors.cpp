@@ -46,7 +46,7 @@ std::string camera_repr(const PinholeCamera& c) {
          ", cy=" + literal(c.cy) + ")";
 }
 
-py::tuple frame_of(const DepthSequence& sequence, py::handle index) {
+py::object frame_of(const DepthSequence& sequence, py::handle index) {
   const DepthFrame& frame = sequence.frames[place_from(index, sequence.frames.size(), "frames")];
   DepthImage image;
   {
@@ -202,7 +202,13 @@ void add_sensors(py::module_& module) {
       .def_readonly("without_pose", &DepthSequence::without_pose,
                     "Images that no pose belongs to, passed over.")
       .def("__len__", [](const DepthSequence& sequence) { return sequence.frames.size(); })
-      .def("__getitem__", &frame_of, py::arg("index"))
+      .def(
+          "__getitem__",
+          [](const DepthSequence& sequence, py::handle index) {
+            return item_or_slice(index, sequence.frames.size(),
+                                 [&](py::handle place) { return frame_of(sequence, place); });
+          },
+          py::arg("index"))
       .def("__iter__", &iterator_of)
       .def("__repr__", [](const DepthSequence& sequence) {
         return "DepthSequence(" + std::to_string(sequence.frames.size()) + " frames, layout='" +

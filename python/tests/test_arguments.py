@@ -212,14 +212,17 @@ def test_methods_of_nothing_are_refused():
             kind.__iter__(None)
 
 
-def test_sequences_are_iterated_and_take_whole_numbers(roadmap):
+def test_sequences_are_iterated_and_take_whole_numbers_and_slices(roadmap):
     routes = roadmap.alternatives(START, GOAL)
     assert [route.length for route in routes] == [routes[i].length for i in range(len(routes))]
     assert routes[-1].length == routes[len(routes) - 1].length
     with pytest.raises(IndexError, match="there are"):
         routes[99]
     with pytest.raises(TypeError, match="index: expected a whole number"):
-        routes[:1]
+        routes["1"]
+    with pytest.raises(TypeError, match="slice indices"):
+        routes[:0.5]
+    assert [route.length for route in routes[:1]] == [routes[0].length]
 
 
 def test_masked_arrays_are_refused(rooms, roadmap):

@@ -198,6 +198,21 @@ def test_a_wall_across_the_map_is_named_and_where_the_map_ends(rooms):
     assert any(beyond) and blocked.map_end[0] < 3.1
 
 
+def test_one_place_is_asked_as_many_are(roadmap):
+    field, states = roadmap.esdf, ridgeway.OccupancyMap.from_numpy(np.ones((4, 4, 4), np.uint8), 0.5)
+    assert field.is_free(START, 0.25) and not field.is_free((0.1, 0.1, 0.1), 0.25)
+    distance, gradient = field.distance_at(START)
+    assert np.ndim(distance) == 0 and gradient.shape == (3,)
+    assert distance == field.distance_at([START])[0][0]
+    assert states.state_at((0.3, 0.3, 0.3)) == states.state_at([(0.3, 0.3, 0.3)])[0] == 1
+
+
+def test_some_of_the_alternatives(roadmap):
+    routes = roadmap.alternatives(START, GOAL, 3)
+    assert [r.length for r in routes[::-1]] == [r.length for r in routes][::-1]
+    assert len(routes[:1]) == 1 and routes[5:] == [] and len(routes[-1:]) == 1
+
+
 def test_many_plans_are_the_plans_one_by_one(real):
     rng = np.random.default_rng(4)
     points = real.diagram.points[rng.integers(0, len(real.diagram), 60)]
