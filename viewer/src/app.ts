@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 import * as THREE from "three";
+import { kDark } from "./colours";
 import { element, input } from "./dom";
 import { ClearanceScale } from "./drawings";
 import { FlightPanel } from "./flight";
@@ -52,6 +53,7 @@ export class App implements Page {
     input("lift").disabled = this.layer !== undefined;
     this.tell_map();
     this.update_legend();
+    matchMedia(kDark).addEventListener("change", () => this.update_legend());
     const box = element<HTMLDetailsElement>("legend-box");
     stage.covered = () => (box.hidden || !box.open ? 0 : box.offsetLeft + box.offsetWidth);
     stage.look_again();

@@ -13,8 +13,12 @@ function hex(text: string): Rgb {
 
 /** Of obstacles by height: quiet, so that what is drawn over them stands out. */
 export const kHeights: Ramp = ["5a6f8c", "7d92a6", "a8b3b5", "c9c0ab", "dcc59c"].map(hex);
-/** Of obstacles where they are cut. */
-export const kSection: Rgb = hex("3a4450");
+/** Of obstacles where they are cut: far from the ground, which is dark or light as the system is. */
+const kSections = { light: hex("3a4450"), dark: hex("c3ccd4") };
+export const kDark = "(prefers-color-scheme: dark)";
+export function section_colour(): Rgb {
+  return matchMedia(kDark).matches ? kSections.dark : kSections.light;
+}
 /** Of clearance: narrow is red, wide is blue. */
 export const kClearances: Ramp = ["d7302f", "f4883c", "f2d24b", "7cc67a", "2f9fb4", "3b5fc0"].map(hex);
 

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 import * as THREE from "three";
 import { join_text, no_joins_text } from "./answer_text";
-import { kClearances, kHeights, kNarrow, kSection } from "./colours";
+import { kClearances, kHeights, kNarrow, section_colour } from "./colours";
 import { element, input } from "./dom";
 import { ball, cloud_drawing, dispose, LabelLayer, NetDrawing, type ColourBy, type SliceDrawing } from "./drawings";
 import { read_cloud, read_components, read_net, type Join, type Narrow, type Net, type Vector } from "./layers";
@@ -132,7 +132,7 @@ export class LayerPanel {
     const { base, surface, scale } = this.page;
     const z = (height: number) => `${metres(base.z + height, 2)} m`;
     if (this.is_shown("surface")) legend.ramp("Obstacles: height", kHeights, z(surface.low), z(surface.high));
-    if (this.is_shown("surface")) legend.mark("Obstacles where they are cut", kSection);
+    if (this.is_shown("surface")) legend.mark("Obstacles where they are cut", section_colour());
     const has_net = this.is_shown("diagram") || this.is_shown("graph");
     const by_component = this.colour_by === "component";
     if (has_net && by_component) legend.mark("Graph, diagram: a colour for each connected component", [0.5, 0.5, 0.5]);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 import * as THREE from "three";
-import { kSection } from "./colours";
+import { section_colour } from "./colours";
 import type { Section } from "./layers";
 
 const kVertex = `
@@ -38,11 +38,15 @@ export class SectionDrawing {
       polygonOffset: true, // behind faces at the same height
       polygonOffsetFactor: 1,
       polygonOffsetUnits: 1,
-      uniforms: { cells: { value: null }, section: { value: new THREE.Vector3(...kSection) } },
+      uniforms: { cells: { value: null }, section: { value: new THREE.Vector3(...section_colour()) } },
     });
     this.mesh = new THREE.Mesh(new THREE.PlaneGeometry(1, 1).translate(0.5, 0.5, 0), material);
     this.mesh.frustumCulled = false;
     this.mesh.visible = false;
+    this.mesh.onBeforeRender = () => {
+      material.uniforms.section!.value.set(...section_colour());
+      material.uniformsNeedUpdate = true;
+    };
   }
 
   /** `base`: the world's place of (0, 0, 0) of the picture. */

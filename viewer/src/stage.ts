@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
 import * as THREE from "three";
+import { kDark } from "./colours";
 import { StillPicture } from "./still_picture";
 import { View } from "./view";
 
@@ -54,7 +55,7 @@ export class Stage extends View {
       this.look_again();
       this.changed();
     }).observe(canvas);
-    const dark = matchMedia("(prefers-color-scheme: dark)");
+    const dark = matchMedia(kDark);
     const paint = () => {
       const ground = getComputedStyle(document.documentElement).getPropertyValue("--ground").trim();
       this.renderer.setClearColor(new THREE.Color().setStyle(ground, THREE.LinearSRGBColorSpace));
