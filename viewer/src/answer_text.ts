@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 The Ridgeway authors
+import { kRoutes } from "./colours";
+import { swatch } from "./drawings";
 import type { Join, PlanAnswer, Route } from "./layers";
 import { metres, metres_at_least, metres_at_most, place_text, seconds } from "./numbers";
 
@@ -92,7 +94,11 @@ export function route_rows(routes: Route[], answer: PlanAnswer): HTMLElement[] {
   if (first.within !== undefined) row("shortest", first.within <= 1.0005 ? "there is no shorter one" : `this is at most ${(100 * (first.within - 1)).toFixed(1)} % longer`);
   if (first.moved_start) row("start", `moved by ${metres(first.moved_start.distance)} m`);
   if (first.moved_goal) row("goal", `moved by ${metres(first.moved_goal.distance)} m`);
-  routes.slice(1).forEach((route, i) => row(`route ${i + 2}`, `${metres(route.length)} m, ${clearance_text(route.clearance, "clearance ")}`));
+  routes.slice(1).forEach((route, i) => {
+    row(`route ${i + 2}`, `${metres(route.length)} m, ${clearance_text(route.clearance, "clearance ")}`);
+    table.rows[table.rows.length - 1]!.cells[0]!.prepend(swatch(kRoutes[(i + 1) % kRoutes.length]!));
+  });
+  if (routes.length > 1) head.prepend(swatch(kRoutes[0]!));
   if (answer.routes && answer.complete) row("", "the graph has no others");
   return [head, table];
 }
