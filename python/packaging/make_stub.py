@@ -50,7 +50,7 @@ PARAMETERS = {
     "unknown planner smoothness integrator source strategy diagram_colour title": "str",
     "up": "Optional[str]", "home": "Optional[_Point]", "band": "Optional[Sequence[float]]",
     "inside": "ArrayLike", "position velocity acceleration point": "_Point", "file": "_Path",
-    "paths": "Optional[Dict[str, Union[PlanResult, ArrayLike]]]", "roadmap": "Roadmap",
+    "paths": "Union[Alternatives, Dict[str, Union[PlanResult, Trajectory, ArrayLike]], None]", "roadmap": "Roadmap",
     "simplify basis_point_edges paper_diagram shorten quick escape follow_yaw stop_and_go carve floors sides narrow_places": "bool",
     "threads count queries seed slot index min_cluster isolated_below tangent_pairs most_evaluations "
     "width height rows columns forget_after log_bytes least_frontier headings most_rays most_stops most_looks": "int",
@@ -79,7 +79,7 @@ PARTICULAR = {
     "Roadmap.export_voxblox.path": "_Path", "TsdfMap.export_voxblox.path": "_Path",
     "TsdfMap.save_surface.path": "_Path", "EsdfMap.surroundings.radius": "float",
     "Explorer.__init__.within": "Optional[ArrayLike]",
-    "Roadmap.draw.path": "Union[PlanResult, ArrayLike, None]", "Roadmap.draw.diagram": "bool",
+    "Roadmap.draw.path": "Union[PlanResult, Trajectory, ArrayLike, None]", "Roadmap.draw.diagram": "bool",
     "Roadmap.draw.graph": "bool",
     "build.map": "Union[OccupancyMap, _Path]", "compute_esdf.map": "OccupancyMap",
     "Roadmap.trajectory.path": "Union[PlanResult, ArrayLike]",

@@ -352,8 +352,8 @@ class Roadmap:
     def draw(
         self,
         file: _Path,
-        path: Union[PlanResult, ArrayLike, None] = ...,
-        paths: Optional[Dict[str, Union[PlanResult, ArrayLike]]] = ...,
+        path: Union[PlanResult, Trajectory, ArrayLike, None] = ...,
+        paths: Union[Alternatives, Dict[str, Union[PlanResult, Trajectory, ArrayLike]], None] = ...,
         *,
         width: int = ...,
         band: Optional[Sequence[float]] = ...,

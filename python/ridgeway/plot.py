@@ -11,7 +11,7 @@ from typing import Any, Iterator, Optional
 
 import numpy as np
 
-from ridgeway import FREE, OCCUPIED, Alternatives, Grid, InputError, PlanResult, Roadmap
+from ridgeway import FREE, OCCUPIED, Alternatives, Grid, InputError, PlanResult, Roadmap, Trajectory
 
 
 def _ways_of(path: Any) -> Iterator[np.ndarray]:
@@ -22,9 +22,11 @@ def _ways_of(path: Any) -> Iterator[np.ndarray]:
         for one in path:
             yield from _ways_of(one)
         return
+    if isinstance(path, Trajectory):
+        path = path.sample(0.05).position
     points = np.asarray(getattr(path, "waypoints", path), dtype=float)
     if points.size % 3 or points.ndim not in (1, 2):
-        raise InputError(f"paths: expected PlanResult or points (N, 3), got {type(path).__name__}")
+        raise InputError(f"paths: expected PlanResult, Trajectory or points (N, 3), got {type(path).__name__}")
     yield points.reshape(-1, 3)
 
 
@@ -44,7 +46,7 @@ def floor_plan(
 ) -> Any:
     """Draws a roadmap from above, and paths on it, from a disc to a square; returns matplotlib's Axes.
 
-    `paths`: PlanResult, Alternatives, or arrays (N, 3), metres, world. `height`: of the layer whose walls are
+    `paths`: PlanResult, Alternatives, Trajectory, or arrays (N, 3), metres, world. `height`: of the layer whose walls are
     shown, metres; None: the median of the paths', or without any of the graph's vertices'; planar
     maps have one layer. `graph`: draw the sparse graph too. `axes`: to draw on; None: those of a
     new figure.

@@ -13,7 +13,10 @@ namespace {
 
 /// The points of a plan or of an array (N, 3); none for None.
 std::vector<Point> waypoints_of(py::handle path, const char* name) {
+  constexpr double kStep = 0.05;  // seconds between places of a flight
   if (path.is_none()) return {};
+  if (py::hasattr(path, "sample"))  // a Trajectory
+    return points_from(path.attr("sample")(kStep).attr("position"), name);
   if (!py::isinstance<PlanFace>(path)) return points_from(path, name);
   const auto& plan = path.cast<const PlanFace&>();
   if (!plan.ok())
@@ -25,9 +28,13 @@ std::vector<Point> waypoints_of(py::handle path, const char* name) {
 void draw(const RoadmapFace& face, py::handle file, py::handle path, const py::object& paths,
           const py::kwargs& keywords) {
   PictureConfig config = picture_fields().read_all(keywords);
-  if (!paths.is_none()) {
+  if (py::isinstance<AlternativesFace>(paths)) {
+    for (const PlanResult& route : paths.cast<const AlternativesFace&>().routes)
+      config.paths.push_back({"route " + std::to_string(config.paths.size() + 1), route.waypoints});
+  } else if (!paths.is_none()) {
     if (!py::isinstance<py::dict>(paths))
-      throw py::type_error("paths: expected a dict of names and paths, got " + describe(paths));
+      throw py::type_error("paths: expected a dict of names and paths, or Alternatives, got " +
+                           describe(paths));
     for (const auto& [key, value] : paths.cast<py::dict>()) {
       const std::string name = text_from(key, "paths");
       config.paths.push_back({name, waypoints_of(value, ("paths['" + name + "']").c_str())});
@@ -45,14 +52,15 @@ void draw(const RoadmapFace& face, py::handle file, py::handle path, const py::o
 }  // namespace
 
 void add_pictures(py::class_<RoadmapFace>& type) {
-  type.def("draw", &draw, py::arg("file"), py::arg("path") = py::none(),
-           py::arg("paths") = py::none(),
-           ("draw(self, file, path=None, paths=None, *, " + picture_fields().signature().substr(2) +
-            ")\n--\n\nDraws the map from above, with skeleton, graph and paths, as a .png or .svg "
-            "file, without matplotlib.\n\n  path: a PlanResult, or points (N, 3), metres, world; "
-            "or None\n  paths: others to compare, {name: path}, at most eight" +
-            picture_fields().docs())
-               .c_str());
+  type.def(
+      "draw", &draw, py::arg("file"), py::arg("path") = py::none(), py::arg("paths") = py::none(),
+      ("draw(self, file, path=None, paths=None, *, " + picture_fields().signature().substr(2) +
+       ")\n--\n\nDraws the map from above, with skeleton, graph and paths, as a .png or .svg "
+       "file, without matplotlib.\n\n  path: a PlanResult, a Trajectory, or points (N, 3), metres, "
+       "world; or None\n  paths: others to compare, {name: path} or Alternatives, at most "
+       "eight" +
+       picture_fields().docs())
+          .c_str());
 }
 
 }  // namespace ridgeway::python

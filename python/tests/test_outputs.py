@@ -29,6 +29,9 @@ def test_pictures_are_those_of_the_command_line(roadmap, program, tmp_path):
                     "--path", tmp_path / "path.json"], check=True)
     assert np.array_equal(ridgeway.read_path(tmp_path / "path.json"), plan.waypoints)
     roadmap.draw(tmp_path / "c.png", plan, title="rooms.ridge")
+    roadmap.draw(tmp_path / "d.svg", roadmap.trajectory(plan), roadmap.alternatives(START, GOAL, 2))
+    roadmap.draw(tmp_path / "e.svg", roadmap.trajectory(plan))
+    assert (tmp_path / "d.svg").stat().st_size > (tmp_path / "e.svg").stat().st_size > 5000
     assert size_of_png(tmp_path / "b.png") == size_of_png(tmp_path / "c.png")
     roadmap.draw(tmp_path / "c.svg", plan.waypoints, {"one": plan, "two": [START, GOAL]}, sides=True,
                  band=(0.5, 1.5), diagram_colour="component", title="Two rooms")

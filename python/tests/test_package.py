@@ -80,6 +80,9 @@ def test_floor_plans_are_drawn(roadmap, tmp_path):
     matplotlib.use("Agg")
     import ridgeway.plot
 
+    flight = roadmap.trajectory(roadmap.plan(START, GOAL))
+    drawn = ridgeway.plot.floor_plan(roadmap, flight, height=1.0).get_legend().get_texts()[0].get_text()
+    assert float(drawn.split()[0]) == pytest.approx(roadmap.plan(START, GOAL).length, rel=0.2)
     axes = ridgeway.plot.floor_plan(roadmap, roadmap.plan(START, GOAL), height=1.0)
     axes.figure.savefig(tmp_path / "plan.png")
     assert (tmp_path / "plan.png").stat().st_size > 5000
@@ -91,7 +94,7 @@ def test_floor_plans_are_drawn(roadmap, tmp_path):
     assert 0.3 < float(ridgeway.plot.floor_plan(roadmap).get_title().split()[-2]) < 2.1
     with pytest.raises(ridgeway.InputError, match="height: is 99 .* to 2.40"):
         ridgeway.plot.floor_plan(roadmap, height=99)
-    with pytest.raises(ridgeway.InputError, match="paths: expected PlanResult or points"):
+    with pytest.raises(ridgeway.InputError, match="paths: expected PlanResult, Trajectory or points"):
         ridgeway.plot.floor_plan(roadmap, roadmap.plan(START, GOAL), 1.2)
     several = roadmap.alternatives(START, GOAL, 2)
     assert len(ridgeway.plot.floor_plan(roadmap, several).lines) == 3 * len(several)
