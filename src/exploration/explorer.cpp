@@ -37,8 +37,9 @@ void require_within(const FlightState& state, const MotionLimits& limits) {
   constexpr double kMost = 1.1;  // times the limit
   const auto require_below = [](const char* name, const Point& value, double most) {
     if (value.norm() > kMost * most)
-      throw InputError(name, "is " + number_text(value.norm()) + " of " + number_text(most),
-                       "give a higher limit, or brake by the robot's own means first");
+      throw InputError(
+          name, "is " + number_text(value.norm()) + ", above the limit of " + number_text(most),
+          "give a higher limit, or brake by the robot's own means first");
   };
   require_below("velocity", state.velocity, limits.max_speed);
   require_below("acceleration", state.acceleration, limits.max_acceleration);

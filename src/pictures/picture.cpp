@@ -39,14 +39,15 @@ struct PathLayer {
   std::string ending = {};  ///< of the label: how long the path is
 };
 
-/// Those that there are, the uppermost last.
+/// Those that there are, the uppermost last: the legend names them from there on, those to compare
+/// in the order in which they were given.
 std::vector<PathLayer> path_layers(std::span<const Point> path, const PictureConfig& config) {
   std::vector<PathLayer> layers;
   const auto add = [&](PathLayer layer) {
     if (!layer.waypoints.empty()) layers.push_back(std::move(layer));
   };
   add({config.raw_path, config.raw_path_label, {ink::kRawPath, 2.5, {7.0, 5.0}}});
-  for (std::size_t i = 0; i < config.paths.size(); ++i) {
+  for (std::size_t i = config.paths.size(); i-- > 0;) {
     const NamedPath& other = config.paths[i];
     PathStroke stroke{kSeriesColours[i], 4.0, {}};
     if (i % 2 == 1) stroke.dashes = {10.0, 9.0};  // neighbours differ by more than their colour

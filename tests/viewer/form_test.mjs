@@ -212,7 +212,7 @@ test("parts that nothing joins are told, and a map's own radius is planned with,
 
 test("what is typed before the map is there is planned once it is, and Plan leaves no page", { timeout: 120_000 }, async () => {
   const early = await browser.newPage({ viewport: { width: 1280, height: 720 } });
-  const surface = await hold(early, "**/api/surface");
+  const surface = await hold(early, "**/api/surface/coarse"); // without it there is no form that answers
   await early.goto(served.address);
   await surface.asked;
   await early.fill("#from", "(-2, 1, 1)");
