@@ -224,6 +224,25 @@ test("what is typed before the map is there is planned once it is, and Plan leav
   await early.close();
 });
 
+test("a page that is loaded again, and one that a link leads to, have the question", async () => {
+  const first = await open(browser, served.address);
+  await first.fill("#from", "-2, 1, 1");
+  await first.fill("#radius", "0.32");
+  await first.fill("#to", "2, -1, 1");
+  await planned(first, () => first.locator("#go").click());
+  const length = await text_of(first, "#length");
+  const link = first.url();
+  await first.close();
+  const again = await open(browser, link);
+  await again.waitForFunction(() => document.querySelector("#length"), null, { timeout: 30_000 });
+  assert.equal(await text_of(again, "#length"), length);
+  assert.equal(await again.inputValue("#radius"), "0.32");
+  await again.close();
+  const other_map = await open(browser, link.replace(/map=[^&]*/, "map=other"));
+  assert.equal(await other_map.inputValue("#from"), "");
+  await other_map.close();
+});
+
 test("a click turns nothing, a drag does: until then the view follows", async () => {
   await page.locator("#top").click();
   const follows = () => page.evaluate(() => { const { stage } = window.ridgeway; const before = stage.camera.top; stage.camera.top *= 2; stage.look_again(); const is_fitted = Math.abs(stage.camera.top - before) < 1e-9; if (!is_fitted) stage.camera.top = before; return is_fitted; });

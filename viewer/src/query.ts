@@ -18,11 +18,18 @@ const kFields = { start: "from", goal: "to" } as const;
 const kTitles = { start: "Start", goal: "Goal" } as const;
 const kNoPlace = "three numbers: x, y, z";
 const kNumbers = { radius: "Radius", alternatives: "Routes", prefer: "Prefer clearance", snap: "Snap" } as const;
+/** Fields that the address of the page has, for links and for when it is loaded again. */
+const kRecalled = ["from", "to", "radius", "planner", "alternatives", "prefer", "snap"] as const;
 /** Milliseconds without an answer: then the last one must not stay for it. */
 const kPatience = 250;
 
 /** As it is asked. */
 type Query = Record<string, string>;
+
+/** What a field holds at first; a choice, which has no such attribute, its first. */
+function initial_of(id: string): string {
+  return input(id).defaultValue ?? element<HTMLSelectElement>(id).options[0]!.value;
+}
 
 /** The question for a route, and its answer. */
 export class QueryPanel {
@@ -41,6 +48,7 @@ export class QueryPanel {
   private unwritten?: End; // moved, and not yet in the form
 
   constructor(private readonly page: Page, private readonly flight: FlightPanel, fly_to: (place: Vector) => void) {
+    this.recall();
     if (!input("radius").value) input("radius").value = String(page.info.min_clearance); // rounded it may be less than the map was built for
     input("radius").min = String(page.info.min_clearance);
     page.routes.set_radius(this.radius);
@@ -85,7 +93,25 @@ export class QueryPanel {
     void this.plan();
   }
 
-  /** Takes what was typed before there was a map. */
+  /** Puts the question of the address into fields that nobody has touched. */
+  private recall(): void {
+    const asked = new URLSearchParams(location.hash.slice(1));
+    if (asked.get("map") !== this.page.info.name) return;
+    for (const id of kRecalled) {
+      const value = asked.get(id);
+      if (value !== null && input(id).value === initial_of(id)) input(id).value = value;
+    }
+    if (!input("planner").value) input("planner").value = initial_of("planner"); // there is no such planner
+    if (Number(input("radius").value) < this.page.info.min_clearance) input("radius").value = ""; // built anew since
+  }
+
+  private remember(): void {
+    const asked = new URLSearchParams({ map: this.page.info.name });
+    for (const id of kRecalled) if (input(id).value !== initial_of(id)) asked.set(id, input(id).value);
+    location.replace(`#${asked}`);
+  }
+
+  /** Takes what stands in the form before there is a map. */
   take_form(): void {
     for (const end of kEnds) if (!this[end] && input(kFields[end]).value) this.take_typed(end);
   }
@@ -180,6 +206,7 @@ export class QueryPanel {
       this.answer_time = performance.now() - started;
       if (!this.start || !this.goal || this.fault()) return; // taken away since, or asked otherwise
       this.show(answer, query, is_quick);
+      if (!is_quick) this.remember();
       if (!is_quick) element("result").scrollIntoView({ block: "nearest" }); // below the form on narrow screens
       const first = this.shown[0];
       if (first && !is_quick && this.wanted === "nothing") this.flight.fly(query, first.waypoints);
