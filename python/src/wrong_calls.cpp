@@ -34,6 +34,15 @@ std::string outline_of(py::handle signature, bool is_constructor) {
   return "(" + text + ")";
 }
 
+/// ": what it takes, in the first sentence of its docstring.", or nothing.
+std::string first_sentence(py::handle function) {
+  const py::object doc = py::module_::import("inspect").attr("getdoc")(function);
+  if (doc.is_none()) return "";
+  const std::string text = py::str(py::str(" ").attr("join")(doc.attr("split")()));
+  const std::size_t end = text.find(". ");
+  return ": " + (end == std::string::npos ? text : text.substr(0, end + 1));
+}
+
 /// `call` is the function of `owner`, as a person would write it; `self` comes first in methods,
 /// but not in constructors.
 [[noreturn]] void refuse_call(py::handle owner, const std::string& name, const std::string& call,
@@ -41,16 +50,17 @@ std::string outline_of(py::handle signature, bool is_constructor) {
   const bool is_constructor = name == "__init__";
   const py::object signature =
       py::module_::import("inspect").attr("signature")(owner.attr(name.c_str()));
-  std::string problem = "cannot take " + types_of(arguments, keywords);
+  std::string problem = "cannot take " + types_of(arguments, keywords), meaning;
   try {
     const py::tuple self = is_constructor ? py::make_tuple(py::none()) : py::tuple();
     signature.attr("bind")(*self, *arguments, **keywords);
+    if (!is_constructor) meaning = first_sentence(owner.attr(name.c_str()));
   } catch (const py::error_already_set& error) {
     if (!error.matches(PyExc_TypeError)) throw;
     problem = py::str(error.value());
   }
   throw py::type_error(call + "(): " + problem + "; it is " + call +
-                       outline_of(signature, is_constructor));
+                       outline_of(signature, is_constructor) + meaning);
 }
 
 /// How else a value of a class is made that no call of the class makes.
