@@ -93,14 +93,17 @@ std::vector<VoxelIndex> closed_between(const EsdfMap& before, const EsdfMap& now
     return slot < layout.block_count() && layout.block(slot) == block ? slot
                                                                       : layout.find_block(block);
   };
+  bool all_stayed = true;
   for (std::uint32_t slot = 0; slot < before.layout.block_count(); ++slot) {
     const BlockIndex& block = before.layout.block(slot);
     const std::uint32_t other = slot_in(now.layout, slot, block);
+    all_stayed = all_stayed && other == slot;
     find_closed(first_of(block), before.state.block(slot),
                 other == BlockLayout::kNoBlock ? nullptr : now.state.block(other), now.unknown,
                 closed);
   }
-  for (std::uint32_t slot = 0; slot < now.layout.block_count(); ++slot)
+  const std::uint32_t first_new = all_stayed ? before.layout.block_count() : 0;
+  for (std::uint32_t slot = first_new; slot < now.layout.block_count(); ++slot)
     if (const BlockIndex& block = now.layout.block(slot);
         slot_in(before.layout, slot, block) == BlockLayout::kNoBlock)
       find_closed(first_of(block), nullptr, now.state.block(slot), now.unknown, closed);
