@@ -84,8 +84,8 @@ class CellSearch {
     float estimate() const { return std::bit_cast<float>(static_cast<std::uint32_t>(order >> 32)); }
     bool operator<(const Open& other) const { return order > other.order; }  // the top is the best
 
-    std::uint64_t
-        order;  ///< by the estimate (bits of floats from 0 on ascend with them), then cell
+    /// The estimate's bits, which ascend with floats from 0 on, then the cell.
+    std::uint64_t order;
     float cost;
     std::uint32_t back;  ///< direction to the cell before it, if all 26 edges of that are free
   };

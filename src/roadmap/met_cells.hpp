@@ -17,11 +17,10 @@ template <typename Met>
 class MetCells {
  public:
   struct Block {
-    std::uint32_t number = 0;    ///< cells divided by CellGraph::kPerBlock
-    float bound = kNotComputed;  ///< for the searcher, of all cells of the block
+    std::uint32_t number = 0;  ///< cells divided by CellGraph::kPerBlock
+    float bound = -1.0f;       ///< that a search has of all cells of the block; below 0: not yet
     std::array<Met, CellGraph::kPerBlock> cells{};
   };
-  static constexpr float kNotComputed = -1.0f;
 
   /// Place of a block, for block(); one that was not met is from now on.
   std::uint32_t meet(std::uint32_t number) {

@@ -190,7 +190,7 @@ export class LayerPanel {
   private async load_narrow(): Promise<THREE.Object3D> {
     const { joins, components } = await ask_json<Narrow>(this.page.source, "/api/narrow");
     const wide_enough = joins.filter((join) => join.radius > 0.5 * this.page.info.voxel_size);
-    // Those that join most space first: of a ragged map most parts are crumbs.
+    // Those that join most space first: of a ragged map most parts are tiny.
     const joined = (join: Join) => Math.min(components[join.a]!.volume, components[join.b]!.volume);
     const shown = [...wide_enough].sort((a, b) => joined(b) - joined(a) || b.radius - a.radius).slice(0, kMostNarrow);
     const marks = new THREE.Group();
