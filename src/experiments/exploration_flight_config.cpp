@@ -34,9 +34,9 @@ void ExplorationFlightConfig::validate() const {
     sensor.validate();
   require(max_range() >= 2.0 * voxel_size, "max_range", max_range(), "give at least two voxels");
   require(max_range() > free_radius() + 2.0 * voxel_size, "max_range", max_range(),
-          "give more than the " + number_text(free_radius()) +
-              " m around the start that are taken for free, and two voxels: nothing new is seen "
-              "from there otherwise");
+          "give more than the " + number_text(std::ceil(100.0 * free_radius()) / 100.0) +
+              " m around the start that are taken for free, and two voxels, or a start_radius "
+              "below it: nothing new is seen from there otherwise");
   require(!forget_after || (*forget_after >= 0 && *forget_after <= 255), "forget_after",
           forget_after.value_or(0), "give 0 to 255");
   explorer.motion.validate();
