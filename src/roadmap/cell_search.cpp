@@ -56,8 +56,9 @@ class CellSearch {
       if (!in.walk_on() && !can_walk) return {};
     }
     aim_at(in.joins().front().cell);
+    is_direct_ = out.walked() == 0 && in.walked() == 0;
     const CellId last = search(out, in);
-    CellRoute result{{}, out.walked() == 0 && in.walked() == 0};
+    CellRoute result{{}, is_direct_};
     if (last != kNoCell) result.waypoints = route_over(out, in, last);
     return result;
   }
@@ -137,6 +138,11 @@ class CellSearch {
       MetCell& met = met_[cell];
       if (next.cost > met.cost) continue;
       met.cost = kFinal;
+      if (is_direct_ && taken % kPlanning.cells_to_look == 0)
+        if (const float length = look_ahead(cell, next.cost, best); length < best) {
+          best = length;
+          best_last = cell;
+        }
       for (CellApproach::Join& join : in.joins())
         if (join.cell == cell && next.cost + join.length < best && in.sees(join) &&
             next.cost + join.length < best) {  // a walk is longer than a segment
@@ -208,6 +214,31 @@ class CellSearch {
     }
   }
 
+  /// Looks from a cell towards the goal: the length of the way to it if it is in sight, else
+  /// infinite. Then a cell near the end of what is free becomes a neighbour, as most ways lead
+  /// straight through open space from one obstacle to the next.
+  float look_ahead(CellId here, float cost_here, float best) {
+    const Point from = around_.point_of(here), ahead = query_.goal - from;
+    const double whole = ahead.norm();
+    const double free = around_.space.free_length(from, query_.goal, query_.radius);
+    if (free >= whole) return cost_here + static_cast<float>(whole / voxel_size_);
+    constexpr float kNotInSight = std::numeric_limits<float>::infinity();
+    constexpr double kShare = 0.9;
+    constexpr int kLeast = kPlanning.cells_to_look * CellGraph::kSide;  // as cells lead as far
+    if (kShare * free < kLeast * voxel_size_) return kNotInSight;
+    const Point end = from + kShare * free / whole * ahead;
+    const CellId cell = lattice_.cell_of(voxel_at(end, voxel_size_));
+    if (cell == kNoCell || around_.part_of(cell) == CellGraph::kNoPart) return kNotInSight;
+    const Point there = around_.point_of(cell);
+    const float cost = cost_here + static_cast<float>((there - from).norm() / voxel_size_);
+    MetCell& met = met_[cell];
+    if (cost >= met.cost) return kNotInSight;
+    if (met.rest < 0.0f) met.rest = rest_from(cell);
+    if (cost + met.rest < best && around_.space.is_free(from, there, query_.radius))
+      reach(cost, here, cell, met);
+    return kNotInSight;
+  }
+
   void follow_bends(CellId here, float cost_here, float best) {
     for (const CellGraph::Bend& bend : bends_from(graph_, here)) {
       if (bend.width < widths_.sure) continue;
@@ -255,9 +286,12 @@ class CellSearch {
     return route;
   }
 
+  /// Whether the straight way between two places is one that the search has taken.
   bool has_edge(CellId a, CellId b) const {
-    if (a >= cells_.size() || b >= cells_.size()) return false;
     const VoxelIndex step = around_.first_voxel(b) - around_.first_voxel(a);
+    if (std::max({std::abs(step.x), std::abs(step.y), std::abs(step.z)}) > CellGraph::kSide)
+      return true;  // what a look has found
+    if (a >= cells_.size() || b >= cells_.size()) return false;
     const int d = direction_of(
         {step.x / CellGraph::kSide, step.y / CellGraph::kSide, step.z / CellGraph::kSide});
     const std::size_t width = edge_width(cells_, a, b, d);
@@ -276,6 +310,7 @@ class CellSearch {
   std::array<float, CellGraph::kLandmarks> goal_lengths_{};
   const Place goal_;
   const float longest_;
+  bool is_direct_ = false;
   MetCells<MetCell> met_;
   std::priority_queue<Open> open_;
 };
