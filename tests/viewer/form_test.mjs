@@ -3,6 +3,7 @@
 
 // The form of the page: what is asked with it, what is wrong in it, and answers in another order than their questions.
 import assert from "node:assert/strict";
+import * as fs from "node:fs/promises";
 import test, { after, before } from "node:test";
 import { click_at, hold, launch, open, planned, set_control, text_of } from "./browser.mjs";
 import { rooms, view } from "./program.mjs";
@@ -104,6 +105,29 @@ test("an answer that is waited for is not covered up by the last one", kLimit, a
   await planned(page, () => set("radius", "0.3"));
 });
 
+test("the flight has its command, of the limits in the form, and the route can be saved for it", async () => {
+  const flight = () => page.locator("#flight-command").textContent();
+  assert.match(await flight(), /^ridgeway trajectory rooms\.ridge --from=\S+ --to=\S+ --radius 0\.3 --snap 0\.5 --max-speed 2 --max-acceleration 2$/);
+  const before = await text_of(page, "#clock");
+  await set("acceleration", "0.5");
+  await page.evaluate(() => window.ridgeway.app.flight.flown);
+  assert.match(await flight(), / --max-acceleration 0\.5$/);
+  assert.ok(parseFloat((await text_of(page, "#clock")).split("of")[1]) > parseFloat(before.split("of")[1]), "it is as quick");
+  assert.match(new URL(page.url()).hash, /acceleration=0\.5/);
+  await set("acceleration", "0");
+  await page.evaluate(() => window.ridgeway.app.flight.flown);
+  assert.match(await text_of(page, "#no-flight"), /^Acceleration '0': /);
+  await set("acceleration", "2");
+  await planned(page, () => set("alternatives", "3"));
+  assert.match(await flight(), /^ridgeway trajectory rooms\.ridge --path route\.csv --radius 0\.3 --max-speed 2/);
+  await planned(page, () => set("alternatives", "1"));
+  const [saved] = await Promise.all([page.waitForEvent("download"), page.click("#save-route")]);
+  assert.equal(saved.suggestedFilename(), "route.csv");
+  const lines = (await fs.readFile(await saved.path(), "utf8")).trim().split("\n");
+  const waypoints = await page.evaluate(() => window.ridgeway.app.query.shown[0].waypoints);
+  assert.deepEqual([lines[0], ...lines.slice(1).map((line) => line.split(",").map(Number))], ["x,y,z", ...waypoints]);
+});
+
 test("the command gives the same answer, also where the form is left as it is", async () => {
   await planned(page, () => set("radius", ""));
   assert.match(await page.locator("#command").textContent(), / --radius 0\.3 --snap 0\.5$/);
@@ -144,7 +168,7 @@ test("where start and goal are one place there is no flight, nor that of before"
 
 test("the flight is that of the speed in the form, in whatever order answers come", kLimit, async () => {
   const flown = () => page.evaluate(() => window.ridgeway.app.flight.flown);
-  const slow = await hold(page, "**/api/trajectory*max_speed=0.5");
+  const slow = await hold(page, "**/api/trajectory*max_speed=0.5&*");
   await set("speed", "0.5");
   await page.evaluate(() => { window.slow_flight = window.ridgeway.app.flight.flown; });
   await slow.asked;

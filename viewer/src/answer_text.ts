@@ -33,7 +33,7 @@ function in_words_of_form(reason: string): string {
 }
 
 /** What the server calls what stands in a field of the form. */
-const kTitles: Record<string, string> = { from: "Start", to: "Goal", radius: "Radius", prefer_clearance: "Prefer clearance", snap: "Snap", alternatives: "Routes", max_speed: "Speed" };
+const kTitles: Record<string, string> = { from: "Start", to: "Goal", radius: "Radius", prefer_clearance: "Prefer clearance", snap: "Snap", alternatives: "Routes", max_speed: "Speed", max_acceleration: "Acceleration" };
 
 /** What is wrong with a query, for who has filled in a form. */
 export function error_text(error: unknown): string {

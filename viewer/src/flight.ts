@@ -9,6 +9,12 @@ import { metres, place_text } from "./numbers";
 import type { Page } from "./page";
 import { ask_json } from "./source";
 
+/** Limits of the flight: their fields, and names in the server's questions and on the command line. */
+export const kFlightLimits = [
+  { id: "speed", name: "Speed", parameter: "max_speed", option: "--max-speed" },
+  { id: "acceleration", name: "Acceleration", parameter: "max_acceleration", option: "--max-acceleration" },
+];
+
 /** Characters of the path as it stands in the address, of which the server takes 8 KiB. */
 const kLongestPath = 7_500;
 
@@ -30,19 +36,20 @@ export class FlightPanel {
       this.set_time(input("time").valueAsNumber);
     });
     element("play").addEventListener("click", () => (this.playing ? this.stop() : this.play()));
-    element("speed").addEventListener("change", () => this.query && this.fly(this.query, this.waypoints));
+    for (const { id } of kFlightLimits) element(id).addEventListener("change", () => this.query && this.fly(this.query, this.waypoints));
   }
 
   /** Asks for the flight along the route that answers a query: as it is shown, unless it is too long to be asked for. */
   fly(query: Record<string, string>, waypoints: Vector[]): void {
     this.query = query;
     this.waypoints = waypoints;
-    const speed = input("speed");
-    if (Number.isNaN(speed.valueAsNumber)) return this.set(undefined, "No trajectory: Speed is no number");
+    const wrong = kFlightLimits.find(({ id }) => Number.isNaN(input(id).valueAsNumber));
+    if (wrong) return this.set(undefined, `No trajectory: ${wrong.name} is no number`);
     const { alternatives: _, ...parameters } = query;
     const path = waypoints.map((p) => p.join(",")).join(";");
     const along: Record<string, string> = encodeURIComponent(path).length < kLongestPath ? { path, radius: query.radius! } : parameters;
-    this.flown = this.ask({ ...along, max_speed: speed.value });
+    const limits = Object.fromEntries(kFlightLimits.map(({ id, parameter }) => [parameter, input(id).value]));
+    this.flown = this.ask({ ...along, ...limits });
   }
 
   /** Whether it is, or will be, the flight along this route that answers a query. */
@@ -77,7 +84,7 @@ export class FlightPanel {
     if (this.flight && this.is_shown()) legend.mark(`Trajectory, ${metres(this.flight.duration, 2)} s`, kFlight);
   }
 
-  /** Where there is a failure, its words stand in place of the flight; the speed can still be changed. */
+  /** Where there is a failure, its words stand in place of the flight; the limits can still be changed. */
   private set(flight: Flight | undefined, failure = ""): void {
     this.stop();
     this.flight = flight;

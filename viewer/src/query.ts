@@ -3,7 +3,7 @@
 import { error_text, reason_text, route_rows } from "./answer_text";
 import { kGoal, kNarrow, kRoutes, kStart } from "./colours";
 import { element, input } from "./dom";
-import type { FlightPanel } from "./flight";
+import { type FlightPanel, kFlightLimits } from "./flight";
 import type { PlanAnswer, Route, Vector } from "./layers";
 import type { Legend } from "./legend";
 import { metres, place_of, place_text, shell_word } from "./numbers";
@@ -19,7 +19,7 @@ const kTitles = { start: "Start", goal: "Goal" } as const;
 const kNoPlace = "three numbers: x, y, z";
 const kNumbers = { radius: "Radius", alternatives: "Routes", prefer: "Prefer clearance", snap: "Snap" } as const;
 /** Fields that the address of the page has, for links and for when it is loaded again. */
-const kRecalled = ["from", "to", "radius", "planner", "alternatives", "prefer", "snap"] as const;
+const kRecalled = ["from", "to", "radius", "planner", "alternatives", "prefer", "snap", ...kFlightLimits.map(({ id }) => id)];
 /** Milliseconds without an answer: then the last one must not stay for it. */
 const kPatience = 250;
 
@@ -45,6 +45,7 @@ export class QueryPanel {
   private reasoned = ""; // question and status of the answer whose reason stands there
   private wanted: "nothing" | "route" | "all" = "nothing"; // of the next
   private blocked_place?: Vector;
+  private asked_last?: [Query, string]; // with the status of the answer that is shown
   private unwritten?: End; // moved, and not yet in the form
 
   constructor(private readonly page: Page, private readonly flight: FlightPanel, fly_to: (place: Vector) => void) {
@@ -60,6 +61,12 @@ export class QueryPanel {
         page.routes.set_radius(this.radius);
         this.fit_form();
         void this.plan();
+      });
+    for (const { id } of kFlightLimits)
+      element(id).addEventListener("change", () => {
+        if (!this.asked_last) return;
+        this.remember();
+        this.show_commands(...this.asked_last);
       });
     element("query").addEventListener("submit", (event) => {
       event.preventDefault();
@@ -233,7 +240,9 @@ export class QueryPanel {
     this.page.routes.show_routes([]);
     this.flight.clear();
     element("show-place").hidden = true;
-    element("command").textContent = "";
+    this.asked_last = undefined;
+    element("command").textContent = element("flight-command").textContent = "";
+    this.offer(undefined);
     this.show_line(text, kind);
     this.page.update_legend();
   }
@@ -256,7 +265,9 @@ export class QueryPanel {
     this.page.stage.answered(); // the picture first: it is drawn while the words are set
     this.block(answer.blocked);
     element("show-place").hidden = !this.blocked_place;
-    element("command").textContent = this.command(query, answer.status);
+    this.asked_last = [query, answer.status];
+    this.show_commands(query, answer.status);
+    this.offer(routes[0]);
     if (routes.length === 0) this.show_line(reason_text(answer), "bad");
     else element("result").replaceChildren(...route_rows(routes, answer));
     this.page.update_legend();
@@ -271,15 +282,32 @@ export class QueryPanel {
     element("result").append(line);
   }
 
-  /** The same question on the command line. */
-  private command(parameters: Query, status: string): string {
+  /** The waypoints of a route as a file, as `plan -o` writes them: `trajectory --path` takes it. */
+  private offer(route: Route | undefined): void {
+    const link = element<HTMLAnchorElement>("save-route");
+    URL.revokeObjectURL(link.href);
+    link.hidden = !route;
+    if (!route) return link.removeAttribute("href");
+    const lines = ["x,y,z", ...route.waypoints.map((p) => p.join(","))];
+    link.href = URL.createObjectURL(new Blob([`${lines.join("\n")}\n`], { type: "text/csv" }));
+  }
+
+  /** The same questions on the command line: for the route, and where there is one for the flight along it. */
+  private show_commands(parameters: Query, status: string): void {
     const { name } = this.page.info;
-    const words = ["ridgeway plan", shell_word(name.startsWith("-") ? `./${name}` : name), `--from=${parameters.from}`, `--to=${parameters.to}`, `--radius ${parameters.radius}`];
-    if (parameters.planner !== "graph") words.push(`--planner ${parameters.planner}`);
-    if (Number(parameters.prefer_clearance) > 0) words.push(`--prefer-clearance ${parameters.prefer_clearance}`);
-    if (Number(parameters.snap) > 0) words.push(`--snap ${parameters.snap}`);
-    if (parameters.alternatives) words.push(`--alternatives ${parameters.alternatives}`);
-    if (status === "timeout") words.push(`--time-limit ${kLongestPlan}`);
-    return words.join(" ");
+    const map = shell_word(name.startsWith("-") ? `./${name}` : name);
+    const ends = `--from=${parameters.from} --to=${parameters.to}`;
+    const robot = `--radius ${parameters.radius}`;
+    const shared = [];
+    if (Number(parameters.prefer_clearance) > 0) shared.push(`--prefer-clearance ${parameters.prefer_clearance}`);
+    if (Number(parameters.snap) > 0) shared.push(`--snap ${parameters.snap}`);
+    const own = [];
+    if (parameters.planner !== "graph") own.push(`--planner ${parameters.planner}`);
+    if (parameters.alternatives) own.push(`--alternatives ${parameters.alternatives}`);
+    if (status === "timeout") own.push(`--time-limit ${kLongestPlan}`);
+    element("command").textContent = ["ridgeway plan", map, ends, robot, ...shared, ...own].join(" ");
+    const limits = kFlightLimits.map(({ id, option }) => `${option} ${input(id).value}`);
+    const flown = own.length > 0 ? ["--path route.csv", robot] : [ends, robot, ...shared]; // the route as it was saved
+    element("flight-command").textContent = status === "ok" ? ["ridgeway trajectory", map, ...flown, ...limits].join(" ") : "";
   }
 }
