@@ -63,7 +63,8 @@ version=$(dpkg-query -W -f '${Version}' ridgeway-dev)
 build/core "$version"
 build/ridge
 build/shared
-ldd build/shared | grep -q 'libridgeway.so.* => /'
+ldd build/shared > libraries.txt  # a pipe that grep -q leaves early would be an error
+grep -q 'libridgeway.so.* => /' libraries.txt
 echo "== a consumer of find_package builds and runs"
 g++ -std=c++20 consumer/ridge.cpp -o by-pkg-config $(pkg-config --cflags --libs ridgeway-ridge)
 ./by-pkg-config
