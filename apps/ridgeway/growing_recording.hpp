@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "console.hpp"
+#include "files/natural_order.hpp"
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/recordings/depth_sequence.hpp"
 
@@ -36,10 +38,12 @@ class GrowingRecording {
       // Where the last frame is listed, only poses of it and of those before it can still come.
       is_over_ = idle.seconds() >= (has_last ? std::min(patience_, 1.0) : patience_);
       if (is_over_) open_at_the_end(sequence);
-      for (const DepthFrame& frame : sequence.frames)
-        if ((is_over_ || frame.time.value_or(0.0) <= sequence.poses_until) &&
-            !done_.contains(frame.image.string()))
-          next.push_back(frame);
+      for (const DepthFrame& frame : sequence.frames) {
+        if (!is_over_ && frame.time.value_or(0.0) > sequence.poses_until) continue;
+        if (done_.contains(frame.image.string())) continue;
+        if (!is_over_ && !is_next(frame)) break;
+        next.push_back(frame);
+      }
       if (!next.empty()) return true;
       if (is_over_) break;
       bar.show("wait", 0.0);
@@ -49,7 +53,18 @@ class GrowingRecording {
   }
   /// What is the matter with what follows the frames that were found; empty: nothing.
   const std::string& ending() const { return ending_; }
-  void done(const DepthFrame& frame) { done_.insert(frame.image.string()); }
+  /// How many frames were taken with another pose than they have at the end.
+  std::size_t moved(const DepthSequence& sequence) const {
+    return static_cast<std::size_t>(
+        std::count_if(sequence.frames.begin(), sequence.frames.end(), [&](const DepthFrame& frame) {
+          const auto taken = done_.find(frame.image.string());
+          return taken != done_.end() &&
+                 !taken->second.isApprox(frame.T_world_camera.matrix(), 1e-9);
+        }));
+  }
+  void done(const DepthFrame& frame) {
+    done_.emplace(frame.image.string(), frame.T_world_camera.matrix());
+  }
   bool is_last(const DepthFrame& frame) const {
     return !until_.empty() && frame.image.filename() == std::filesystem::path(until_).filename();
   }
@@ -70,6 +85,23 @@ class GrowingRecording {
                        [&](const DepthFrame& frame) { return is_last(frame); });
   }
 
+  /// Whether a frame follows the one before, by the numbers in their names where images have no
+  /// times: one that is missing between them, or its pose, is waited for for a second.
+  bool is_next(const DepthFrame& frame) {
+    if (frame.time || patience_ == 0.0) return true;
+    const auto number = last_number(frame.image.stem().string());
+    if (!number) return true;
+    const std::int64_t step = last_ ? *number - *last_ : 1;
+    if (step > step_) {
+      if (!missing_since_) missing_since_.emplace();
+      if (missing_since_->seconds() < std::min(patience_, 1.0)) return false;
+    }
+    missing_since_.reset();
+    last_ = std::max(last_.value_or(*number), *number);
+    step_ = std::max<std::int64_t>(step, 1);
+    return true;
+  }
+
   /// All that it holds, a last line without an end too; where that is wrong, what came before it.
   void open_at_the_end(DepthSequence& sequence) {
     const DepthSequence whole = sequence;
@@ -85,8 +117,11 @@ class GrowingRecording {
 
   const std::string folder_;
   const double patience_;
-  const std::string until_;  // the last frame's name; empty: there is none
-  std::set<std::string> done_;
+  const std::string until_;                      // the last frame's name; empty: there is none
+  std::map<std::string, Eigen::Matrix4d> done_;  // image to pose
+  std::optional<std::int64_t> last_;             // of the images that were taken
+  std::int64_t step_ = 1;                        // between the last two
+  std::optional<Stopwatch> missing_since_;
   std::string ending_;
   bool is_over_ = false;
 };

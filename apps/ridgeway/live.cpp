@@ -154,6 +154,10 @@ void replay_images(Run& run, const Globals& globals) {
   bar.clear();
   if (!is_last && !frames.ending().empty())
     warn(globals, "what follows the last image was not taken: " + frames.ending());
+  if (const std::size_t moved = frames.moved(sequence); moved > 0)
+    warn(globals, std::to_string(moved) +
+                      " images were taken before the last poses were there, "
+                      "which are others: replay the recording without --follow");
   run.replay.upward_axis = told_of_upward_axis(sequence);
   note_assumed_camera(globals, sequence);
   if (!options.until.empty() && !is_last)

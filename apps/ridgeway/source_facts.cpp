@@ -192,7 +192,8 @@ void print_source(const Json& facts) {
       if (number.get<std::uint64_t>() > 0) {
         std::string words = fault;
         std::replace(words.begin(), words.end(), '_', ' ');
-        print_row("wrong", count(number) + " " + words);
+        // A component may well be a vertex alone: such are worth a look, but nothing is wrong.
+        print_row(fault == "lone_vertices" ? "to look at" : "wrong", count(number) + " " + words);
       }
     return;
   }

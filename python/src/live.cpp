@@ -16,6 +16,7 @@ namespace {
 
 py::dict dict_of(const UpdateReport& report) {
   py::dict dict;
+  dict["frame"] = report.frame;
   dict["version"] = report.version;
   dict["has_roadmap"] = report.has_roadmap;
   dict["in_batch"] = report.in_batch;

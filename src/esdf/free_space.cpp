@@ -24,6 +24,19 @@ double squared_limit(double radius, double voxel_size) {
   return 0.25 * least_clearance(radius, voxel_size).value;
 }
 
+/// The longest part up to `most` that holds, less a step at most; whatever is longer than one that
+/// does not hold does not either. 0 where none holds.
+template <typename Holds>
+double longest_that_holds(double most, double step, const Holds& holds) {
+  if (most <= 0.0 || holds(most)) return most;
+  double good = 0.0, bad = most;
+  while (bad - good > step) {
+    const double middle = 0.5 * (good + bad);
+    (holds(middle) ? good : bad) = middle;
+  }
+  return good;
+}
+
 /// Whether there are voxels at both ends, and a radius that something may keep.
 bool can_ask(const EsdfMap& esdf, const Point& a, const Point& b, double radius) {
   return has_voxel(a, esdf.voxel_size) && has_voxel(b, esdf.voxel_size) && radius >= 0.0;
@@ -98,7 +111,9 @@ double FreeSpace::clearance(std::span<const Point> path, double at_most) const {
     if (std::isinf(esdf_.max_distance)) return best;
     best = squared_far(esdf_);
   }
-  for_each_segment([&](SegmentMarch m) { best = m.minimum(best); });
+  for_each_segment([&](SegmentMarch m) {
+    if (best > 0.0) best = m.minimum(best);
+  });
   return s * std::sqrt(best);
 }
 
@@ -132,24 +147,29 @@ bool FreeSpace::is_clearly_free(const Point& a, const Point& b, double radius) c
 }
 
 double FreeSpace::free_length(const Point& a, const Point& b, double radius) const {
+  return length_until<Wanted::kWhere>(a, b, radius);
+}
+
+double FreeSpace::clear_length(const Point& a, const Point& b, double radius) const {
+  return length_until<Wanted::kWhereClearly>(a, b, radius);
+}
+
+template <auto wanted>
+double FreeSpace::length_until(const Point& a, const Point& b, double radius) const {
   const double s = esdf_.voxel_size;
   if (!can_ask(esdf_, a, b, radius)) return 0.0;
   const double length = (b - a).norm();
   if (!is_for_sphere()) {
-    double free = length;
-    while (free > 0.0 && !is_free(a, a + (b - a) * (free / length), radius))
-      free = free > s ? 0.5 * free : 0.0;
-    return free;
+    return longest_that_holds(
+        length, s, [&](double free) { return is_free(a, a + (b - a) * (free / length), radius); });
   }
-  double free = std::min(
-      length,
-      s * SegmentMarch(esdf_, a / s, b / s).doubt<Wanted::kWhere>(squared_limit(radius, s)));
-  const auto holds = [&](const Point& end) {
+  const double free = std::min(
+      length, s * SegmentMarch(esdf_, a / s, b / s).doubt<wanted>(squared_limit(radius, s)));
+  return longest_that_holds(free, s, [&](double part) {
+    const Point end = a + (b - a) * (part / length);
     return is_within_limits(a, end) &&
            (esdf_.unknown == UnknownPolicy::kObstacle || is_known_free(a, end));
-  };
-  while (free > 0.0 && !holds(a + (b - a) * (free / length))) free = free > s ? 0.5 * free : 0.0;
-  return free;
+  });
 }
 
 std::optional<Point> FreeSpace::near_obstacle(const Point& p) const {

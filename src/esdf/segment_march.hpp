@@ -142,7 +142,7 @@ inline double lower_bound(const EsdfMap& esdf, VoxelFinder& finder, const Vector
 }
 
 /// What a march along a segment is to find out.
-enum class Wanted { kWhether, kWhere, kWhetherClearly };
+enum class Wanted { kWhether, kWhere, kWhetherClearly, kWhereClearly };
 
 /// D^2 along a segment, in voxel units. Lower bounds of it at two places bound it between them too,
 /// since it is concave but for |x|^2: from a place that is far from everything the march takes a
@@ -162,19 +162,21 @@ class SegmentMarch {
 
   /// Where, in voxels from the start, a stretch of at most a voxel begins on which D^2 falls below
   /// the limit; infinite if there is none. Wanted::kWhether: some place that is too low, not the
-  /// first; kWhetherClearly: also one that might be.
+  /// first; kWhetherClearly, kWhereClearly: also one that might be.
   template <Wanted wanted>
   double doubt(double limit) {
+    constexpr bool is_first = wanted == Wanted::kWhere || wanted == Wanted::kWhereClearly;
+    constexpr bool is_clear = wanted == Wanted::kWhetherClearly || wanted == Wanted::kWhereClearly;
     double place = kInfinity;
-    if (wanted != Wanted::kWhere)  // most that are not free show it at a glance
+    if (!is_first)  // most that are not free show it at a glance
       for (const double share : {0.5, 0.25, 0.75})
         if (is_low(at(share * length_), limit)) return share * length_;
     const auto on_low = [&](double t) {
-      if (wanted != Wanted::kWhere && is_low(at(t), limit)) place = t;
+      if (!is_first && is_low(at(t), limit)) place = t;
       return std::isinf(place);
     };
     march(limit, on_low, [&](double t, double end) {
-      if (wanted == Wanted::kWhetherClearly || !close_stays_above(t, end, limit)) place = t;
+      if (is_clear || !close_stays_above(t, end, limit)) place = t;
       return std::isinf(place);
     });
     return place;

@@ -45,6 +45,10 @@ void require_start(const World& world, const ExplorationFlightConfig& config, co
     return number_text(p.x()) + "," + number_text(p.y()) + "," + number_text(p.z());
   };
   const std::string place = "start " + text_of(config.start);
+  constexpr double kFarthest = 4e8;  // voxels; places of maps are exact up to 5e8
+  if (config.start.cwiseAbs().maxCoeff() > kFarthest * config.voxel_size)
+    throw InputError(place, "is farther than 4e8 voxels from zero",
+                     "move the world nearer to zero, or take larger voxels");
   if (!((config.start.array() >= bounds.min.array()).all() &&
         (config.start.array() <= bounds.max.array()).all()))
     throw InputError(place, "is outside of what is to be mapped",
@@ -58,7 +62,7 @@ void require_start(const World& world, const ExplorationFlightConfig& config, co
         place, room <= 0.0 ? "is inside an obstacle" : "is " + metres(room) + " from an obstacle",
         "give a start farther from obstacles than the radius, " + metres(config.radius));
   if (room >= config.free_radius()) return;
-  const double least = config.least_start_radius();
+  const double least = std::ceil(100.0 * config.least_start_radius()) / 100.0;
   throw InputError(place,
                    "has " + metres(room) + " of free space around it, not the " +
                        metres(config.free_radius()) + " that are taken for free",

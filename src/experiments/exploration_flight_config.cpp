@@ -19,8 +19,8 @@ void ExplorationFlightConfig::validate() const {
   require(start.allFinite(), "start", start.x(), "give three finite coordinates");
   require(std::isfinite(start_yaw), "start_yaw", start_yaw, "give radians");
   require(start_radius == 0.0 || start_radius >= least_start_radius(), "start_radius", start_radius,
-          "give at least the radius, the margin and half a voxel, or 0: " +
-              number_text(least_start_radius()));
+          "give at least the radius, the margin and the diagonal of a voxel, or 0: " +
+              number_text(std::ceil(100.0 * least_start_radius()) / 100.0));
   require(voxel_size > 0.0 && std::isfinite(voxel_size), "voxel_size", voxel_size,
           "give metres above 0");
   require(scan_rate > 0.0 && std::isfinite(scan_rate), "scan_rate", scan_rate,
@@ -62,7 +62,9 @@ FieldOfView ExplorationFlightConfig::whole_view() const {
 }
 
 double ExplorationFlightConfig::least_start_radius() const {
-  return clearance() + 0.5 * voxel_size;
+  // The start lies anywhere in its voxel, and voxels are in the ball by their centres: so the robot
+  // fits at the centre of its voxel and of the next.
+  return clearance() + std::numbers::sqrt3 * voxel_size;
 }
 
 double ExplorationFlightConfig::free_radius() const {

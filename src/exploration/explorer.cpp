@@ -79,13 +79,14 @@ bool Explorer::State::choose(const FlightState& state, bool thorough, Exploratio
   const Access access = access_at(here);
   const detail::WaysFrom ways(*roadmap, here, access);
   const double least_gain = thorough ? 0.0 : 0.5 * static_cast<double>(config.least_frontier);
-  std::vector<TourStop> stops = cover(ways, least_gain, false);
-  const bool can_see = !stops.empty();
-  if (std::isfinite(config.until)) keep_in_time(stops, state);
+  const bool is_timed = std::isfinite(config.until);
+  std::vector<TourStop> stops =
+      cover(ways, least_gain, false, is_timed ? home_in_time(state) : MayStop());
+  const bool can_see = !stops.empty() || (is_timed && !cover(ways, least_gain, false).empty());
   if (stops.empty() && (can_see || !late.empty())) {
-    is_out_of_time = true;
+    is_out_of_time = thorough;  // else nearer places that see less are still to be looked at
     step.seconds.tour += detail::thread_seconds_now() - began;
-    return true;
+    return thorough;
   }
   if (thorough && !can_see && !all_looked_at) {
     is_searching = true;
@@ -111,6 +112,10 @@ bool Explorer::State::choose(const FlightState& state, bool thorough, Exploratio
   }
   const bool flies = fly_tour(stops, tour, state, step);
   const bool goes_on = is_searching || state.velocity.norm() >= 1e-9;
+  if (thorough && !flies && !goes_on && !late.empty()) {
+    is_out_of_time = true;
+    return true;
+  }
   leads_nowhere |= thorough && can_see && !flies && !goes_on;
   return flies || (can_see && goes_on);
 }

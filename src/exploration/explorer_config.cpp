@@ -62,6 +62,9 @@ void ExplorerConfig::validate() const {
                   "give radians a second");
   if (within.empty())
     throw InputError("within", "holds no voxel", "give a last voxel that is not before the first");
+  if (strategy != ExplorationStrategy::kTour && strategy != ExplorationStrategy::kNearest)
+    throw InputError("strategy", "is no enumerator of ExplorationStrategy",
+                     "give kTour or kNearest");
   detail::require(least_frontier >= 1, "least_frontier", least_frontier, "give 1 or more");
   detail::require(spacing > 0.0 && std::isfinite(spacing), "spacing", spacing,
                   "give metres above 0");

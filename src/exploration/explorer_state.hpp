@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Ridgeway authors
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -77,8 +78,10 @@ struct Explorer::State {
                    const detail::Place* standing);
   void look_on_the_way(Trajectory& trajectory, double until) const;
   void look_in_flight(const FlightState& state);
-  std::vector<TourStop> cover(const detail::WaysFrom& ways, double least_gain,
-                              bool with_refused) const;
+  /// Which stops count; none given: all.
+  using MayStop = std::function<bool(const TourStop&)>;
+  std::vector<TourStop> cover(const detail::WaysFrom& ways, double least_gain, bool with_refused,
+                              const MayStop& may_stop = {}) const;
   bool is_set_aside(const detail::Place& place) const;
   double expected_at(const detail::Stop& stop) const;
   void keep_best(std::vector<TourStop>& stops, const FlightState& state) const;
@@ -87,7 +90,7 @@ struct Explorer::State {
   void refine_first(std::vector<TourStop>& stops, const std::vector<std::size_t>& tour,
                     const FlightState& state, const detail::WaysFrom& ways) const;
   double seconds_from_robot(const TourStop& stop, const FlightState& state) const;
-  void keep_in_time(std::vector<TourStop>& stops, const FlightState& state) const;
+  MayStop home_in_time(const FlightState& state) const;
   bool fly_to(const Point& goal_local, double yaw, const FlightState& state,
               ExplorationStep& step) const;
   void go_home(const FlightState& state, bool arrived, ExplorationStep& step);

@@ -49,17 +49,17 @@ double Explorer::State::seconds_from_robot(const TourStop& stop, const FlightSta
   return std::max(seconds, 0.0);
 }
 
-/// Leaves the stops from which the robot is likely to be home in time: what is flown is held to
-/// that by the trajectories there and back.
-void Explorer::State::keep_in_time(std::vector<TourStop>& stops, const FlightState& state) const {
+/// Whether the robot is likely to be home in time from a stop: what is flown is held to that by the
+/// trajectories there and back.
+Explorer::State::MayStop Explorer::State::home_in_time(const FlightState& state) const {
   const Point home = to_local(roadmap->esdf, *config.home);
-  const detail::WaysFrom from_home(*roadmap, home, access_at(home));
-  std::erase_if(stops, [&](const TourStop& stop) {
-    const double length = from_home.to(places[stop.stop.place].position, stop.access);
+  const auto from_home = std::make_shared<const detail::WaysFrom>(*roadmap, home, access_at(home));
+  return [this, from_home, state](const TourStop& stop) {
+    const double length = from_home->to(places[stop.stop.place].position, stop.access);
     const double back = detail::seconds_of_leg(config.motion, length, 0.0);
     const double likely = kCorners * (seconds_from_robot(stop, state) + back);
-    return state.time + likely + longest_gap > config.until;
-  });
+    return state.time + likely + longest_gap <= config.until;
+  };
 }
 
 /// Whether no trajectory led to a place, or none that left time for home, since the last flight.
@@ -71,10 +71,11 @@ bool Explorer::State::is_set_aside(const Place& place) const {
 }
 
 /// Stops that see all that can be seen, by what each adds; those out of reach are left out, and
-/// unless `with_refused` those that are set aside.
+/// unless `with_refused` those that are set aside, and those that
+/// may not be stopped at.
 std::vector<Explorer::State::TourStop> Explorer::State::cover(const detail::WaysFrom& ways,
-                                                              double least_gain,
-                                                              bool with_refused) const {
+                                                              double least_gain, bool with_refused,
+                                                              const MayStop& may_stop) const {
   std::vector<std::uint64_t> covered(views.parts(), 0);
   const auto is_worse = [](const Stop& a, const Stop& b) {
     return a.gain != b.gain ? a.gain < b.gain : a.place > b.place;
@@ -96,12 +97,14 @@ std::vector<Explorer::State::TourStop> Explorer::State::cover(const detail::Ways
     queue.pop();
     const Stop now = views.best_heading(top.place, covered);
     if (now.gain < least_gain || now.gain <= 0.0) continue;
+    const TourStop stop{now, reach[now.place].access, reach[now.place].from_robot};
+    if (may_stop && !may_stop(stop)) continue;
     if (!queue.empty() && is_worse(now, queue.top())) {
       queue.push(now);
       continue;
     }
     views.cover(now.place, now.heading, covered);
-    stops.push_back({now, reach[now.place].access, reach[now.place].from_robot});
+    stops.push_back(stop);
     queue.push(now);
   }
   return stops;

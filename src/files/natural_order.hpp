@@ -3,6 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string_view>
 
 namespace ridgeway {
@@ -33,6 +36,18 @@ inline bool comes_before(std::string_view a, std::string_view b) {
   }
   if (a.empty() != b.empty()) return a.empty();
   return whole_a < whole_b;
+}
+
+/// The last number in a name, where there is one that is not too long: 4 in frame-000004.depth.png.
+inline std::optional<std::int64_t> last_number(std::string_view name) {
+  constexpr std::size_t kLongest = 18;
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto last = std::find_if(name.rbegin(), name.rend(), is_digit);
+  const auto first = std::find_if_not(last, name.rend(), is_digit);
+  if (last == name.rend() || first - last > static_cast<std::ptrdiff_t>(kLongest)) return {};
+  std::int64_t number = 0;
+  for (auto digit = first; digit != last;) number = 10 * number + (*--digit - '0');
+  return number;
 }
 
 }  // namespace ridgeway

@@ -219,6 +219,8 @@ bool is_named_as_text(const std::filesystem::path& file) {
 void LoadConfig::validate() const {
   if (voxel_size) validate_voxel_size(*voxel_size, "voxel_size");
   if (bounds) validate_box(*bounds, "bounds");
+  if (up && *up != UpAxis::kX && *up != UpAxis::kY && *up != UpAxis::kZ)
+    throw InputError("up", "is no enumerator of UpAxis", "give kX, kY or kZ");
   for (std::size_t i = 0; i < exclude.size(); ++i)
     validate_box(exclude[i], "exclude box " + std::to_string(i + 1));
   validate_transform(transform);

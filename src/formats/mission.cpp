@@ -96,6 +96,7 @@ void Datum::validate() const {
 }
 
 GeoPoint geodetic(const Point& p, const Datum& datum) {
+  datum.validate();
   if (!(p.norm() <= kFarthest))
     throw InputError(
         "datum", "is " + number_text(std::round(1e-3 * p.norm())) + " km from where the path leads",

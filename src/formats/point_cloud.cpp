@@ -109,6 +109,8 @@ OccupancyMap map_from_points(const PointCloud& cloud, const CloudMapConfig& conf
                              const std::string& name, LoadNotes* notes) {
   validate_voxel_size(config.voxel_size, "voxel_size");
   validate_transform(config.T_map_cloud);
+  if (config.margin < 0)
+    throw InputError("margin", "is " + std::to_string(config.margin), "give voxels, 0 or more");
   const VoxelRange known = checked_range(config.bounds, config.voxel_size);
   // With voxels that stick out of the bounds, or touch them: points on them are obstacles, too.
   OccupancyBuilder builder(config.voxel_size,

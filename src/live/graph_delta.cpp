@@ -166,6 +166,8 @@ GraphDelta delta_between(const Roadmap& before, const Roadmap& now) {
 }
 
 bool may_be_invalid(std::span<const Point> path, double radius, const GraphDelta& delta) {
+  if (!(delta.voxel_size > 0.0))
+    throw InputError("delta", "is of no two maps", "give what delta_between() returns");
   require_path(path, radius, delta.voxel_size);
   // A cube lies within half its diagonal around its centre; a voxel more for rounding in the world.
   const double reach = radius + (1.0 + 0.5 * std::sqrt(3.0)) * delta.voxel_size;

@@ -61,7 +61,7 @@ UpdateReport LiveRoadmap::State::integrate_frame(const Eigen::Isometry3d& T_worl
   }
   fusion.accept_changes();
   window.keep();
-  ++frames;
+  report.frame = ++frames;
   if (log && !correction) log->forget_oldest_if_full();
   report.waiting_voxels = window.size();
   return report;

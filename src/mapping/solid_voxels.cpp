@@ -10,6 +10,7 @@
 #include "ridgeway/common/error.hpp"
 #include "ridgeway/common/parallel.hpp"
 #include "ridgeway/mapping/occupancy_builder.hpp"
+#include "sensing/box_between_planes.hpp"
 #include "touched_voxels.hpp"
 
 namespace ridgeway {
@@ -138,13 +139,8 @@ void add_mesh(const PlacedMesh& placed, const OccupancyMap& map, const VoxelInde
 }  // namespace
 
 std::optional<Box> extent_of(const World& world) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Box open = {Point::Constant(-kInfinity), Point::Constant(kInfinity)};
-  for (const SolidPlane& plane : world.planes)
-    for (int axis = 0; axis < 3; ++axis) {
-      if (plane.normal[axis] == 1.0) open.min[axis] = std::max(open.min[axis], plane.offset);
-      if (plane.normal[axis] == -1.0) open.max[axis] = std::min(open.max[axis], -plane.offset);
-    }
+  const auto [floor, ceiling] = detail::box_between(world.planes);
+  Box open = {floor, ceiling};
   const Box solids = box_of_solids(world);
   for (int axis = 0; axis < 3; ++axis) {
     if (!std::isfinite(open.min[axis])) open.min[axis] = solids.min[axis];

@@ -27,14 +27,16 @@ void clear_around(const Point& place, const TsdfBlocks& tsdf, const FusionConfig
   });
 }
 
-/// What is known and open in a block.
+/// What is known and open in a block. Where the robot was, what nothing measured is free; what was
+/// measured stays as it is.
 void restate(const TsdfBlock& tsdf, AcceptedStates::Found& block) {
   const auto at = [](int v) { return static_cast<std::size_t>(v); };
   const VoxelMask::Block known = block_where([&](int v) { return tsdf.weight[at(v)] > 0.0f; });
   const VoxelMask::Block before = block_where([&](int v) { return tsdf.distance[at(v)] > 0.0f; });
   for (std::size_t z = 0; z < kBlockSide; ++z) {
+    block.vouched[z] = block.cleared[z] & ~known[z];
     block.now.known[z] = known[z] | block.cleared[z];
-    block.now.open[z] = (known[z] & before[z]) | block.cleared[z];
+    block.now.open[z] = (known[z] & before[z]) | block.vouched[z];
   }
 }
 
@@ -107,7 +109,7 @@ void AcceptedStates::find_thin(const TsdfBlocks& tsdf, const FusionConfig& confi
         VoxelMask::Block near =
             block_where([&](int v) { return distance[static_cast<std::size_t>(v)] < limit; });
         const VoxelMask::Block& open = block.now.open;
-        for (std::size_t z = 0; z < kBlockSide; ++z) near[z] &= open[z] & ~block.cleared[z];
+        for (std::size_t z = 0; z < kBlockSide; ++z) near[z] &= open[z] & ~block.vouched[z];
         const VoxelMask::Block thin = thin_surfaces(near, open, [&](int direction) {
           const VoxelIndex o = offset_of(direction);
           return open_in(tsdf, tsdf.index(block.number) + BlockIndex{o.x, o.y, o.z});

@@ -37,6 +37,7 @@ struct AcceptedStates {
     std::uint32_t number;
     Block now;
     VoxelMask::Block cleared{};  ///< the robot has been there
+    VoxelMask::Block vouched{};  ///< of these, where nothing was measured
   };
   std::vector<Block> blocks;              ///< by number
   std::vector<VoxelMask::Block> cleared;  ///< by number; empty where the robot clears nothing

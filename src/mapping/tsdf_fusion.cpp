@@ -70,14 +70,14 @@ std::vector<detail::SurfacePoint> points_of(const detail::DepthSurfaces& surface
   return points;
 }
 
-/// Where the robot has been is free, whatever was measured there. All is in the map's own frame.
+/// Where the robot has been is free, where nothing was measured: obstacles near its way stay. All
+/// is in the map's own frame.
 void clear_sphere(const Point& centre, double radius, TsdfMap& map) {
-  const auto kept = static_cast<float>(detail::kNearSurface * map.voxel_size);
   detail::for_each_in_sphere(centre, radius, map.voxel_size, [&](const VoxelIndex& v) {
     const VoxelId id = map.layout.find(v);
-    if (id == kNoVoxel || (map.weight[id] > 0.0f && map.distance[id] >= kept)) return;
+    if (id == kNoVoxel || map.weight[id] > 0.0f) return;
     map.distance[id] = static_cast<float>(map.truncation);
-    map.weight[id] = std::max(map.weight[id], 1.0f);
+    map.weight[id] = 1.0f;
   });
 }
 

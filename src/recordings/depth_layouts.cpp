@@ -56,6 +56,16 @@ struct StampedPose {
   std::optional<Eigen::Isometry3d> T_world_camera;  ///< none: tracking was lost
 };
 
+/// The time that begins a row, seconds.
+double time_in_row(const TextRow& row, const char* remedy) {
+  constexpr double kLatest = 1e11;  // the year 5138; milliseconds since 1970 are more
+  const double time = row.number(0, remedy);
+  if (time > kLatest)
+    row.refuse("has a time that is no second of our age",
+               "give seconds: divide by 1e3, 1e6 or 1e9");
+  return time;
+}
+
 /// In the order of time.
 std::vector<StampedImage> read_image_list(const fs::path& file, Lines lines) {
   const char* remedy = "give lines of: timestamp filename";
@@ -63,7 +73,7 @@ std::vector<StampedImage> read_image_list(const fs::path& file, Lines lines) {
   for_each_row(
       file,
       [&](const TextRow& row) {
-        const double time = row.number(0, remedy);
+        const double time = time_in_row(row, remedy);
         if (!std::isfinite(time)) row.refuse("has a time that is not finite", remedy);
         if (row.words.size() < 2) row.refuse("names no image", remedy);
         images.push_back({time, file.parent_path() / row.words[1]});
@@ -81,13 +91,21 @@ std::vector<StampedPose> read_trajectory(const fs::path& file, Lines lines) {
   for_each_row(
       file,
       [&](const TextRow& row) {
-        const double time = row.number(0, remedy);
+        const double time = time_in_row(row, remedy);
         const auto pose = pose_in_row(row, 1, remedy);
         if (std::isfinite(time)) poses.push_back({time, pose});
       },
       lines);
   std::stable_sort(poses.begin(), poses.end(),
                    [](const auto& a, const auto& b) { return a.time < b.time; });
+  const auto twice =
+      std::adjacent_find(poses.begin(), poses.end(), [](const auto& a, const auto& b) {
+        return a.time == b.time && a.T_world_camera && b.T_world_camera &&
+               !a.T_world_camera->isApprox(*b.T_world_camera, 1e-6);
+      });
+  if (twice != poses.end())
+    throw InputError(file.string(), "has two poses at the time " + number_text(twice->time),
+                     "give times with all their decimals");
   return poses;
 }
 
@@ -154,14 +172,16 @@ std::vector<std::optional<Eigen::Isometry3d>> poses_of(const std::vector<Stamped
   return found;
 }
 
+/// Where hardly an image has a pose: one may have, as both clocks may begin at zero.
 [[noreturn]] void refuse_clocks(const std::vector<double>& images, const std::vector<double>& poses,
-                                double longest_gap, const fs::path& folder) {
+                                std::size_t found, double longest_gap, const fs::path& folder) {
   const auto span_of = [](const std::vector<double>& times) {
     const auto [first, last] = std::minmax_element(times.begin(), times.end());
     return " from " + number_text(*first) + " to " + number_text(*last);
   };
   throw InputError(folder.string(),
-                   "has no pose within " + number_text(longest_gap) + " s of an image: images are" +
+                   (found == 0 ? "has no pose" : "has one pose alone") +
+                       (" within " + number_text(longest_gap)) + " s of an image: images are" +
                        span_of(images) + ", poses" + span_of(poses),
                    "give the times of both by one clock");
 }
@@ -247,8 +267,10 @@ DepthSequence open_tum(const fs::path& folder, const SequenceConfig& config) {
   std::vector<double> known;
   for (const StampedPose& pose : poses)
     if (pose.T_world_camera) known.push_back(pose.time);
-  if (sequence.frames.empty() && !images.empty() && !known.empty())
-    refuse_clocks(times_of(images), known, config.longest_gap, folder);
+  const std::size_t found = sequence.frames.size();
+  const bool are_few = found == 0 || (found == 1 && images.size() > 2 && known.size() > 2);
+  if (are_few && !images.empty() && !known.empty() && (found == 0 || !config.is_growing))
+    refuse_clocks(times_of(images), known, found, config.longest_gap, folder);
   return sequence;
 }
 
@@ -278,6 +300,22 @@ bool holds_log(const fs::path& folder) {
   return is_there(folder / kOpen3dPoses) && fs::is_directory(folder / kOpen3dImages, error);
 }
 
+/// How many images there are before the first whose number is not one more than that of the one
+/// before: what is missing there may still come. All where numbers do not count images.
+std::size_t images_before_gap(const std::vector<fs::path>& images) {
+  const auto number_of = [&](std::size_t i) { return last_number(images[i].stem().string()); };
+  std::size_t before = images.size();
+  for (std::size_t i = 1; i < images.size(); ++i) {
+    const auto number = number_of(i), last = number_of(i - 1);
+    if (!number || !last) return images.size();
+    if (before == images.size() && *number != *last + 1) before = i;
+  }
+  if (images.empty() || before == images.size()) return before;
+  // Steps of two or more, or times, are no count.
+  const double counted = static_cast<double>(*number_of(images.size() - 1) - *number_of(0));
+  return counted <= 1.5 * static_cast<double>(images.size()) + 5.0 ? before : images.size();
+}
+
 DepthSequence open_log(const fs::path& folder, const SequenceConfig& config) {
   DepthSequence sequence;
   sequence.layout = "open3d";
@@ -289,7 +327,8 @@ DepthSequence open_log(const fs::path& folder, const SequenceConfig& config) {
                      "has " + std::to_string(poses.size()) + " poses for " +
                          std::to_string(images.size()) + " images in " + kOpen3dImages,
                      "give one for each image, in the order of the numbers in their names");
-  const std::size_t pairs = std::min(images.size(), poses.size());
+  const std::size_t whole = config.is_growing ? images_before_gap(images) : images.size();
+  const std::size_t pairs = std::min(whole, poses.size());
   sequence.without_pose = images.size() - pairs;
   for (std::size_t i = 0; i < pairs; ++i)
     if (poses[i])

@@ -57,6 +57,7 @@ class CellSearch {
     }
     aim_at(in.joins().front().cell);
     is_direct_ = out.walked() == 0 && in.walked() == 0;
+    looks_ahead_ = is_direct_ && around_.space.is_for_sphere();  // each takes long for a cylinder
     const CellId last = search(out, in);
     CellRoute result{{}, is_direct_};
     if (last != kNoCell) result.waypoints = route_over(out, in, last);
@@ -138,7 +139,7 @@ class CellSearch {
       MetCell& met = met_[cell];
       if (next.cost > met.cost) continue;
       met.cost = kFinal;
-      if (is_direct_ && taken % kPlanning.cells_to_look == 0)
+      if (looks_ahead_ && taken % kPlanning.cells_to_look == 0)
         if (const float length = look_ahead(cell, next.cost, best); length < best) {
           best = length;
           best_last = cell;
@@ -220,7 +221,7 @@ class CellSearch {
   float look_ahead(CellId here, float cost_here, float best) {
     const Point from = around_.point_of(here), ahead = query_.goal - from;
     const double whole = ahead.norm();
-    const double free = around_.space.free_length(from, query_.goal, query_.radius);
+    const double free = around_.space.clear_length(from, query_.goal, query_.radius);
     if (free >= whole) return cost_here + static_cast<float>(whole / voxel_size_);
     constexpr float kNotInSight = std::numeric_limits<float>::infinity();
     constexpr double kShare = 0.9;
@@ -234,7 +235,7 @@ class CellSearch {
     MetCell& met = met_[cell];
     if (cost >= met.cost) return kNotInSight;
     if (met.rest < 0.0f) met.rest = rest_from(cell);
-    if (cost + met.rest < best && around_.space.is_free(from, there, query_.radius))
+    if (cost + met.rest < best && around_.space.is_clearly_free(from, there, query_.radius))
       reach(cost, here, cell, met);
     return kNotInSight;
   }
@@ -310,7 +311,7 @@ class CellSearch {
   std::array<float, CellGraph::kLandmarks> goal_lengths_{};
   const Place goal_;
   const float longest_;
-  bool is_direct_ = false;
+  bool is_direct_ = false, looks_ahead_ = false;
   MetCells<MetCell> met_;
   std::priority_queue<Open> open_;
 };

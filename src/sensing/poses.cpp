@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 
+#include "box_between_planes.hpp"
 #include "common/number_text.hpp"
 #include "common/random.hpp"
 #include "ridgeway/common/error.hpp"
@@ -37,17 +38,13 @@ PoseSampling sampling_inside(const World& world) {
     const Point centre = placed.scale * placed.mesh->low() + half;
     reach(placed.T_world_mesh * centre, placed.T_world_mesh.linear().cwiseAbs() * half);
   }
+  const auto [floor, ceiling] = detail::box_between(world.planes);
   for (int axis = 0; axis < 3; ++axis) {
-    double floor = -kUnbounded, ceiling = kUnbounded;
-    for (const SolidPlane& plane : world.planes) {
-      if (plane.normal[axis] == 1.0) floor = std::max(floor, plane.offset);
-      if (plane.normal[axis] == -1.0) ceiling = std::min(ceiling, -plane.offset);
-    }
-    if (std::isfinite(floor)) low[axis] = floor;
-    if (std::isfinite(ceiling)) high[axis] = ceiling;
+    if (std::isfinite(floor[axis])) low[axis] = floor[axis];
+    if (std::isfinite(ceiling[axis])) high[axis] = ceiling[axis];
   }
   if (!low.allFinite() || !high.allFinite())
-    throw InputError("world", "has no walls and nothing in it to look at",
+    throw InputError("world", "has no walls on some side and nothing in it to look at",
                      "add planes or solids, or give the volume of the poses");
   return {.low = low, .high = high};
 }

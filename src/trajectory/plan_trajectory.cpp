@@ -138,6 +138,8 @@ void TrajectoryConfig::validate() const {
   detail::validate_robot_height(robot_height);
   if (!(radius >= 0.0 && std::isfinite(radius)))
     throw InputError("radius", "is " + number_text(radius), "give the robot's radius in metres");
+  if (smoothness != Smoothness::kSnap && smoothness != Smoothness::kJerk)
+    throw InputError("smoothness", "is no enumerator of Smoothness", "give kSnap or kJerk");
   if (!start_velocity.allFinite())
     throw InputError("start_velocity", "is not finite", "give three finite numbers");
   if (!start_acceleration.allFinite())
@@ -207,13 +209,13 @@ TrajectoryResult fly_locally(const EsdfMap& esdf, std::span<const Point> path,
 
 TrajectoryResult plan_trajectory(const EsdfMap& esdf, std::span<const Point> path,
                                  const TrajectoryConfig& config) {
-  if (esdf.origin == VoxelIndex{} && !esdf.planar) return fly_locally(esdf, path, config);
+  TrajectoryConfig as_rounded = config;
+  as_rounded.radius = detail::radius_less_rounding(config.radius, path);
+  if (esdf.origin == VoxelIndex{} && !esdf.planar) return fly_locally(esdf, path, as_rounded);
   std::vector<Point> path_local;
   for (const Point& p : path) path_local.push_back(flight_place(esdf, p));
-  TrajectoryConfig as_rounded = config;
   for (Point& p : as_rounded.via) p = flight_place(esdf, p);
   if (esdf.planar) as_rounded.start_velocity.z() = as_rounded.start_acceleration.z() = 0.0;
-  as_rounded.radius = detail::radius_less_rounding(config.radius, path);
   TrajectoryResult result = fly_locally(esdf, path_local, as_rounded);
   for (TrajectorySegment& segment : result.trajectory.segments) {
     const Point begin = segment.coefficients.col(0).head<3>();

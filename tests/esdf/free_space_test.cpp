@@ -121,7 +121,7 @@ TEST_P(FreeSpaceOnRandomMaps, MovesBetweenVoxelsAgreeWithTheSegmentPredicate) {
 
 TEST_P(FreeSpaceOnRandomMaps, FreeLengthEndsWithinAVoxelOfTheFirstPlaceThatIsTooNear) {
   constexpr int kSteps = 2000;
-  int all = 0, part = 0;
+  int all = 0, part = 0, shorter = 0;
   for (unsigned seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
     const EsdfMap esdf = compute_esdf(random_map(seed, 16), {.unknown = GetParam()});
@@ -138,6 +138,11 @@ TEST_P(FreeSpaceOnRandomMaps, FreeLengthEndsWithinAVoxelOfTheFirstPlaceThatIsToo
         if (free > 0.0) {
           ASSERT_TRUE(space.is_free(a, a + (b - a) * (free / length), radius));
         }
+        const double clear = space.clear_length(a, b, radius);
+        ASSERT_GE(clear, 0.0);
+        ASSERT_LE(clear, free);
+        ASSERT_EQ(clear == length, space.is_clearly_free(a, b, radius) || length == 0.0);
+        shorter += clear < free;
         ++(free == length ? all : part);
         if (free == length) continue;
         double first = length;  // place that is too near, or unknown; it may begin a step before
@@ -146,15 +151,13 @@ TEST_P(FreeSpaceOnRandomMaps, FreeLengthEndsWithinAVoxelOfTheFirstPlaceThatIsToo
           if (!space.is_free(p, radius)) first = length * k / kSteps;
         }
         first -= length / kSteps;
-        const double least = GetParam() == UnknownPolicy::kObstacle
-                                 ? first - s * (1.0 + 1e-9)
-                                 : 0.5 * (first - s * (1.0 + 1e-9)) - s;
-        ASSERT_GE(free, least) << "first " << first << " radius " << radius;
+        ASSERT_GE(free, first - s * (1.0 + 1e-9)) << "first " << first << " radius " << radius;
       }
     }
   }
   EXPECT_GT(all, 100);
   EXPECT_GT(part, 1000);
+  EXPECT_GT(shorter, 100);
 }
 
 TEST_P(FreeSpaceOnRandomMaps, ClearlyFreeIsFreeAndHardlyDoubtsMore) {
@@ -316,6 +319,7 @@ TEST(FreeSpace, NothingIsFreeWhereNoVoxelIsNorForNoRadius) {
         EXPECT_FALSE(space.is_clearly_free(a, b, 0.1)) << x;
         EXPECT_FALSE(space.is_known_free(a, b)) << x;
         EXPECT_EQ(space.free_length(a, b, 0.1), 0.0) << x;
+        EXPECT_EQ(space.clear_length(a, b, 0.1), 0.0) << x;
         EXPECT_EQ(space.clearance(a, b), 0.0) << x;
       }
       EXPECT_FALSE(space.near_obstacle(far));
@@ -326,6 +330,7 @@ TEST(FreeSpace, NothingIsFreeWhereNoVoxelIsNorForNoRadius) {
       EXPECT_FALSE(space.is_free(wall, radius)) << radius;
       EXPECT_FALSE(space.is_clearly_free(here, here, radius)) << radius;
       EXPECT_EQ(space.free_length(here, wall, radius), 0.0) << radius;
+      EXPECT_EQ(space.clear_length(here, wall, radius), 0.0) << radius;
     }
   }
 }

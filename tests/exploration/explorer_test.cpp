@@ -60,6 +60,13 @@ FlightState state_at(const Trajectory& trajectory, double time) {
 }
 
 /// At one end of the closed room.
+TEST(ExplorerConfig, AStrategyThatIsNoneIsRefused) {
+  ExplorerConfig config;
+  EXPECT_NO_THROW(config.validate());
+  config.strategy = static_cast<ExplorationStrategy>(9);
+  EXPECT_THROW(config.validate(), InputError);
+}
+
 ExplorerConfig with_a_home() {
   ExplorerConfig config;
   config.home = Point(1.1, 3.1, 1.5);

@@ -33,5 +33,14 @@ TEST(NaturalOrder, NumbersInNamesCountAsNumbers) {
       EXPECT_EQ(comes_before(ordered[i], ordered[j]), i < j) << ordered[i] << " " << ordered[j];
 }
 
+TEST(NaturalOrder, TheLastNumberOfANameIsFound) {
+  EXPECT_EQ(last_number("frame-000004.depth"), 4);
+  EXPECT_EQ(last_number("scan2_10"), 10);
+  EXPECT_EQ(last_number("7"), 7);
+  EXPECT_EQ(last_number("999999999999999999"), 999999999999999999);
+  for (const char* none : {"", "depth", "9999999999999999999"})
+    EXPECT_FALSE(last_number(none)) << none;
+}
+
 }  // namespace
 }  // namespace ridgeway

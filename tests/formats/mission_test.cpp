@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "common/random.hpp"
+#include "ridgeway/common/error.hpp"
 #include "ridgeway/formats/path_io.hpp"
 #include "support/refusal.hpp"
 #include "support/temporary_folder.hpp"
@@ -49,6 +50,11 @@ TEST(Mission, AKilometreAwayTheEarthHasFallenEightCentimetres) {
   const Datum datum{47.3977, 8.5456, 488.0};
   for (const Point& p : {Point(1000.0, 0.0, 0.0), Point(0.0, -1000.0, 0.0)})
     EXPECT_NEAR(geodetic(p, datum).altitude, 488.0784, 5e-4);
+}
+
+TEST(Mission, PlacesOfNoDatumAreRefused) {
+  for (const double latitude : {97.0, std::nan("")})
+    EXPECT_THROW(geodetic({10.0, 0.0, 0.0}, {.latitude = latitude, .longitude = 8.0}), InputError);
 }
 
 TEST(Mission, TheHeadingOfTheXAxisTurnsTheMap) {

@@ -260,6 +260,9 @@ TEST(MapFromPoints, PointsThatAreLeftOutAreTold) {
   LoadNotes none;
   map_from_points(cloud, config, "cloud", &none);
   EXPECT_TRUE(none.notes.empty());
+  CloudMapConfig negative = config;
+  negative.margin = -1;
+  EXPECT_THROW(map_from_points(cloud, negative, "cloud"), InputError);
 }
 
 /// Who takes the extent of a cloud for its bounds has points on all of them.

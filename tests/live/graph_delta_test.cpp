@@ -8,6 +8,7 @@
 #include <atomic>
 #include <random>
 #include <set>
+#include <string>
 #include <thread>
 
 #include "ridgeway/common/error.hpp"
@@ -15,6 +16,7 @@
 #include "ridgeway/mapping/map_edits.hpp"
 #include "ridgeway/planning/plan.hpp"
 #include "ridgeway/roadmap/build_roadmap.hpp"
+#include "ridgeway/trajectory/plan_trajectory.hpp"
 #include "support/random_changes.hpp"
 #include "support/random_maps.hpp"
 
@@ -72,6 +74,42 @@ TEST(GraphDelta, NamesTheVerticesThatCameAndWent) {
       before = now;
     }
   }
+}
+
+TEST(GraphDelta, WhatIsOfNoTwoMapsIsRefused) {
+  const std::vector<Point> path = {{1.0, 1.5, 1.0}, {2.0, 1.5, 1.0}};
+  try {
+    may_be_invalid(path, kRadius, GraphDelta{});
+    ADD_FAILURE() << "taken";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find("delta"), 0u) << error.what();
+  }
+}
+
+TEST(GraphDelta, PathsThatJustFitFarFromZeroAreFlown) {
+  // Voxels first: the map's origin is then that of the world.
+  const VoxelIndex far{4'567'890, 53'456'780, -1'230};
+  const Point shift = 0.1 * Point(far.x, far.y, far.z);
+  LiveRoadmap live({.fusion = {.voxel_size = 0.1}, .build = {.min_clearance = 0.2}});
+  std::vector<VoxelChange> changes;
+  for (int z = 0; z < 20; ++z)
+    for (int y = 0; y < 30; ++y)
+      for (int x = 0; x < 30; ++x)
+        changes.push_back({far + VoxelIndex{x, y, z}, VoxelState::kFree});
+  live.set_voxels(changes);
+  const auto now = live.snapshot();
+  std::mt19937 random(1);
+  const auto along = [&] { return std::uniform_real_distribution<double>(0.2, 1.8)(random); };
+  int flown = 0;
+  for (int i = 0; i < 40; ++i) {  // beside a wall, at the radius
+    const Point start = shift + Point(along(), 0.2, along());
+    const Point goal = shift + Point(along(), 0.2, along());
+    const PlanResult path = plan(*now, start, goal);
+    if (!path.ok()) continue;
+    EXPECT_TRUE(fly_plan(now->esdf, path, {}).ok()) << i;
+    ++flown;
+  }
+  EXPECT_GT(flown, 20);
 }
 
 TEST(GraphDelta, ADoorThatClosesAndOpensIsToldAtOnce) {

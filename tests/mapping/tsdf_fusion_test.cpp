@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include "common/random.hpp"
@@ -146,6 +147,23 @@ TEST(TsdfFusion, WhereTheRobotWasIsFree) {
   EXPECT_EQ(testing::state_at(map, {0, 2, 0}), VoxelState::kFree);
   EXPECT_EQ(testing::state_at(map, {-2, 0, 0}), VoxelState::kFree);
   EXPECT_EQ(testing::state_at(map, {-5, 0, 0}), VoxelState::kUnknown);
+}
+
+TEST(TsdfFusion, WhatWasMeasuredNearTheRobotStays) {
+  World world;
+  world.planes.push_back({-Eigen::Vector3d::UnitX(), -2.0});
+  const DepthSensor sensor;
+  for (const Integrator integrator : {Integrator::kProjective, Integrator::kRayCasting}) {
+    TsdfFusion fusion({.clear_radius = 0.8, .integrator = integrator});
+    for (const double x : {0.0, 1.5, 1.7}) {  // towards the wall, then off it
+      const Eigen::Isometry3d pose = level_pose({x, 0.05, 0.05}, x > 1.6 ? std::numbers::pi : 0.0);
+      fusion.integrate(render_depth(world, sensor, pose), sensor.camera, pose);
+    }
+    const OccupancyMap map = occupancy_of(fusion.map());
+    EXPECT_EQ(testing::state_at(map, {17, 0, 7}), VoxelState::kFree);  // which no image saw
+    for (const int y : {-2, 0, 2})
+      EXPECT_EQ(testing::state_at(map, {20, y, 0}), VoxelState::kOccupied) << y;
+  }
 }
 
 TEST(TsdfFusion, WhatWouldSpoilTheMapIsRefused) {

@@ -152,6 +152,26 @@ TEST_F(TumFolder, ClocksThatDoNotMeetAreToldApart) {
       << refused();
 }
 
+TEST_F(TumFolder, ClocksThatMeetAtZeroAloneAreToldApart) {
+  write_whole(folder_ / "depth.txt", "0 a.png\n250 a.png\n500 a.png\n");
+  write_whole(folder_ / "groundtruth.txt",
+              "0 1 0 0 0 0 0 1\n0.25 2 0 0 0 0 0 1\n0.5 3 0 0 0 0 0 1\n");
+  EXPECT_NE(refused().find("has one pose alone within 0.02 s"), std::string::npos) << refused();
+}
+
+TEST_F(TumFolder, TimesThatAreNoSecondsAreRefused) {
+  write_whole(folder_ / "depth.txt", "1.00 a.png\n1305031102175304000 a.png\n");
+  EXPECT_NE(refused().find("depth.txt line 2"), std::string::npos) << refused();
+  EXPECT_NE(refused().find("divide by"), std::string::npos) << refused();
+}
+
+TEST_F(TumFolder, TwoPosesAtOneTimeAreRefused) {
+  write_whole(folder_ / "groundtruth.txt", "1 1 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n");
+  EXPECT_EQ(refused(), "");  // the same one said twice
+  write_whole(folder_ / "groundtruth.txt", "1 1 0 0 0 0 0 1\n1 2 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n");
+  EXPECT_NE(refused().find("two poses at the time 1"), std::string::npos) << refused();
+}
+
 TEST_F(TumFolder, TimesAreMatchedAsByBruteForce) {
   SequenceConfig config;
   config.longest_step = 0.0;
@@ -344,6 +364,11 @@ TEST(DepthSequence, ATrajectoryLogGivesThePosesOfTheImagesInOrder) {
   EXPECT_EQ(open_sequence(folder.path(), {.is_growing = true}).frames.size(), 1u);
   const std::string four = "0 0 1\n" + turn + "1 1 2\n" + turn + "2 2 3\n" + turn + "3 3 4\n";
   write_whole(folder / "trajectory.log", four + turn);
+  EXPECT_EQ(open_sequence(folder.path(), {.is_growing = true}).frames.size(), 3u);
+  // What is missing between two numbers may still come, and no image has the pose of another.
+  fs::rename(folder / "depth" / "12.png", folder / "depth" / "000005.png");
+  EXPECT_EQ(open_sequence(folder.path(), {.is_growing = true}).frames.size(), 1u);
+  fs::rename(folder / "depth" / "000005.png", folder / "depth" / "000002.png");
   EXPECT_EQ(open_sequence(folder.path(), {.is_growing = true}).frames.size(), 3u);
   write_whole(folder / "trajectory.log", four + turn.substr(0, 6));
   EXPECT_EQ(open_sequence(folder.path(), {.is_growing = true}).frames.size(), 3u);

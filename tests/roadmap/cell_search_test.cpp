@@ -20,7 +20,9 @@ constexpr int kLength = 96, kWidth = 24;  // voxels, along x and across
 /// Plates a voxel thick in open space, upright and level, all along x: they cut cells in two.
 Roadmap plates(unsigned seed) {
   std::mt19937 random(seed);
-  const auto below = [&](int end) { return static_cast<int>(random() % static_cast<unsigned>(end)); };
+  const auto below = [&](int end) {
+    return static_cast<int>(random() % static_cast<unsigned>(end));
+  };
   OccupancyBuilder voxels(1.0);
   for (int z = 0; z < kWidth; ++z)
     for (int y = 0; y < kWidth; ++y)

@@ -205,6 +205,23 @@ TEST(Poses, KeepTheirDistanceAndRepeat) {
   EXPECT_EQ(inside.low, Point::Zero());
   EXPECT_EQ(inside.high, Point(12.0, 12.0, 2.5));
   EXPECT_THROW(sampling_inside(World{}), InputError);
+  // A room turned by 30 degrees, whose floor tilts, is where its corners are.
+  World room;
+  const double c = std::cos(0.5235987755982988), s = 0.5;
+  for (const auto& [x, y] :
+       {std::pair(c, s), std::pair(-c, -s), std::pair(-s, c), std::pair(s, -c)})
+    room.planes.push_back({{x, y, 0.0}, -2.0});
+  const Eigen::Vector3d up = Eigen::Vector3d(0.1, 0.0, 1.0).normalized();
+  room.planes.push_back({up, 0.0});
+  room.planes.push_back({-Eigen::Vector3d::UnitZ(), -3.0});
+  const PoseSampling turned = sampling_inside(room);
+  const double far = 2.0 * (c + s);
+  EXPECT_LT((turned.low - Point(-far, -far, -0.1 * far)).norm(), 1e-9) << turned.low.transpose();
+  EXPECT_LT((turned.high - Point(far, far, 3.0)).norm(), 1e-9) << turned.high.transpose();
+  room.planes.pop_back();  // without a ceiling there is no end above
+  EXPECT_THROW(sampling_inside(room), InputError);
+  room.spheres.push_back({{0.0, 0.0, 1.0}, 0.25});
+  EXPECT_EQ(sampling_inside(room).high.z(), 1.25);
 }
 
 }  // namespace

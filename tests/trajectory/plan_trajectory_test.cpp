@@ -273,6 +273,7 @@ TEST(PlanTrajectory, RefusesBadInputByName) {
   refused("start_acceleration", [&](auto& c) { c.start_acceleration.x() = 2.1; });
   refused("start_yaw", [&](auto& c) { c.start_yaw = nan; });
   refused("most_evaluations", [&](auto& c) { c.most_evaluations = 0; });
+  refused("smoothness", [&](auto& c) { c.smoothness = static_cast<Smoothness>(9); });
   EXPECT_THROW(plan_trajectory(esdf(), {}, {.radius = 0.3}), InputError);
   EXPECT_THROW(plan_trajectory(esdf(), std::vector<Point>{{1, nan, 1}}, {.radius = 0.3}),
                InputError);

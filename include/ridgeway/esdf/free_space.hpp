@@ -132,9 +132,13 @@ class FreeSpace {
   /// and less farther off. Much cheaper; for searches that try many segments and keep few.
   bool is_clearly_free(const Point& a, const Point& b, double radius) const;
 
-  /// How far from `a` towards `b` a sphere of a radius can certainly move: |b - a| if all the way,
-  /// else up to a voxel short; where unknown space comes first up to half as far and a voxel.
+  /// How far from `a` towards `b` a sphere of a radius, or the cylinder, can certainly move: |b -
+  /// a| if all the way, else up to a voxel short.
   double free_length(const Point& a, const Point& b, double radius) const;
+
+  /// The same by the bounds from voxel centres alone, as is_clearly_free() has them: less close to
+  /// obstacles, and much cheaper along them.
+  double clear_length(const Point& a, const Point& b, double radius) const;
 
   /// Of the site of the voxel that holds p, the point nearest to p: near, but not always on the
   /// obstacle that is nearest to p. Nothing where all obstacles are farther than max_distance from
@@ -189,6 +193,9 @@ class FreeSpace {
     return radius >= radius_ ? 0.5 * height_ + radius - radius_ : 0.5 * height_ * radius / radius_;
   }
   bool cylinder_fits(VoxelId from, VoxelId to) const;
+  /// Of free_length() and clear_length(): what a march is to find (detail::Wanted).
+  template <auto wanted>
+  double length_until(const Point& a, const Point& b, double radius) const;
 
   const EsdfMap& esdf_;
   const FlightLimits* limits_;                               // null where there are none

@@ -80,7 +80,8 @@ struct ExplorerConfig {
   /// Looks from different places, each in vain, after which an unknown voxel is left alone. One
   /// from where the robot stood to look at it counts twice; those in flight only from near.
   int most_looks = 6;
-  std::optional<Point> home;  ///< world: where to be at the end; none: wherever it ends
+  std::optional<Point> home =
+      std::nullopt;  ///< world: where to be at the end; none: wherever it ends
   /// Seconds, of the same clock as FlightState::time, until which to be home. Needs `home`.
   double until = std::numeric_limits<double>::infinity();
   /// Seconds from one decision to the next, where they count for `until`; a longer time that has

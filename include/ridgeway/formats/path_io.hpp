@@ -60,10 +60,10 @@ struct GeoPoint {
   double altitude = 0.0;   ///< metres above mean sea level
 };
 
-/// Where a point of the world is on the Earth. Throws InputError for one that is farther than 200
-/// km from the datum: the coordinates of a grid such as UTM, not metres from a place. The world's
-/// plane z = 0 touches the ellipsoid at the datum, so 1 km from there a point of that plane is 0.08
-/// m higher.
+/// Where a point of the world is on the Earth. Throws InputError for a bad datum, and for a point
+/// farther than 200 km from it: the coordinates of a grid such as UTM, not metres from a place. The
+/// world's plane z = 0 touches the ellipsoid at the datum, so 1 km from there a point of that plane
+/// is 0.08 m higher.
 GeoPoint geodetic(const Point& point, const Datum& datum);
 
 /// A path as a mission of QGroundControl for PX4: a waypoint a corner, at which the vehicle holds

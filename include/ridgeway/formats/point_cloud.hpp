@@ -33,7 +33,8 @@ struct PointCloud {
 struct CloudMapConfig {
   double voxel_size = 0.0;  ///< metres, required
   Box bounds;               ///< where the space is known, map frame, required
-  int margin = 0;  ///< obstacles are also kept this many voxels beyond the bounds, for filters
+  int margin =
+      0;  ///< obstacles are also kept this many voxels beyond the bounds, for filters; 0 or more
   /// From the cloud's frame to the map's, metres
   Eigen::Isometry3d T_map_cloud = Eigen::Isometry3d::Identity();
 };

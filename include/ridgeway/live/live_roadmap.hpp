@@ -39,12 +39,15 @@ struct LiveConfig {
 
 /// Where the sensor was at a frame, counted from 1, as it is known now (sensor to world).
 struct PoseCorrection {
-  std::uint64_t frame = 0;                                           ///< counted from 1
+  std::uint64_t frame = 0;                                           ///< UpdateReport::frame
   Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity();  ///< sensor to world, metres
 };
 
 /// What an update did, and how long that took.
 struct UpdateReport {
+  /// That was fused, as PoseCorrection counts: each scan and image that integrate() took, those in
+  /// which nothing was measured too; 0 for other updates.
+  std::uint64_t frame = 0;
   std::uint64_t version = 0;          ///< of the snapshot: how many there have been
   bool has_roadmap = false;           ///< false: no voxel is traversable
   bool in_batch = false;              ///< all was built again, nothing brought up to date

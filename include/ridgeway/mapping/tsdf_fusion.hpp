@@ -65,7 +65,9 @@ struct FusionConfig {
   /// be, by half a voxel or more, and it is taken as the last one finds it: what was moved is
   /// forgotten after so many looks, however well it was known. 0: never, it fades.
   int forget_after = 0;
-  double clear_radius = 0.0;  ///< around every pose: the robot was there, so it is free; 0: none
+  /// Metres around every pose in which what nothing has measured is free, as the robot was there;
+  /// obstacles that were measured stay. 0: none.
+  double clear_radius = 0.0;
   Integrator integrator = Integrator::kProjective;  ///< of depth images
   /// The lattice's voxel that is the map's own (0, 0, 0); left out: that which holds the sensor at
   /// the first pose.

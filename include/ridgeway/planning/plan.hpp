@@ -88,7 +88,8 @@ struct PlanConfig {
   /// only keeps paths from being pulled towards walls.
   double prefer_clearance = 0.0;
   /// Start and goal may be too close to an obstacle, though not in one: paths then begin and end
-  /// with a leg straight to the nearest place where the robot fits. See Escape.
+  /// with a leg straight to the nearest place where the robot fits. See Escape. Of spheres alone:
+  /// not with `robot_height`.
   bool escape = false;
   /// Where the robot's centre may be, world frame; those that the map was built with hold as well.
   FlightLimits limits = {};
@@ -104,7 +105,7 @@ struct PlanConfig {
 
   /// Throws InputError naming the bad field (a radius or time limit not above 0, prefer_clearance
   /// negative or above 1e6, within neither 0 nor 1 and more, NaN anywhere, bad limits, a planner
-  /// that samples).
+  /// that samples, `escape` of a cylinder).
   void validate() const;
 };
 

@@ -42,7 +42,7 @@ struct DepthImage {
 
 /// What a simulated depth camera sees and how well.
 struct DepthSensor {
-  PinholeCamera camera;          ///< its optics
+  PinholeCamera camera = {};     ///< its optics
   double min_range = 0.0;        ///< metres along the ray; nothing nearer is measured
   double max_range = 10.0;       ///< metres along the ray; nothing beyond is measured
   double range_sigma = 0.0;      ///< metres; independent Gaussian noise on every range

@@ -50,20 +50,20 @@ struct PlacedMesh {
 struct TimedSolids {
   double from = -std::numeric_limits<double>::infinity();  ///< seconds
   double until = std::numeric_limits<double>::infinity();  ///< seconds; no longer there then
-  std::vector<SolidBox> boxes;                             ///< that are there meanwhile
-  std::vector<SolidSphere> spheres;                        ///< that are there meanwhile
-  std::vector<SolidCylinder> cylinders;                    ///< that are there meanwhile
+  std::vector<SolidBox> boxes = {};                        ///< that are there meanwhile
+  std::vector<SolidSphere> spheres = {};                   ///< that are there meanwhile
+  std::vector<SolidCylinder> cylinders = {};               ///< that are there meanwhile
 };
 
 /// A simulated world: the union of solids, metres, z up. Plain data; thread-safe to read.
 struct World {
-  std::string name;                      ///< for people; may be empty
-  std::vector<SolidPlane> planes;        ///< half-spaces
-  std::vector<SolidBox> boxes;           ///< along the axes
-  std::vector<SolidSphere> spheres;      ///< balls
-  std::vector<SolidCylinder> cylinders;  ///< upright
-  std::vector<PlacedMesh> meshes;        ///< surfaces of triangles
-  std::vector<TimedSolids> timed;        ///< which only world_at() and world_at_all_times() see
+  std::string name = {};                      ///< for people; may be empty
+  std::vector<SolidPlane> planes = {};        ///< half-spaces
+  std::vector<SolidBox> boxes = {};           ///< along the axes
+  std::vector<SolidSphere> spheres = {};      ///< balls
+  std::vector<SolidCylinder> cylinders = {};  ///< upright
+  std::vector<PlacedMesh> meshes = {};        ///< surfaces of triangles
+  std::vector<TimedSolids> timed = {};  ///< which only world_at() and world_at_all_times() see
 };
 
 /// The world as it is at a time, seconds: with the timed solids that are there then, and none that

@@ -49,7 +49,8 @@ struct BasinNumbers {
     /// The number of the basin at a place in the block.
     std::uint32_t at(VoxelId voxel) const {
       const std::size_t bits = place.size() * 8 / kBlockVoxels, first = voxel * bits;
-      if (bits == 16) return basins[place[first / 8] | place[first / 8 + 1] << 8];
+      if (bits == 16)
+        return basins[place[first / 8] | static_cast<std::size_t>(place[first / 8 + 1]) << 8];
       return basins[place[first / 8] >> first % 8 & ((1u << bits) - 1)];
     }
 

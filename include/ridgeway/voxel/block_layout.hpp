@@ -198,7 +198,8 @@ class BlockLayout {
   /// Handle of a voxel, or kNoVoxel where its block is not allocated.
   VoxelId find(const VoxelIndex& voxel) const {
     const std::uint32_t slot = find_block(block_of(voxel));
-    return slot == kNoBlock ? kNoVoxel : slot * kBlockVoxels + local_of(voxel);
+    return slot == kNoBlock ? kNoVoxel
+                            : slot * kBlockVoxels + static_cast<VoxelId>(local_of(voxel));
   }
   /// The voxel of a handle, which must be one of this layout.
   VoxelIndex index_of(VoxelId id) const {
@@ -294,7 +295,9 @@ class VoxelFinder {
   /// Handle of a voxel, or kNoVoxel where its block is not allocated.
   VoxelId find(const VoxelIndex& voxel) {
     const std::uint32_t slot = find_block(block_of(voxel));
-    return slot == BlockLayout::kNoBlock ? kNoVoxel : slot * kBlockVoxels + local_of(voxel);
+    return slot == BlockLayout::kNoBlock
+               ? kNoVoxel
+               : slot * kBlockVoxels + static_cast<VoxelId>(local_of(voxel));
   }
 
   /// Slot of a block, or BlockLayout::kNoBlock.
