@@ -26,9 +26,7 @@ std::pair<Point, Point> box_along_axes(std::span<const SolidPlane> planes) {
   return box;
 }
 
-bool is_along_axis(const SolidPlane& plane) {
-  return plane.normal.cwiseAbs().maxCoeff() == 1.0;
-}
+bool is_along_axis(const SolidPlane& plane) { return plane.normal.cwiseAbs().maxCoeff() == 1.0; }
 
 }  // namespace
 
@@ -38,7 +36,8 @@ std::pair<Point, Point> box_between(std::span<const SolidPlane> planes) {
   // The corners of what is left of a huge box: each is where three of the planes meet.
   std::vector<SolidPlane> all(planes.begin(), planes.end());
   for (int axis = 0; axis < 3; ++axis)
-    for (const double side : {1.0, -1.0}) all.push_back({side * Eigen::Vector3d::Unit(axis), -kFar});
+    for (const double side : {1.0, -1.0})
+      all.push_back({side * Eigen::Vector3d::Unit(axis), -kFar});
   Point low = Point::Constant(kInfinity), high = Point::Constant(-kInfinity);
   for (std::size_t i = 0; i < all.size(); ++i)
     for (std::size_t j = i + 1; j < all.size(); ++j)

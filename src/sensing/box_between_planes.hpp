@@ -9,8 +9,8 @@
 
 namespace ridgeway::detail {
 
-/// The low and high corner of the smallest box around the space that is in front of all planes; infinite in the directions in
-/// which they leave it open.
+/// The low and high corner of the smallest box around the space that is in front of all planes;
+/// infinite in the directions in which they leave it open.
 std::pair<Point, Point> box_between(std::span<const SolidPlane> planes);
 
 }  // namespace ridgeway::detail

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "files/read_file.hpp"
 #include "ridgeway/common/error.hpp"
@@ -241,6 +242,28 @@ TEST(Exploration, IsBackWhenTheBudgetEnds) {
       EXPECT_NE(frontier.reason, UnseenReason::kOutOfView);
       EXPECT_NE(frontier.reason, UnseenReason::kTooNarrow);
     }
+  }
+}
+
+/// The viewpoints that see most are too far off for the time that is left, nearer ones are not.
+TEST(Exploration, TimeThatIsShortIsFlownToWhatIsNear) {
+  World world;
+  world.planes = {plane(Eigen::Vector3d::UnitX(), 0.0), plane(-Eigen::Vector3d::UnitX(), -10.0),
+                  plane(Eigen::Vector3d::UnitY(), 0.0), plane(-Eigen::Vector3d::UnitY(), -8.0),
+                  plane(Eigen::Vector3d::UnitZ(), 0.0), plane(-Eigen::Vector3d::UnitZ(), -3.0)};
+  for (const auto& [x, y] : {std::pair(3.9, 4.3), std::pair(8.9, 3.8), std::pair(2.7, 0.6),
+                             std::pair(4.1, 2.1), std::pair(5.6, 6.4), std::pair(5.1, 6.5),
+                             std::pair(6.8, 6.6), std::pair(5.0, 0.6), std::pair(3.4, 7.2)})
+    world.cylinders.push_back({{x, y, 1.5}, 0.04, 3.0});
+  ExplorationFlightConfig config;
+  config.start = {1.0, 1.0, 1.5};
+  for (const double budget : {8.0, 12.0}) {
+    config.budget = budget;
+    const ExplorationFlight flight = explore(world, config);
+    EXPECT_GE(flight.seconds, 0.7 * budget) << budget;
+    EXPECT_LE(flight.seconds, budget);
+    EXPECT_GT(flight.coverage, budget < 10.0 ? 0.75 : 0.9) << budget;
+    EXPECT_LT((flight.samples.back().state.position - config.start).norm(), 1e-6);
   }
 }
 
