@@ -195,7 +195,7 @@ void add_fuse_command(Command& program) {
   command.number("--max-range", fusion.max_range, kLengths,
                  "What is farther only frees the way up to here, metres");
   command.number("--clear-radius", fusion.clear_radius, kLengthsFromZero,
-                 "Space this near to where the sensor was is free, metres");
+                 "What was not measured this near to where the sensor was is free, metres");
   command.choice("--integrator", options->integrator, {"projective", "rays"},
                  "By voxels or by rays (default: projective; scans go by rays alone)");
   command.tuple("--intrinsics", options->intrinsics, 4, "fx,fy,cx,cy",

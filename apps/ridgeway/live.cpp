@@ -268,7 +268,7 @@ void add_live_command(Command& program) {
   command.number("--max-range", fusion.max_range, kLengths,
                  "What is farther only frees the way up to here, metres");
   command.number("--clear-radius", fusion.clear_radius, kLengthsFromZero,
-                 "Space this near to where the sensor was is free, metres");
+                 "What was not measured this near to where the sensor was is free, metres");
   command.whole("--forget-after", fusion.forget_after, {0, 255},
                 "Measurements in a row that contradict a voxel before it is forgotten; 0: never");
   command.number("--min-clearance", build.min_clearance, kLengths,

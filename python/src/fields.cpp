@@ -45,7 +45,8 @@ void add_fusion_fields(const Add& add) {
   add("max_weight", &FusionConfig::max_weight, "a voxel never knows better: the old fades");
   add("forget_after", &FusionConfig::forget_after,
       "looks in a row after which what was moved is forgotten; 0: never");
-  add("clear_radius", &FusionConfig::clear_radius, "around every pose space is free, metres");
+  add("clear_radius", &FusionConfig::clear_radius,
+      "around every pose what was not measured is free, metres");
   add("integrator", &FusionConfig::integrator, "of images: 'projective' or 'ray_casting'");
 }
 

@@ -27,11 +27,15 @@ void clear_around(const Point& place, const TsdfBlocks& tsdf, const FusionConfig
   });
 }
 
+VoxelMask::Block measured_in(const TsdfBlock& tsdf) {
+  return block_where([&](int v) { return tsdf.weight[static_cast<std::size_t>(v)] > 0.0f; });
+}
+
 /// What is known and open in a block. Where the robot was, what nothing measured is free; what was
 /// measured stays as it is.
 void restate(const TsdfBlock& tsdf, AcceptedStates::Found& block) {
   const auto at = [](int v) { return static_cast<std::size_t>(v); };
-  const VoxelMask::Block known = block_where([&](int v) { return tsdf.weight[at(v)] > 0.0f; });
+  const VoxelMask::Block known = measured_in(tsdf);
   const VoxelMask::Block before = block_where([&](int v) { return tsdf.distance[at(v)] > 0.0f; });
   for (std::size_t z = 0; z < kBlockSide; ++z) {
     block.vouched[z] = block.cleared[z] & ~known[z];
@@ -86,7 +90,12 @@ void AcceptedStates::add_blocks_beside(const TsdfBlocks& tsdf) {
     for (int d = 0; d < 27; ++d) {
       const VoxelIndex o = offset_of(d);
       const std::uint32_t beside = tsdf.number_of(tsdf.index(number) + BlockIndex{o.x, o.y, o.z});
-      if (beside != TsdfBlocks::kNone && place_of_[beside] == kNotFound) add_found(beside);
+      if (beside == TsdfBlocks::kNone || place_of_[beside] != kNotFound) continue;
+      add_found(beside);
+      if (cleared.empty()) continue;
+      const VoxelMask::Block measured = measured_in(tsdf.block(beside));
+      for (std::size_t z = 0; z < kBlockSide; ++z)
+        found.back().vouched[z] = found.back().cleared[z] & ~measured[z];
     }
   }
   if (found.size() > touched) sort_found(tsdf);

@@ -140,7 +140,7 @@ TEST_P(FreeSpaceOnRandomMaps, FreeLengthEndsWithinAVoxelOfTheFirstPlaceThatIsToo
         }
         const double clear = space.clear_length(a, b, radius);
         ASSERT_GE(clear, 0.0);
-        ASSERT_LE(clear, free);
+        ASSERT_LE(clear, free + s);  // where unknown space ends both they are off by a voxel
         ASSERT_EQ(clear == length, space.is_clearly_free(a, b, radius) || length == 0.0);
         shorter += clear < free;
         ++(free == length ? all : part);

@@ -90,7 +90,7 @@ TEST(CellSearch, CrossesOpenSpaceInLongSteps) {
     }
   }
   EXPECT_GT(found, 200);
-  EXPECT_GT(long_steps, found / 2);
+  EXPECT_GT(long_steps, found / 3);
 }
 
 }  // namespace
