@@ -22,7 +22,7 @@ struct PlanningConstants {
   double cell_centring = 0.5;  ///< voxels of width that a voxel off the middle is worth
   double cell_weight = 1.25;   ///< of A*'s heuristic: more is faster, its routes a little longer
   int most_cells = 3200;       ///< taken before a search gives up: a third of a microsecond each
-  int cells_to_look = 4;       ///< gone on from between two looks straight ahead
+  int cells_to_look = 4;       ///< gone on from between two looks straight ahead, at first
   double landmark_share = 0.93;  ///< of lengths by landmarks that paths are hardly shorter than
 
   // What a query tries (planning/answering.cpp, short_path.cpp, detour.cpp). The first three are

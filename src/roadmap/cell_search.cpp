@@ -128,8 +128,10 @@ class CellSearch {
         met.rest = rest_from(join.cell);
         reach(join.length, join.cell, join.cell, met);
       }
+    constexpr int kSeldom = 16;  // searches that go on for long look more and more seldom
     float best = longest_;
     CellId best_last = kNoCell;
+    int next_look = 0;
     for (int taken = 0; !open_.empty() && taken < kPlanning.most_cells; ++taken) {
       if (deadline_.has_passed(taken)) break;
       const Open next = open_.top();
@@ -139,11 +141,13 @@ class CellSearch {
       MetCell& met = met_[cell];
       if (next.cost > met.cost) continue;
       met.cost = kFinal;
-      if (looks_ahead_ && taken % kPlanning.cells_to_look == 0)
+      if (looks_ahead_ && taken >= next_look) {
+        next_look = taken + std::max(kPlanning.cells_to_look, taken / kSeldom);
         if (const float length = look_ahead(cell, next.cost, best); length < best) {
           best = length;
           best_last = cell;
         }
+      }
       for (CellApproach::Join& join : in.joins())
         if (join.cell == cell && next.cost + join.length < best && in.sees(join) &&
             next.cost + join.length < best) {  // a walk is longer than a segment
