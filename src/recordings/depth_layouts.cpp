@@ -172,6 +172,13 @@ std::vector<std::optional<Eigen::Isometry3d>> poses_of(const std::vector<Stamped
   return found;
 }
 
+/// Whether one list of times goes on for many times as long as the other: in another unit.
+bool are_of_two_clocks(const std::vector<double>& a, const std::vector<double>& b) {
+  constexpr double kUnits = 50.0;
+  const double one = a.back() - a.front(), other = b.back() - b.front();
+  return std::max(one, other) > kUnits * std::min(one, other) && a.size() > 2 && b.size() > 2;
+}
+
 /// Where hardly an image has a pose: one may have, as both clocks may begin at zero.
 [[noreturn]] void refuse_clocks(const std::vector<double>& images, const std::vector<double>& poses,
                                 std::size_t found, double longest_gap, const fs::path& folder) {
@@ -268,8 +275,9 @@ DepthSequence open_tum(const fs::path& folder, const SequenceConfig& config) {
   for (const StampedPose& pose : poses)
     if (pose.T_world_camera) known.push_back(pose.time);
   const std::size_t found = sequence.frames.size();
-  const bool are_few = found == 0 || (found == 1 && images.size() > 2 && known.size() > 2);
-  if (are_few && !images.empty() && !known.empty() && (found == 0 || !config.is_growing))
+  if (images.empty() || known.empty()) return sequence;
+  if (found == 0 ||
+      (found == 1 && !config.is_growing && are_of_two_clocks(times_of(images), known)))
     refuse_clocks(times_of(images), known, found, config.longest_gap, folder);
   return sequence;
 }

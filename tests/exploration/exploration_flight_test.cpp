@@ -323,7 +323,7 @@ TEST(Exploration, RefusesWhatCannotBeFlown) {
   refused(world, config, "from an obstacle");
   config.start = {0.4, 1.0, 1.2};
   refused(world, config, "free space around it");
-  refused(world, config, "margin and voxel size 0.5 m at least");
+  refused(world, config, "margin and voxel size 0.75 m at least");
   config.start = {-3.0, 1.0, 1.2};
   refused(world, config, "outside");
   refused(world, config, "between 0,0,0 and 8.2,4,2.4");
