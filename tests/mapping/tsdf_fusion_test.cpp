@@ -277,8 +277,9 @@ std::vector<VoxelState> states_ahead(const FusionConfig& config, const DepthImag
   TsdfFusion fusion(config);
   fusion.integrate(image, camera, pose);
   const OccupancyMap map = occupancy_of(fusion.map());
-  std::vector<VoxelState> states;
-  for (int x = 0; x < 60; ++x) states.push_back(testing::state_at(map, {x, 0, 0}));
+  std::vector<VoxelState> states(60);
+  for (std::size_t x = 0; x < states.size(); ++x)
+    states[x] = testing::state_at(map, {static_cast<int>(x), 0, 0});
   return states;
 }
 
