@@ -15,6 +15,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFar = 1e9;  // metres: a corner as far away is one of open space
 
+constexpr std::size_t kMostPlanes = 200;  // whose corners are looked for, of all triples
+
 /// By the planes along the axes alone, exactly.
 std::pair<Point, Point> box_along_axes(std::span<const SolidPlane> planes) {
   std::pair<Point, Point> box = {Point::Constant(-kInfinity), Point::Constant(kInfinity)};
@@ -32,7 +34,8 @@ bool is_along_axis(const SolidPlane& plane) { return plane.normal.cwiseAbs().max
 
 std::pair<Point, Point> box_between(std::span<const SolidPlane> planes) {
   auto box = box_along_axes(planes);
-  if (std::all_of(planes.begin(), planes.end(), is_along_axis)) return box;
+  if (planes.size() > kMostPlanes || std::all_of(planes.begin(), planes.end(), is_along_axis))
+    return box;
   // The corners of what is left of a huge box: each is where three of the planes meet.
   std::vector<SolidPlane> all(planes.begin(), planes.end());
   for (int axis = 0; axis < 3; ++axis)

@@ -10,7 +10,8 @@
 namespace ridgeway::detail {
 
 /// The low and high corner of the smallest box around the space that is in front of all planes;
-/// infinite in the directions in which they leave it open.
+/// infinite in the directions in which they leave it open. Of more than 200 planes those along the
+/// axes alone count.
 std::pair<Point, Point> box_between(std::span<const SolidPlane> planes);
 
 }  // namespace ridgeway::detail
