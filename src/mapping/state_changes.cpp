@@ -31,14 +31,18 @@ VoxelMask::Block measured_in(const TsdfBlock& tsdf) {
   return block_where([&](int v) { return tsdf.weight[static_cast<std::size_t>(v)] > 0.0f; });
 }
 
+void find_vouched(const VoxelMask::Block& measured, AcceptedStates::Found& block) {
+  for (std::size_t z = 0; z < kBlockSide; ++z) block.vouched[z] = block.cleared[z] & ~measured[z];
+}
+
 /// What is known and open in a block. Where the robot was, what nothing measured is free; what was
 /// measured stays as it is.
 void restate(const TsdfBlock& tsdf, AcceptedStates::Found& block) {
   const auto at = [](int v) { return static_cast<std::size_t>(v); };
   const VoxelMask::Block known = measured_in(tsdf);
   const VoxelMask::Block before = block_where([&](int v) { return tsdf.distance[at(v)] > 0.0f; });
+  find_vouched(known, block);
   for (std::size_t z = 0; z < kBlockSide; ++z) {
-    block.vouched[z] = block.cleared[z] & ~known[z];
     block.now.known[z] = known[z] | block.cleared[z];
     block.now.open[z] = (known[z] & before[z]) | block.vouched[z];
   }
@@ -92,10 +96,7 @@ void AcceptedStates::add_blocks_beside(const TsdfBlocks& tsdf) {
       const std::uint32_t beside = tsdf.number_of(tsdf.index(number) + BlockIndex{o.x, o.y, o.z});
       if (beside == TsdfBlocks::kNone || place_of_[beside] != kNotFound) continue;
       add_found(beside);
-      if (cleared.empty()) continue;
-      const VoxelMask::Block measured = measured_in(tsdf.block(beside));
-      for (std::size_t z = 0; z < kBlockSide; ++z)
-        found.back().vouched[z] = found.back().cleared[z] & ~measured[z];
+      if (!cleared.empty()) find_vouched(measured_in(tsdf.block(beside)), found.back());
     }
   }
   if (found.size() > touched) sort_found(tsdf);
